@@ -1,6 +1,6 @@
 //! The features that novelty is measured on: the positions of sprites, and the resources of the avatar.
 
-use engine::analysis::{Analysis, Keying, Motion};
+use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
@@ -24,9 +24,11 @@ pub(crate) struct Features {
 
 impl Features {
     /// Returns the features of everything that changes.
-    pub(crate) fn of(analysis: &Analysis, keying: &Keying, start: &State) -> Features {
+    pub(crate) fn of(analysis: &Analysis, abstraction: &StateAbstraction, start: &State) -> Features {
         let changes = |stype: SpriteType| {
-            analysis.facts(stype).concrete && analysis.facts(stype).possible && !keying.is_constant(stype)
+            analysis.facts(stype).concrete
+                && analysis.facts(stype).possible
+                && !abstraction.is_constant(stype)
         };
         let (columns, rows) = start.size();
         let types = analysis.game().sprite_types().filter(|&stype| changes(stype)).map(|stype| stype.0);
@@ -40,8 +42,12 @@ impl Features {
 
     /// Like [`Features::of`], but types that move by themselves or soon vanish only count by number: their positions
     /// change all the time, and not by the player's doing.
-    pub(crate) fn without_bustle(analysis: &Analysis, keying: &Keying, start: &State) -> Features {
-        let mut features = Features::of(analysis, keying, start);
+    pub(crate) fn without_bustle(
+        analysis: &Analysis,
+        abstraction: &StateAbstraction,
+        start: &State,
+    ) -> Features {
+        let mut features = Features::of(analysis, abstraction, start);
         let calm = |&stype: &u16| {
             let facts = analysis.facts(SpriteType(stype));
             matches!(facts.motion, Motion::Still | Motion::Steered) && !facts.fleeting

@@ -267,7 +267,7 @@ impl Planner for Width {
         let mut decision = self.streams.next();
         let analysis = self.analysis.take().unwrap_or_else(|| Analysis::of(game));
         if self.been.is_none() {
-            let features = Features::without_bustle(&analysis, &analysis.keying(state), state);
+            let features = Features::without_bustle(&analysis, &analysis.abstraction(state), state);
             let never = vec![0; features.len()];
             self.been = Some((features, never));
         }

@@ -13,29 +13,29 @@ const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
 /// All problems of a file whose text gave `read` and whose rules gave `compiled`, sorted by place, without those that
 /// follow from others. The subject of a problem is the word that its message and its help quote.
-pub(crate) fn told(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
+pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;
     let faulty = Diagnostics::has_errors(&all);
     let roots: Vec<Diagnostic> =
         all.iter().filter(|problem| is_root(problem)).take(MAX_PROBLEMS).cloned().collect();
-    let mut told: Vec<Diagnostic> = Vec::new();
+    let mut reported: Vec<Diagnostic> = Vec::new();
     for problem in all {
         let hidden = || match problem.code {
             "no-win" => unread,
             _ => roots.iter().any(|root| follows(&problem, root, source)),
         };
         // Problems beyond the limit are only counted.
-        if told.len() > MAX_PROBLEMS || !hidden() {
-            told.push(problem);
+        if reported.len() > MAX_PROBLEMS || !hidden() {
+            reported.push(problem);
         }
     }
-    if faulty && !Diagnostics::has_errors(&told) {
+    if faulty && !Diagnostics::has_errors(&reported) {
         // All errors come from the indentation.
-        let roots = told.iter_mut().filter(|problem| is_uneven(problem));
+        let roots = reported.iter_mut().filter(|problem| is_uneven(problem));
         roots.for_each(|root| root.severity = Severity::Error);
     }
-    Diagnostics(told).shortened(source.len())
+    Diagnostics(reported).shortened(source.len())
 }
 
 /// Tests whether other problems may follow from this one.
@@ -89,22 +89,22 @@ fn quoted(problem: &Diagnostic) -> &str {
 fn once_each(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let problems = Diagnostics::sorted(problems).0;
     let mut places: BTreeMap<(&str, String), usize> = BTreeMap::new();
-    let mut told: Vec<Diagnostic> = Vec::new();
+    let mut reported: Vec<Diagnostic> = Vec::new();
     for problem in problems {
         let count = places.entry((problem.code, problem.message.clone())).or_default();
         *count += 1;
         if *count == 1 || !OF_A_NAME.contains(&problem.code) {
-            told.push(problem);
+            reported.push(problem);
         }
     }
-    for problem in told.iter_mut().filter(|problem| OF_A_NAME.contains(&problem.code)) {
+    for problem in reported.iter_mut().filter(|problem| OF_A_NAME.contains(&problem.code)) {
         let more = places[&(problem.code, problem.message.clone())] - 1;
         if more > 0 {
             let (places, name) = if more == 1 { ("place", "names") } else { ("places", "name") };
             problem.message += &format!("; {more} more {places} {name} it");
         }
     }
-    told
+    reported
 }
 
 #[cfg(test)]

@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sum_does_not_remember_what_was_taken_out() {
+    fn sums_do_not_depend_on_removed_contributions() {
         let (before, after) = (contribution(1, (3, 4), (0, 0)), contribution(1, (3, 4), (2, 0)));
         let (other, newborn) = (contribution(2, (-7, 50), (0, -3)), contribution(3, (0, 0), (0, 0)));
         let (mut sum, mut hash_classes) = of(&[before, other]);
@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn what_flies_is_in_the_sum_where_it_has_come_to() {
+    fn sprites_in_flight_contribute_their_extrapolated_position() {
         let flying = contribution(1, (30, 40), (-4, 2));
         for tick in 5..50 {
             let moves = (tick - 5) / 3;

@@ -173,7 +173,7 @@ impl Step<'_> {
     fn strike_flight(&mut self, slot: Slot) {
         self.work(self.state.flights.len() / 64);
         let at = self.state.flights.iter().position(|flight| flight.slot == slot);
-        self.state.flights.swap_remove(at.expect("what flies is in the list"));
+        self.state.flights.swap_remove(at.expect("a sprite in flight is in the list"));
     }
 
     /// Ends a flight before the update in this tick.
@@ -257,7 +257,7 @@ BasicGame
 ";
 
     #[test]
-    fn what_moves_every_few_ticks_and_draws_flies_and_no_one_can_tell() {
+    fn periodic_movers_fly_without_a_difference() {
         let game = Game::from_source(INVADERS).unwrap();
         let level = game.level("i i    \n   i   \n       \n       \nA      \n").unwrap();
         let mut state = game.start(&level, Seed::from_text("invaders"));

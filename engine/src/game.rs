@@ -103,15 +103,15 @@ pub enum Limit {
     Work,
     /// A sprite of the type whose sprites are being updated was spawned: the reference throws.
     SpawnIntoUpdatedType,
-    /// A score changed after the avatar was removed for good: the reference throws.
+    /// A score changed after the avatar was removed permanently: the reference throws.
     NoAvatar,
     /// A sprite of height 0 moved: the reference divides by it.
     FlatSprite,
-    /// A path was asked for in a game without `obs=`.
+    /// A path was requested in a game without `obs=`.
     NoPaths,
-    /// A sprite of a type without a class, or of an undeclared type, was to be made or sought.
+    /// A sprite of a type without a class, or of an undeclared type, was to be made or looked up.
     NoType,
-    /// An effect ran without the sprites that it needs.
+    /// An effect was executed without the sprites that it needs.
     NoSprite,
     /// A type turned into itself without end.
     EndlessTransform,
@@ -130,14 +130,14 @@ impl fmt::Display for Limit {
             Limit::Sprites => "more sprites than a state can hold",
             Limit::Work => "one tick is more work than is allowed",
             Limit::SpawnIntoUpdatedType => "a sprite was spawned into the type that is being updated",
-            Limit::NoAvatar => "the score changed after the avatar was removed for good",
+            Limit::NoAvatar => "the score changed after the avatar was removed permanently",
             Limit::FlatSprite => "a sprite of height 0 moved",
-            Limit::NoPaths => "a path was asked for in a game without `obs=`",
+            Limit::NoPaths => "a path was requested in a game without `obs=`",
             Limit::NoType => {
-                "a sprite of an unknown type, or of a type without a class, was to be made or sought"
+                "a sprite of an unknown type, or of a type without a class, was to be made or looked up"
             }
-            Limit::NoSprite => "an effect ran without the sprites that it needs",
-            Limit::EndlessTransform => "a type was transformed into itself without end",
+            Limit::NoSprite => "an effect was executed without the sprites that it needs",
+            Limit::EndlessTransform => "a type was transformed into itself endlessly",
             Limit::UnfitSprite => "the parameters of a sprite do not fit its class",
             Limit::Timers => "more timers than can be planned",
             Limit::Resources => "more resources held than a state can hold",
@@ -311,14 +311,14 @@ pub(crate) struct Rules {
     pub(crate) types: Vec<TypeInfo>,
     /// By type: the prototype of its sprites.
     pub(crate) prototypes: Vec<Sprite>,
-    /// By type: the shared component of its sprites.
+    /// By type: the values that its sprites share.
     pub(crate) base_overrides: Vec<Overrides>,
     /// Drawing order; updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
     /// Types whose update does something, in update order.
     pub(crate) movers: Vec<Mover>,
     /// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it.
-    pub(crate) spoken_of: Vec<bool>,
+    pub(crate) referenced: Vec<bool>,
     /// By type: `true` if its sprites are scenery (`scenery.rs`).
     pub(crate) scenery: Vec<bool>,
     /// The sprites that each character places, by ASCII code.
@@ -391,13 +391,13 @@ impl Game {
         let (description, Diagnostics(read)) = crate::syntax::parse_all(source);
         match crate::compile::compile(&description) {
             Ok(mut rules) if !Diagnostics::has_errors(&read) => {
-                rules.warnings = causes::told(read, rules.warnings, source).0;
+                rules.warnings = causes::reported(read, rules.warnings, source).0;
                 Ok(Game(Arc::new(rules)))
             }
             // A description that compiles may have problems too; one run should show all problems.
             compiled => {
                 let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
-                Err(causes::told(read, compiled, source))
+                Err(causes::reported(read, compiled, source))
             }
         }
     }

@@ -113,7 +113,7 @@ impl Game {
         for (start, line) in &lines {
             reader.row(*start, line, columns, &mut cells);
         }
-        reader.tell_ragged(&lines, columns);
+        reader.report_ragged(&lines, columns);
         reader.finish(text, columns, rows, cells)
     }
 }
@@ -187,7 +187,7 @@ impl LevelReader<'_> {
                 let message =
                     format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
                 let problem = Diagnostic::error("unknown-sprite", span, message);
-                self.problems.push(problem.help("the reference engine dies of it"));
+                self.problems.push(problem.help("the reference engine crashes on it"));
             }
             return UNMAPPED;
         }
@@ -202,7 +202,7 @@ impl LevelReader<'_> {
     }
 
     /// Reports rows whose length differs from the first one's, or the first row if all others are equally long.
-    fn tell_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
+    fn report_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
         let length = |line: &str| line.chars().count();
         let mut others = lines[1..].iter().map(|(_, line)| length(line));
         let second = others.next().filter(|&second| second != columns && lines.len() > 2);
@@ -221,7 +221,7 @@ impl LevelReader<'_> {
             // The part that is cut off, or the row that is too short.
             let (from, help) = match line.char_indices().nth(columns) {
                 Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first one"),
-                None => (0, "the rest is taken as blank: fill the row up, with blanks if they are meant"),
+                None => (0, "the rest counts as blank: fill up the row, with blanks if they are intended"),
             };
             let span = Span::new(start + from, start + line.len());
             self.problems.push(Diagnostic::warning("ragged-level", span, message).help(help));
@@ -229,7 +229,7 @@ impl LevelReader<'_> {
     }
 
     /// Reports characters without a mapping, each with the character that was most likely meant.
-    fn tell_undefined(&mut self, columns: usize, cells: &[u8]) {
+    fn report_undefined(&mut self, columns: usize, cells: &[u8]) {
         let unused: Vec<char> =
             self.mapped.iter().copied().filter(|&c| !cells.contains(&(c as u8))).collect();
         let undefined = std::mem::take(&mut self.undefined);
@@ -251,7 +251,7 @@ impl LevelReader<'_> {
                 ),
                 (None, _, Some(near)) => format!("did you mean `{near}`, as around it?"),
                 _ if symbol.is_ascii_graphic() && symbol != '#' => {
-                    format!("add a line `{shown} > …` to the LevelMapping, or use a character that is there")
+                    format!("add a line `{shown} > …` to the LevelMapping, or use a character that is in it")
                 }
                 _ => "use a character that is in the LevelMapping".to_owned(),
             };
@@ -260,7 +260,7 @@ impl LevelReader<'_> {
                     "`#` is not in the LevelMapping, and cannot be: it starts a comment".to_owned()
                 }
                 1 => format!("`{shown}` is not in the LevelMapping"),
-                _ => format!("`{shown}` is not in the LevelMapping, and stands {count} times in the level"),
+                _ => format!("`{shown}` is not in the LevelMapping, and occurs {count} times in the level"),
             };
             self.problems.push(Diagnostic::error("undefined-character", span, message).help(help));
         }
@@ -308,7 +308,7 @@ impl LevelReader<'_> {
         cells: Vec<u8>,
     ) -> Result<Level, Diagnostics> {
         if !self.game.0.as_reference {
-            self.tell_undefined(columns, &cells);
+            self.report_undefined(columns, &cells);
         }
         // The reference rejects the surplus, with a message each.
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
@@ -418,13 +418,13 @@ mod tests {
     }
 
     #[test]
-    fn levels_of_a_faulty_game_are_looked_at_as_far_as_its_mapping_tells() {
+    fn levels_of_a_faulty_game_are_checked_against_its_mapping() {
         let check = |replace: &str, with: &str, level: &str, expect: &[&str]| {
             let source = GAME.replace(replace, with);
             assert!(Game::from_source(&source).is_err(), "{source}");
             let mapping = LevelMapping::of_source(&source);
-            let told = mapping.map(|mapping| mapping.problems(level)).unwrap_or_default();
-            assert_eq!(told.iter().map(|problem| problem.code).collect::<Vec<_>>(), expect, "{source}");
+            let reported = mapping.map(|mapping| mapping.problems(level)).unwrap_or_default();
+            assert_eq!(reported.iter().map(|problem| problem.code).collect::<Vec<_>>(), expect, "{source}");
         };
         let both = ["no-avatar", "undefined-character"];
         check("stepBack", "stepBakc", "wXg\n", &both);

@@ -120,7 +120,7 @@ mod tests {
                         avatar EOS > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";
 
     #[test]
-    fn what_was_smaller_is_known_to_have_been_until_its_next_update() {
+    fn earlier_sizes_are_kept_until_the_next_update() {
         let game = Game::from_source(GAME).unwrap();
         let mut state = game.start(&game.level("Ab f \n").unwrap(), Seed::from_text("bud"));
         let flower = game.sprite_type("flower").unwrap();

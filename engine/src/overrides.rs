@@ -1,7 +1,7 @@
-//! Copy-on-write components of sprites: orientation, speed, health and other values that seldom differ from those of the
+//! Copy-on-write overrides of sprites: orientation, speed, health and other values that seldom differ from those of the
 //! type.
 //!
-//! Sprites share the component of their type, and get one of their own with the first change. This keeps sprites small
+//! Sprites share the values of their type, and get overrides of their own with the first change. This keeps sprites small
 //! and copies of a state cheap.
 
 use crate::game::{Rules, SpriteType};
@@ -9,7 +9,7 @@ use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::state::{NONE, Slot, Sprite, State};
 
-/// The rarely changed values of a sprite: a copy-on-write component.
+/// The rarely changed values of a sprite: those of its type, or a copy of its own (copy on write).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrides {
     pub(crate) orientation: Direction,
@@ -22,7 +22,7 @@ pub(crate) struct Overrides {
     pub(crate) spawns: SpriteType,
     /// Index into `State::extras`, or NONE.
     pub(crate) extra: u16,
-    /// The sprite that owns the component; `NONE` for that of a type.
+    /// The sprite that owns the overrides; `NONE` for those of a type.
     pub(crate) holder: Slot,
 }
 
@@ -50,7 +50,7 @@ pub(crate) enum Target {
 }
 
 impl State {
-    /// The component of a sprite, scenery included.
+    /// The overrides of a sprite, scenery included.
     #[inline(always)]
     pub(crate) fn overrides_of(&self, sprite: &Sprite) -> &Overrides {
         &self.overrides[usize::from(sprite.overrides)]
@@ -61,7 +61,7 @@ impl State {
         self.overrides_of(self.sprite(slot))
     }
 
-    /// The component of a sprite for modification; copies it first if it is shared.
+    /// The overrides of a sprite for modification; copies them first if they are shared.
     #[inline]
     pub(crate) fn edit_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let at = usize::from(self.edit(slot).overrides);
@@ -93,7 +93,7 @@ impl State {
         self.edit_overrides(slot).orientation = direction;
     }
 
-    /// Releases the component and the extra that a sprite owns.
+    /// Releases the overrides and the extra that a sprite owns.
     pub(crate) fn release_overrides(&mut self, slot: Slot) {
         let at = self.sprite(slot).overrides;
         let Overrides { holder, extra, .. } = self.overrides[usize::from(at)];
@@ -162,7 +162,7 @@ mod tests {
                         car EOS > stepBack\n  TerminationSet\n    Timeout limit=50 win=True\n";
 
     #[test]
-    fn a_sprite_has_a_form_of_its_own_from_the_first_change_on_and_gives_it_back() {
+    fn sprites_own_overrides_from_the_first_change_until_release() {
         let game = Game::from_source(GAME).unwrap();
         let mut state = game.start(&game.level("wa g\nga w\nA   \n").unwrap(), Seed::from_text("arrows"));
         let types = game.sprite_types().count();

@@ -160,7 +160,7 @@ macro_rules! numbers {
             }
 
             fn take(from: &mut &[u8]) -> $number {
-                let (head, rest) = from.split_first_chunk().expect("what was put");
+                let (head, rest) = from.split_first_chunk().expect("at least as much was written");
                 *from = rest;
                 $number::from_le_bytes(*head)
             }

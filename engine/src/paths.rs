@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn there_is_no_way_from_outside() {
+    fn positions_off_the_board_have_no_path() {
         let source = "BasicGame obs=wall square_size=1\n  SpriteSet\n    avatar > MovingAvatar\n  LevelMapping\n  InteractionSet\n    avatar wall > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";
         let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
         let state = game.start_with(&game.level("A  \n").unwrap(), Chance::from_java(1));

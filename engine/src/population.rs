@@ -44,7 +44,7 @@ pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     }
 }
 
-/// The shared component of a type's sprites.
+/// The values that the sprites of a type share.
 pub(crate) fn base_overrides(info: &TypeInfo) -> Overrides {
     let traits = &info.traits;
     Overrides {

@@ -112,12 +112,12 @@ impl State {
             counted.big += u16::from(sprite.is(flag::BIG));
             counted.off += u16::from(sprite.is(flag::OFF));
             counted.skipped += u16::from(sprite.activity & mark::SKIPPED != 0);
-            let told = match sprite.flies() {
+            let correct = match sprite.flies() {
                 true => self.is_in_its_lane(slot),
                 false => self.recounted_flags(sprite) == sprite.flags & flag::PLACEMENT,
             };
-            if !told {
-                return Err(format!("slot {slot} of `{name}` lies otherwise than its flags say"));
+            if !correct {
+                return Err(format!("slot {slot} of `{name}` covers other cells than its flags say"));
             }
         }
         if counted.tail != kept.tail {
@@ -145,9 +145,9 @@ impl State {
                 let row = sprite.rect.y.div_euclid(self.block).clamp(-1, self.rows) + 1;
                 let place = (i32::from(sprite.column), i32::from(sprite.row));
                 // The cells of sprites in flight have been checked already.
-                let told = place == (column, row) || sprite.flies();
-                if !told || (place.1 * (self.columns + 2) + place.0) as usize != cell {
-                    return Err(format!("slot {slot} stands in ({column}, {row}), not in cell {cell}"));
+                let correct = place == (column, row) || sprite.flies();
+                if !correct || (place.1 * (self.columns + 2) + place.0) as usize != cell {
+                    return Err(format!("slot {slot} is at ({column}, {row}), not in cell {cell}"));
                 }
                 (slot, previous) = (sprite.cell_next, slot);
             }
@@ -198,7 +198,9 @@ impl State {
             }
             let is_avatar = game.class(sprite.stype).is_some_and(crate::SpriteClass::is_avatar);
             if is_avatar && !sprite.is(flag::FROZEN) && at != usize::from(self.avatar) {
-                return Err(format!("slot {at} is an avatar that nobody controls and still updated"));
+                return Err(format!(
+                    "slot {at} is an avatar that the player does not control, and is still updated"
+                ));
             }
             if sprite.is(flag::KILLED) || sprite.is(flag::DIRTY) != self.dirty.contains(&(at as Slot)) {
                 return Err(format!("slot {at} was left half-way by the last step"));
@@ -208,11 +210,11 @@ impl State {
             if is_own != (usize::from(sprite.overrides) >= game.0.types.len())
                 || is_own && usize::from(overrides.holder) != at
             {
-                return Err(format!("the overrides of slot {at} is that of {}", overrides.holder));
+                return Err(format!("the overrides of slot {at} belong to slot {}", overrides.holder));
             }
             let extra = self.extra_of(sprite).map(|extra| usize::from(extra.holder));
             if extra != (overrides.extra != NONE).then_some(at) {
-                return Err(format!("the extra of slot {at} is that of {extra:?}"));
+                return Err(format!("the extra of slot {at} belongs to {extra:?}"));
             }
         }
         let holders =
@@ -224,10 +226,10 @@ impl State {
             return Err(format!("slot {holder} has overrides that it does not use"));
         }
         if !self.resized.is_sorted_by_key(|one| one.slot) {
-            return Err("what was resized is out of order".to_owned());
+            return Err("the list of resized sprites is out of order".to_owned());
         }
         if !self.held.is_sorted_by_key(|held| (held.holder, held.resource)) {
-            return Err("what is held is out of order".to_owned());
+            return Err("the list of held resources is out of order".to_owned());
         }
         let mut holders = self
             .held

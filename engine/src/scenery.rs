@@ -18,7 +18,7 @@ const BY_NUMBER: &str = "itype";
 
 /// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it. `true` in case of doubt:
 /// a value that is only spelled like the type counts, too. Cost: O(words of the game × log).
-pub(crate) fn spoken_of(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
+pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let lines = description.sprite_lines();
     let lines = lines.iter().flat_map(|(_, line)| &line.params);
     let interactions = &description.interactions;
@@ -43,7 +43,7 @@ pub(crate) fn spoken_of(description: &Description, types: &[TypeInfo]) -> Vec<bo
 }
 
 /// By type: `true` if its sprites are scenery.
-pub(crate) fn scenery(types: &[TypeInfo], spoken_of: &[bool], movers: &[Mover]) -> Vec<bool> {
+pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool], movers: &[Mover]) -> Vec<bool> {
     let moves: BTreeSet<SpriteType> = movers.iter().map(|mover| mover.stype).collect();
     let is_scenery = |(number, info): (u16, &TypeInfo)| {
         let stype = SpriteType(number);
@@ -51,7 +51,7 @@ pub(crate) fn scenery(types: &[TypeInfo], spoken_of: &[bool], movers: &[Mover]) 
         let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
         let is_still = info.order.is_some() && !moves.contains(&stype) && !info.is_like_avatar();
         // Some avatars leave walls behind without naming them.
-        stype != SpriteType(0) && !spoken_of[stype.index()] && is_whole && is_still
+        stype != SpriteType(0) && !referenced[stype.index()] && is_whole && is_still
     };
     (0..).zip(types).map(is_scenery).collect()
 }
@@ -104,7 +104,7 @@ mod tests {
                           Timeout limit=9 win=True\n";
 
     #[test]
-    fn what_no_rule_is_about_and_never_moves() {
+    fn scenery_types_have_no_rules_and_never_move() {
         let game = Game::from_source(MEADOW).unwrap();
         let is_scenery = |name: &&str| game.0.scenery[game.sprite_type(name).unwrap().index()];
         let all = ["grass", "sand", "clay", "asleep", "bird", "nest", "cloud", "tuft", "hero"];
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_copy_has_the_same_scenery_whatever_it_was_before() {
+    fn copied_states_take_over_the_scenery() {
         let game = Game::from_source(MEADOW).unwrap();
         let start = |level: &str| game.start(&game.level(level).unwrap(), Seed::from_text("meadow"));
         let (meadow, mut desert) = (start("A....\n"), start("Asss.\n"));

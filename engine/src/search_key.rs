@@ -1,7 +1,7 @@
 //! The key of a state's live behaviour, for the transposition tables of planners.
 
 use crate::SpriteClass;
-use crate::analysis::Keying;
+use crate::analysis::StateAbstraction;
 use crate::game::{Game, Rules, SpriteType, TypeInfo};
 use crate::hash::{Mixer, SearchKey, bits, two};
 use crate::limits::MAX_TICKS;
@@ -73,26 +73,26 @@ impl State {
         SearchKey(mixer.finish())
     }
 
-    /// The key of [`Keying::key`].
-    pub(crate) fn key_left_out(&self, rules: &Rules, keying: &Keying) -> SearchKey {
+    /// The key of [`StateAbstraction::key`].
+    pub(crate) fn key_left_out(&self, rules: &Rules, abstraction: &StateAbstraction) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
-        self.live_state(rules, Some(keying), &mut mixer);
+        self.live_state(rules, Some(abstraction), &mut mixer);
         SearchKey(mixer.finish())
     }
 
     /// The words that are hashed for that key.
-    pub(crate) fn words_left_out(&self, rules: &Rules, keying: &Keying) -> Vec<u64> {
+    pub(crate) fn words_left_out(&self, rules: &Rules, abstraction: &StateAbstraction) -> Vec<u64> {
         let mut words = Vec::new();
-        self.live_state(rules, Some(keying), &mut words);
+        self.live_state(rules, Some(abstraction), &mut words);
         words
     }
 
-    fn live_state(&self, rules: &Rules, keying: Option<&Keying>, to: &mut impl Absorb) {
+    fn live_state(&self, rules: &Rules, abstraction: Option<&StateAbstraction>, to: &mut impl Absorb) {
         to.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
         if self.is_over() {
             return;
         }
-        let reads_tick = keying.map_or(rules.reads_tick, |keying| keying.tick);
+        let reads_tick = abstraction.map_or(rules.reads_tick, |abstraction| abstraction.tick);
         to.pair(if reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
         if rules.reads_score {
             to.pair(2, self.score as u64);
@@ -100,13 +100,13 @@ impl State {
         for &counter in self.counters.iter().filter(|_| rules.reads_counters) {
             to.pair(3, counter as u64);
         }
-        for &clock in keying.map_or(&rules.clocks, |keying| &keying.clocks) {
+        for &clock in abstraction.map_or(&rules.clocks, |abstraction| &abstraction.clocks) {
             to.pair(clock as u64, self.tick.rem_euclid(clock) as u64);
         }
-        for &first in keying.map_or(&rules.wizard_ticks, |keying| &keying.wizard_ticks) {
+        for &first in abstraction.map_or(&rules.wizard_ticks, |abstraction| &abstraction.wizard_ticks) {
             to.pair(1, self.wait(first));
         }
-        if keying.map_or(rules.draws, |keying| keying.chance) {
+        if abstraction.map_or(rules.draws, |abstraction| abstraction.chance) {
             to.pair(self.chance.state(), self.jumps.state());
         }
         to.pair(self.rank(self.avatar), self.timers.len() as u64);
@@ -114,17 +114,21 @@ impl State {
             to.pair(u64::from(timer.timed), timer.due.saturating_sub(self.tick) as u64);
         }
         for (stype, group) in (0u16..).map(SpriteType).zip(&self.groups) {
-            let is = |left_out: fn(&Keying) -> &[bool]| keying.is_some_and(|k| left_out(k)[stype.index()]);
-            if group.count == 0 || is(|keying| &keying.constant) {
+            let is = |left_out: fn(&StateAbstraction) -> &[bool]| {
+                abstraction.is_some_and(|k| left_out(k)[stype.index()])
+            };
+            if group.count == 0 || is(|abstraction| &abstraction.constant) {
                 continue;
             }
             to.pair(u64::from(stype.0), u64::from(group.count));
-            let faceless = is(|keying| &keying.faceless);
-            if group.count > 1 && is(|keying| &keying.alike) {
-                to.in_any_order(self.slots(stype), |slot, to| self.live_words(rules, slot, faceless, to));
+            let orientation_irrelevant = is(|abstraction| &abstraction.orientation_irrelevant);
+            if group.count > 1 && is(|abstraction| &abstraction.interchangeable) {
+                to.in_any_order(self.slots(stype), |slot, to| {
+                    self.live_words(rules, slot, orientation_irrelevant, to)
+                });
             } else {
                 for slot in self.slots(stype) {
-                    self.live_words(rules, slot, faceless, to);
+                    self.live_words(rules, slot, orientation_irrelevant, to);
                 }
             }
         }
@@ -138,7 +142,7 @@ impl State {
         u64::from(sprite.stype.0) << 32 | place.map_or(u64::from(u32::MAX), |place| place as u64)
     }
 
-    fn live_words(&self, rules: &Rules, slot: Slot, faceless: bool, to: &mut impl Absorb) {
+    fn live_words(&self, rules: &Rules, slot: Slot, orientation_irrelevant: bool, to: &mut impl Absorb) {
         let sprite = &self.present(slot);
         let info = &rules.types[sprite.stype.index()];
         let (overrides, extra) = (self.overrides_of(sprite), self.extra_of(sprite));
@@ -147,7 +151,7 @@ impl State {
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
         to.pair(two((sprite.flags & LIVE) as i32, follows), two(overrides.health, overrides.max_health));
         to.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
-        if !faceless || sprite.is(flag::ORIENTED) {
+        if !orientation_irrelevant || sprite.is(flag::ORIENTED) {
             to.pair(bits(overrides.orientation.x), bits(overrides.orientation.y));
         }
         to.pair(bits(overrides.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));

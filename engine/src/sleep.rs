@@ -19,7 +19,7 @@ use crate::ontology::sprites::is_idle;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 use crate::step::Step;
 
-/// Values of [`Sprite::rest`]: the events of this tick for the sprite.
+/// Values of [`Sprite::activity`]: the events of this tick for the sprite.
 pub(crate) mod mark {
     /// The sprite has not moved by itself, or not in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
@@ -30,7 +30,7 @@ pub(crate) mod mark {
     /// A bit that is set for sprites that are not updated. Without this bit, other values are one more than the pass that
     /// put the sprite back.
     pub(crate) const SKIPPED: u16 = 0x8000;
-    /// The sprite is asleep. With this bit, other values are the ticks between moves of a sprite in flight (`flight.rs`).
+    /// The sprite sleeps. With this bit, other values are the ticks between moves of a sprite in flight (`flight.rs`).
     pub(crate) const SLEEPING: u16 = SKIPPED;
 }
 

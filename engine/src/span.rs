@@ -64,7 +64,7 @@ mod tests {
     use super::Span;
 
     #[test]
-    fn what_spans_do_not_share_is_what_lists_of_cells_do_not_share() {
+    fn span_differences_equal_those_of_lists_of_cells() {
         const STRIDE: usize = 7;
         let spans = || {
             let cells = (1..6).flat_map(|row| (1..6).map(move |column| (column, row)));

@@ -93,7 +93,7 @@ pub(crate) struct Sprite {
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// Index into `State::overrides`: the component of its type, or one of its own.
+    /// Index into `State::overrides`: the entry of its type, or one of its own.
     pub(crate) overrides: u16,
     /// The events of this tick that matter for sleep, and the period in flight (`sleep.rs`).
     pub(crate) activity: u16,
@@ -265,7 +265,7 @@ pub struct State {
     pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
     /// Sprites that a pullWithIt effect has carried in this tick, sorted.
     pub(crate) pulled: Vec<(u16, Slot)>,
-    /// The components of the types, and of sprites that have their own (`overrides.rs`).
+    /// The overridable values of the types, and the overrides of sprites (`overrides.rs`).
     pub(crate) overrides: Vec<Overrides>,
     pub(crate) extras: Vec<Extra>,
     /// The sleeping sprites (`sleep.rs`).

@@ -2,7 +2,7 @@
 
 use crate::colour::{Colour, INK, PAPER};
 use crate::glyph::Glyph;
-use engine::analysis::{Deed, Key};
+use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 
 /// The squared distance below which colours are too similar to tell two types of one glyph apart.
@@ -76,8 +76,8 @@ impl Looks {
             facts.concrete && facts.possible && !facts.hidden
         });
         let shown: Vec<SpriteType> = shown.collect();
-        let wounds = |deed: &Deed| matches!(deed, Deed::Health { .. });
-        let health = analysis.encounters().iter().any(|encounter| encounter.deeds.iter().any(wounds));
+        let wounds = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
+        let health = analysis.encounters().iter().any(|encounter| encounter.effects.iter().any(wounds));
         let holdings = health || !analysis.resources().is_empty();
         Looks { game: game.clone(), looks, visible, shown, holdings }
     }

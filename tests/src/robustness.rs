@@ -8,7 +8,7 @@
 use crate::any_game::any_game;
 use crate::choices::{Choices, random_bytes};
 use crate::{read, workspace_root};
-use engine::analysis::{Analysis, Keying};
+use engine::analysis::{Analysis, StateAbstraction};
 use engine::syntax::{self, Description, InteractionLine, Param, Section, SpriteLine, Word};
 use engine::{
     Action, Description as Tree, Diagnostic, Diagnostics, EFFECTS, Episode, Game, Level, Limit, MAX_TICKS,
@@ -382,8 +382,8 @@ impl<'g> Walk<'g> {
         let start = self.start();
         let mut reached = vec![start.clone()];
         let analysis = Analysis::of(self.game);
-        let keying = analysis.keying(&start);
-        let keys = |state: &State| [(0, state.search_key(self.game)), (1, keying.key(&analysis, state))];
+        let abstraction = analysis.abstraction(&start);
+        let keys = |state: &State| [(0, state.search_key(self.game)), (1, abstraction.key(&analysis, state))];
         let mut table: BTreeMap<(usize, SearchKey), State> =
             keys(&start).into_iter().map(|key| (key, start.clone())).collect();
         for _ in 0..WAYS {
@@ -407,7 +407,11 @@ impl<'g> Walk<'g> {
                                 && self.seen.merged < TWINS * (1 + key.0) =>
                         {
                             let twin = twin.clone();
-                            self.compare_futures(&twin, &state, (key.0 == 1).then_some((&analysis, &keying)));
+                            self.compare_futures(
+                                &twin,
+                                &state,
+                                (key.0 == 1).then_some((&analysis, &abstraction)),
+                            );
                         }
                         Some(_) => {}
                     }
@@ -421,19 +425,24 @@ impl<'g> Walk<'g> {
     /// Equal keys imply equal keys, outcomes and gains after the same actions. If nothing draws, randomness is not
     /// part of the key: then it must not matter either.
     ///
-    /// With a `keying`, the keys are its own, and if it leaves the tick out, the later state may lose by it.
-    fn compare_futures(&mut self, one: &State, two: &State, keying: Option<(&Analysis, &Keying)>) {
+    /// With a `abstraction`, the keys are its own, and if it leaves the tick out, the later state may lose by it.
+    fn compare_futures(
+        &mut self,
+        one: &State,
+        two: &State,
+        abstraction: Option<(&Analysis, &StateAbstraction)>,
+    ) {
         self.seen.merged += 1;
         let (mut one, mut two) = (one.clone(), two.clone());
-        let key = |state: &State| match keying {
-            Some((analysis, keying)) => keying.key(analysis, state),
+        let key = |state: &State| match abstraction {
+            Some((analysis, abstraction)) => abstraction.key(analysis, state),
             None => state.search_key(self.game),
         };
         if one.tick() > two.tick() {
             std::mem::swap(&mut one, &mut two);
         }
-        let is_certain = match keying {
-            Some((_, keying)) => !keying.reads_chance(),
+        let is_certain = match abstraction {
+            Some((_, abstraction)) => !abstraction.reads_chance(),
             None => self.game.is_deterministic(),
         };
         if is_certain {
@@ -457,7 +466,9 @@ impl<'g> Walk<'g> {
                 let (one, two) = (self.game.records(&one), self.game.records(&two));
                 format!("{ahead} ticks on, after {action}\n{one:#?}\n{two:#?}")
             };
-            if keying.is_some_and(|(_, keying)| keying.earlier_is_better()) && outcomes.1 == Outcome::Lost {
+            if abstraction.is_some_and(|(_, abstraction)| abstraction.earlier_is_better())
+                && outcomes.1 == Outcome::Lost
+            {
                 return;
             }
             assert_eq!(outcomes.0, outcomes.1, "{}", place());

@@ -3,7 +3,9 @@
 
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Reason, Verdict};
-use engine::analysis::{Apart, Cause, Chain, Closed, Deed, Lack, Motion, Obstacle, Shortage, Side};
+use engine::analysis::{
+    Blocker, Cause, Chain, EffectSummary, Missing, Motion, Obstacle, Shortage, Side, Unreachable,
+};
 use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_rule};
 
 /// The greatest number of chains to report: one for each winning termination.
@@ -43,7 +45,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
         words.chain(chain);
         let links: Vec<&str> = words.links.iter().map(|link| link.text.as_str()).collect();
         reason.get_or_insert_with(|| match &chain.obstacles[..] {
-            [Obstacle { lack: Lack::Resource(_), .. }, ..] => links.join("; "),
+            [Obstacle { missing: Missing::Resource(_), .. }, ..] => links.join("; "),
             _ => format!("{}: {}", lower(sentence), links.join("; ")),
         });
         let first = words.ending(chain, sentence);
@@ -76,7 +78,7 @@ impl Words<'_> {
     fn ending(&self, chain: &Chain, sentence: &str) -> Evidence {
         let goal = &self.analysis.goals()[chain.goal];
         let cell = match &chain.cause {
-            Cause::Stay(sprites) => sprites.first().map(|(_, cell)| self.place(*cell)),
+            Cause::Permanent(sprites) => sprites.first().map(|(_, cell)| self.place(*cell)),
             Cause::AtMost(_) => None,
         };
         let rule = Some(Line::termination(self.analysis.game(), goal.line));
@@ -89,7 +91,7 @@ impl Words<'_> {
             return chain.obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
         }
         let (text, advice) = match &chain.cause {
-            Cause::Stay(sprites) => {
+            Cause::Permanent(sprites) => {
                 let name = sprites.first().map_or("sprite", |(stype, _)| self.name(*stype));
                 let target = sprites.first().map(|(stype, _)| *stype);
                 match target.is_some_and(|stype| self.is_ended(stype)) {
@@ -116,36 +118,36 @@ impl Words<'_> {
         self.analysis.encounters().iter().any(|encounter| {
             encounter.ends(Side::First) && applies(encounter.first)
                 || encounter.ends(Side::Second) && encounter.second.is_some_and(applies)
-                || encounter.does(|deed| match deed {
-                    Deed::KillAll(all) | Deed::BecomeAll(all, _) => *all == stype,
-                    Deed::Health { of: Some(of), .. } => applies(*of),
+                || encounter.does(|effect| match effect {
+                    EffectSummary::KillAll(all) | EffectSummary::BecomeAll(all, _) => *all == stype,
+                    EffectSummary::Health { of: Some(of), .. } => applies(*of),
                     _ => false,
                 })
         })
     }
 
     fn obstacle(&mut self, obstacle: &Obstacle) {
-        let Obstacle { target, line, lack } = obstacle;
+        let Obstacle { target, line, missing } = obstacle;
         let rule = line.map(|line| Line::interaction(self.analysis.game(), line));
-        match lack {
-            Lack::Resource(shortage) => self.shortage(*target, rule, shortage),
-            Lack::Apart(apart) => {
-                let there = self.standing(apart.cell, *target);
-                let text = format!("{} cannot get to {}", self.who(apart.who), self.the(there));
-                self.apart(apart, text, rule);
+        match missing {
+            Missing::Resource(shortage) => self.shortage(*target, rule, shortage),
+            Missing::Unreachable(unreachable) => {
+                let there = self.standing(unreachable.cell, *target);
+                let text = format!("{} cannot get to {}", self.who(unreachable.stype), self.the(there));
+                self.unreachable(unreachable, text, rule);
             }
-            Lack::HeldUp(who, by) => {
+            Missing::Blocked(stype, by) => {
                 let by = Line::interaction(self.analysis.game(), *by);
                 let text = format!(
                     "{} is put back from {} by `{}` before a later rule ends it",
-                    self.who(*who),
+                    self.who(*stype),
                     self.the(*target),
                     by.text
                 );
                 let advice = format!("put the rule that ends `{}` before that one", self.name(*target));
                 self.links.push(Evidence::new(text).of_rule(by).advise(advice));
             }
-            Lack::Absent(absent) => {
+            Missing::Absent(absent) => {
                 let name = self.name(*absent);
                 let what = match line {
                     Some(_) => format!("a rule on {} needs {}", self.the(*target), article(name)),
@@ -155,7 +157,7 @@ impl Words<'_> {
                 let advice = format!("place {} in the level", article(name));
                 self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
             }
-            Lack::Unmade(unmade, obstacles) => {
+            Missing::Unmade(unmade, obstacles) => {
                 let name = self.name(*unmade);
                 let text = format!(
                     "a rule on {} needs {}, and there never is one",
@@ -165,7 +167,7 @@ impl Words<'_> {
                 self.links.push(Evidence { rule, ..Evidence::new(text) });
                 obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
             }
-            Lack::Nowhere(first, second) => {
+            Missing::Nowhere(first, second) => {
                 let second = second.map_or("the edge of the screen".to_owned(), |second| self.who(second));
                 let text = format!("{} and {second} never meet", self.who(*first));
                 self.links.push(Evidence { rule, ..Evidence::new(text) }.advise("let them meet"));
@@ -209,10 +211,11 @@ impl Words<'_> {
         let rule = rules.first().map(|&line| Line::interaction(self.analysis.game(), line));
         self.links.push(Evidence { cell, rule, ..Evidence::new(text) });
         let lost: Vec<_> =
-            sources.iter().filter_map(|source| Some((source, source.apart.as_ref()?))).collect();
-        for (source, apart) in &lost {
-            let text = format!("{} cannot get to the {}", self.who(apart.who), self.name(source.stype));
-            self.apart(apart, text, None);
+            sources.iter().filter_map(|source| Some((source, source.unreachable.as_ref()?))).collect();
+        for (source, unreachable) in &lost {
+            let text =
+                format!("{} cannot get to the {}", self.who(unreachable.stype), self.name(source.stype));
+            self.unreachable(unreachable, text, None);
         }
         if !lost.is_empty() && *most > 0 {
             self.links.push(Evidence::new(format!("{most} can be got")));
@@ -227,13 +230,13 @@ impl Words<'_> {
     }
 
     /// A place that a sprite never reaches, and the obstacle.
-    fn apart(&mut self, apart: &Apart, text: String, rule: Option<Line>) {
-        let cell = Some(self.place(apart.cell));
+    fn unreachable(&mut self, unreachable: &Unreachable, text: String, rule: Option<Line>) {
+        let cell = Some(self.place(unreachable.cell));
         let link = Evidence { cell, rule, ..Evidence::new(text) };
         // For one source among several, the shortage gives the advice.
-        let alone = apart.closed.is_empty() && link.rule.is_some();
+        let alone = unreachable.blockers.is_empty() && link.rule.is_some();
         self.links.push(if alone { link.advise("open a way to it") } else { link });
-        for Closed { stype, cell, obstacles } in &apart.closed {
+        for Blocker { stype, cell, obstacles } in &unreachable.blockers {
             let name = self.name(*stype);
             let again = obstacles.is_empty();
             let text = format!("{} {name} is in the way", if again { "that" } else { "the" });

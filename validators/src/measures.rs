@@ -2,7 +2,7 @@
 
 use crate::ladder::{Fared, Ladder};
 use crate::panel::Report;
-use engine::analysis::Deed;
+use engine::analysis::EffectSummary;
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteType, State, Watch};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -197,7 +197,7 @@ fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
 fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &State) -> usize {
     let pushes = |meeting: &&Meeting| {
         let of_line = analysis.encounters().iter().filter(|encounter| encounter.line == meeting.line);
-        of_line.into_iter().any(|encounter| encounter.does(|deed| *deed == Deed::Push))
+        of_line.into_iter().any(|encounter| encounter.does(|effect| *effect == EffectSummary::Push))
     };
     let types: Vec<SpriteType> = meetings.iter().filter(pushes).map(|meeting| meeting.first).collect();
     if types.is_empty() {

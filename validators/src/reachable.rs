@@ -23,19 +23,22 @@ impl<V: Validator> Validator for Reachable<V> {
         if reach.can_win() {
             return self.0.validate(case);
         }
-        let wins = reach.hindrances().iter().filter(|hindrance| analysis.goals()[hindrance.goal].win);
+        let wins = reach
+            .impossible_goals()
+            .iter()
+            .filter(|impossible_goal| analysis.goals()[impossible_goal.goal].win);
         let told = describe::hindered_wins(analysis, level, &reach);
         let columns = level.columns();
-        let evidence = wins.zip(&told).map(|(hindrance, sentence)| {
-            let (cell, advice) = match &hindrance.cause {
-                Cause::Stay(sprites) => {
+        let evidence = wins.zip(&told).map(|(impossible_goal, sentence)| {
+            let (cell, advice) = match &impossible_goal.cause {
+                Cause::Permanent(sprites) => {
                     let advice = "open a way to it, or make it go";
                     let first = sprites.first();
                     (first.map(|(_, cell)| (cell % columns + 1, cell / columns + 1)), advice)
                 }
                 Cause::AtMost(_) => (None, "place more of what it counts, or ask for fewer"),
             };
-            let rule = Some(Line::termination(game, analysis.goals()[hindrance.goal].line));
+            let rule = Some(Line::termination(game, analysis.goals()[impossible_goal.goal].line));
             Evidence { text: sentence.clone(), cell, rule, ..Evidence::default() }.advise(advice)
         });
         let evidence: Vec<Evidence> = evidence.collect();

@@ -22,7 +22,7 @@ pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: S
     }
     let mut queue = Queue {
         progress: Progress::of(analysis),
-        features: Features::of(analysis, tree.keying(), start),
+        features: Features::of(analysis, tree.abstraction(), start),
         seen: BTreeMap::new(),
         open: BinaryHeap::new(),
     };

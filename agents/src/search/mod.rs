@@ -1,7 +1,7 @@
 //! Systematic search, for states from which play is deterministic: it proves that a level can be won in some number
 //! of ticks, or not at all.
 //!
-//! States are told apart by [`engine::analysis::Keying`], stored as differences from the start ([`engine::Packed`]),
+//! States are told apart by [`engine::analysis::StateAbstraction`], stored as differences from the start ([`engine::Packed`]),
 //! and counted in forward-model calls. A search stops at the first win, after all reachable states, or at its limits:
 //! only the second case proves that there is no win.
 

@@ -1,6 +1,6 @@
 //! A lower bound on the pushes that a state needs before it can be won; a box in a corner can never be pushed home.
 
-use engine::analysis::{Analysis, Condition, Deed, Encounter, Motion, Provided, Reach, Side};
+use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
 use engine::{Level, Seed, SpriteType, State};
 use smallvec::SmallVec;
 
@@ -72,15 +72,15 @@ impl Need {
 /// Computes the bounds; none if the rules cannot be modelled, so that nothing is certain.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
-    if analysis.pushables().is_empty() || analysis.has_clockwork() || !steps_are_whole(analysis) {
+    if analysis.pushables().is_empty() || analysis.has_timed_effects() || !steps_are_whole(analysis) {
         return None;
     }
     let reach = analysis.reach(level);
     if reach.is_coarse() {
         return None;
     }
-    let keying = analysis.keying(&game.start(level, Seed::from_text("pushes")));
-    let still = game.sprite_types().filter(|&stype| keying.is_constant(stype)).collect();
+    let abstraction = analysis.abstraction(&game.start(level, Seed::from_text("pushes")));
+    let still = game.sprite_types().filter(|&stype| abstraction.is_constant(stype)).collect();
     let board = Board { analysis, level, reach: &reach, still, columns: level.columns(), rows: level.rows() };
     let pushed: Vec<SpriteType> = analysis.pushables().iter().map(|pushable| pushable.stype).collect();
     let is_tame: Vec<bool> =
@@ -105,14 +105,23 @@ fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
 
 /// Returns `true` if all avatars move by whole cells, face the way they go, and are moved by nothing else.
 fn steps_are_whole(analysis: &Analysis) -> bool {
-    let displaces = |deed: &Deed| {
-        matches!(deed, Deed::Turn | Deed::Push | Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Speed(_))
+    let displaces = |effect: &EffectSummary| {
+        matches!(
+            effect,
+            EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Teleport
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+        )
     };
-    analysis.avatars().iter().all(|avatar| analysis.steps_by_cells(avatar.stype))
+    analysis.avatars().iter().all(|avatar| analysis.moves_by_whole_cells(avatar.stype))
         && !analysis.encounters().iter().any(|encounter| {
             let of_avatar =
                 analysis.avatars().iter().any(|avatar| analysis.applies(encounter.first, avatar.stype));
-            encounter.does(|deed| matches!(deed, Deed::Speed(_))) || (of_avatar && encounter.does(displaces))
+            encounter.does(|effect| matches!(effect, EffectSummary::Speed(_)))
+                || (of_avatar && encounter.does(displaces))
         })
 }
 
@@ -150,16 +159,18 @@ impl Board<'_> {
                 self.still.contains(&there)
                     && partner.is_some_and(|partner| self.analysis.applies(partner, there))
             };
-            let back = |deed: &Deed| match deed {
-                Deed::Stop => side == Side::First,
-                Deed::Undo(spare) => !spare.contains(&stype),
+            let back = |effect: &EffectSummary| match effect {
+                EffectSummary::Stop => side == Side::First,
+                EffectSummary::Undo(spare) => !spare.contains(&stype),
                 _ => false,
             };
-            rule.provided == Provided::Always && rule.does(back) && here.iter().any(always)
+            rule.precondition == Precondition::Always && rule.does(back) && here.iter().any(always)
         };
         let last_push = self
             .rules_of(stype)
-            .filter(|(_, side, rule)| *side == Side::First && rule.does(|deed| *deed == Deed::Push))
+            .filter(|(_, side, rule)| {
+                *side == Side::First && rule.does(|effect| *effect == EffectSummary::Push)
+            })
             .map(|(at, ..)| at)
             .max();
         let back = self.rules_of(stype).find(|(_, side, rule)| throws(*side, rule)).map(|(at, ..)| at);
@@ -168,7 +179,15 @@ impl Board<'_> {
 
     /// Returns `true` if only pushes move sprites of the type.
     fn only_pushed(&self, stype: SpriteType) -> bool {
-        let moves = |deed: &Deed| matches!(deed, Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Speed(_));
+        let moves = |effect: &EffectSummary| {
+            matches!(
+                effect,
+                EffectSummary::Carry
+                    | EffectSummary::Teleport
+                    | EffectSummary::Wrap
+                    | EffectSummary::Speed(_)
+            )
+        };
         self.analysis.facts(stype).motion == Motion::Still
             && self.analysis.facts(stype).makes.is_empty()
             && !self.analysis.facts(stype).fleeting
@@ -180,7 +199,7 @@ impl Board<'_> {
         let avatars = self.analysis.avatars();
         self.rules_of(stype).any(|(_, side, rule)| {
             side == Side::First
-                && rule.does(|deed| matches!(deed, Deed::Push))
+                && rule.does(|effect| matches!(effect, EffectSummary::Push))
                 && !rule.second.is_some_and(|second| {
                     let tree = self.analysis.game().sprite_types();
                     let mut tree = tree.filter(|&other| self.analysis.applies(second, other));
@@ -220,12 +239,12 @@ impl Board<'_> {
             if !self.may_be_met(rule, other, cell) {
                 continue;
             }
-            for deed in &rule.deeds {
-                match deed {
-                    Deed::Kill(who) if *who == side => fates.push(None),
-                    Deed::Health { of: None, .. } if side == Side::First => fates.push(None),
-                    Deed::Become(to) if side == Side::First => fates.push(Some(*to)),
-                    Deed::BecomeAny(options) if side == Side::First => {
+            for effect in &rule.effects {
+                match effect {
+                    EffectSummary::Kill(who) if *who == side => fates.push(None),
+                    EffectSummary::Health { of: None, .. } if side == Side::First => fates.push(None),
+                    EffectSummary::Become(to) if side == Side::First => fates.push(Some(*to)),
+                    EffectSummary::BecomeAny(options) if side == Side::First => {
                         fates.extend(options.iter().map(|to| Some(*to)));
                     }
                     _ => {}
@@ -233,14 +252,16 @@ impl Board<'_> {
             }
         }
         for rule in self.analysis.encounters() {
-            for deed in &rule.deeds {
-                match deed {
-                    Deed::KillAll(of) | Deed::Health { of: Some(of), .. }
+            for effect in &rule.effects {
+                match effect {
+                    EffectSummary::KillAll(of) | EffectSummary::Health { of: Some(of), .. }
                         if self.analysis.applies(*of, stype) =>
                     {
                         fates.push(None);
                     }
-                    Deed::BecomeAll(of, to) if self.analysis.applies(*of, stype) => fates.push(Some(*to)),
+                    EffectSummary::BecomeAll(of, to) if self.analysis.applies(*of, stype) => {
+                        fates.push(Some(*to))
+                    }
                     _ => {}
                 }
             }

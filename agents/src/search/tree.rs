@@ -4,7 +4,7 @@
 use super::{Answer, Pushes, SearchLimits, Searched};
 use crate::progress::Progress;
 use arrayvec::ArrayVec;
-use engine::analysis::{Analysis, Keying};
+use engine::analysis::{Analysis, StateAbstraction};
 use engine::{Action, Outcome, Packed, SearchKey, State};
 use std::hash::{BuildHasherDefault, Hasher};
 use std::rc::Rc;
@@ -59,7 +59,7 @@ pub(super) struct Kept {
 /// The tree of a search.
 pub(super) struct Tree<'a> {
     analysis: &'a Analysis,
-    keying: Keying,
+    abstraction: StateAbstraction,
     pushes: &'a Pushes,
     progress: Progress<'a>,
     /// The node nearest to a win, with its distance.
@@ -97,7 +97,7 @@ impl<'a> Tree<'a> {
         limits: SearchLimits,
     ) -> Tree<'a> {
         let game = analysis.game();
-        let keying = analysis.keying(start);
+        let abstraction = analysis.abstraction(start);
         // All actions of any avatar, and waiting.
         let mut actions = vec![Action::Nil];
         for avatar in analysis.avatars() {
@@ -105,13 +105,13 @@ impl<'a> Tree<'a> {
         }
         actions.sort_unstable();
         actions.dedup();
-        let met = Met::from_iter([(keying.key(analysis, start), ROOT)]);
+        let met = Met::from_iter([(abstraction.key(analysis, start), ROOT)]);
         Tree {
             analysis,
             pushes,
             progress: Progress::of(analysis),
             nearest: (u32::MAX, ROOT),
-            keying,
+            abstraction,
             base: start.clone(),
             nodes: vec![Node { parent: ROOT, depth: 0, action: Action::Nil, expanded: false }],
             met,
@@ -123,8 +123,8 @@ impl<'a> Tree<'a> {
         }
     }
 
-    pub(super) fn keying(&self) -> &Keying {
-        &self.keying
+    pub(super) fn abstraction(&self) -> &StateAbstraction {
+        &self.abstraction
     }
 
     pub(super) fn root(&mut self) -> Kept {
@@ -194,7 +194,7 @@ impl<'a> Tree<'a> {
                 Outcome::Lost | Outcome::Ended | Outcome::Stopped(_) => continue,
             }
             let next = self.nodes.len() as NodeId;
-            let id = *self.met.entry(self.keying.key(self.analysis, child)).or_insert(next);
+            let id = *self.met.entry(self.abstraction.key(self.analysis, child)).or_insert(next);
             if id == next {
                 self.add(node, action);
                 self.nearest = self.nearest.min((self.progress.missing(child), id));

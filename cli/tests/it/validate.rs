@@ -171,7 +171,7 @@ fn malformed_games_are_named_with_line_and_help() {
     malformed(head, LEVEL, "game.vgdl:1:", &["missing-section", "TerminationSet"]);
     malformed(&GAME.replace("MovingAvatar", "MovnigAvatar"), LEVEL, "game.vgdl:7:", &["`MovingAvatar`?"]);
     malformed(&GAME.replace("limit=300", "limt=300"), LEVEL, "game.vgdl:21:", &["`limit`?"]);
-    malformed("", LEVEL, "game.vgdl", &["holds no game"]);
+    malformed("", LEVEL, "game.vgdl", &["contains no game"]);
     malformed("\u{1}\u{2}ELF", LEVEL, "game.vgdl", &["control character"]);
 }
 

@@ -1,10 +1,10 @@
 //! Tests, from the rules alone, whether a termination can ever hold.
 
 use super::Analysis;
-use super::encounter::{Deed, Side, clockwork};
+use super::encounter::{EffectSummary, Side, timed_effects};
 use super::facts::Facts;
+use super::futures::PossibleFutures;
 use super::goal::{Condition, Goal};
-use super::prospect::Prospect;
 use super::requirement::MAX_GOALS;
 use crate::game::{Rules, SpriteType};
 use crate::limits::MAX_TICKS;
@@ -28,28 +28,33 @@ pub enum Attainable {
 }
 
 /// The ways in which the numbers of sprites can change in play.
-struct Flux {
+struct PopulationChanges {
     /// By type: such sprites can exist.
-    there: Vec<bool>,
+    exists: Vec<bool>,
     /// By type: a sprite can disappear without a replacement.
-    goes: Vec<bool>,
+    disappears: Vec<bool>,
     /// By type: a sprite can appear without replacing another.
     appears: Vec<bool>,
     /// Pairs of types: a sprite of the first can turn into one of the second.
     turns: Vec<(SpriteType, SpriteType)>,
 }
 
-/// Determines how each goal can be attained. Cost: that of a [`Prospect`], and O(types × types) for each of the first
+/// Determines how each goal can be attained. Cost: that of a [`PossibleFutures`], and O(types × types) for each of the first
 /// [`MAX_GOALS`]; the others are assumed to be [`Attainable::InPlay`].
-pub(super) fn judge(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>, goals: &mut [Goal]) {
-    let flux = Flux::of(rules, facts, prospect);
+pub(super) fn find_attainable(
+    rules: &Rules,
+    facts: &[Facts],
+    futures: &PossibleFutures<'_>,
+    goals: &mut [Goal],
+) {
+    let changes = PopulationChanges::of(rules, facts, futures);
     let held_up = can_be_held_up(rules);
     for goal in goals.iter_mut().take(MAX_GOALS) {
         let kinds = match rules.terminations[goal.line].condition {
             Written::MultiSpriteCounterSubTypes { kinds, .. } => Some(kinds),
             _ => None,
         };
-        goal.attainable = match flux.judge(&goal.condition, kinds) {
+        goal.attainable = match changes.attainability(&goal.condition, kinds) {
             // A condition that holds from the start may end the game later, once a StopCounter lets it.
             Attainable::AtOnce | Attainable::FromStart
                 if held_up && !matches!(goal.condition, Condition::Tick(_)) =>
@@ -61,87 +66,96 @@ pub(super) fn judge(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>, goa
     }
 }
 
-impl Flux {
-    fn of(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>) -> Flux {
+impl PopulationChanges {
+    fn of(rules: &Rules, facts: &[Facts], futures: &PossibleFutures<'_>) -> PopulationChanges {
         let none = vec![false; facts.len()];
-        let there = prospect.there.clone();
-        let mut flux = Flux { there, goes: none.clone(), appears: none, turns: Vec::new() };
-        for at in (0..facts.len()).filter(|&at| prospect.there[at]) {
-            flux.goes[at] = is_mortal(rules, SpriteType(at as u16));
+        let exists = futures.exists.clone();
+        let mut changes =
+            PopulationChanges { exists, disappears: none.clone(), appears: none, turns: Vec::new() };
+        for at in (0..facts.len()).filter(|&at| futures.exists[at]) {
+            changes.disappears[at] = disappears_by_itself(rules, SpriteType(at as u16));
             for (kind, made) in facts[at].makes.iter().enumerate() {
-                flux.appears[made.index()] |= prospect.can_make(at, kind);
+                changes.appears[made.index()] |= futures.can_make(at, kind);
             }
         }
         let mut turns = vec![false; facts.len() * facts.len()];
-        for (encounter, _) in prospect.encounters().iter().zip(&prospect.live).filter(|(_, live)| **live) {
+        for (encounter, _) in futures.encounters().iter().zip(&futures.live).filter(|(_, live)| **live) {
             let sides = [Some(encounter.first), encounter.second];
             let sides = sides.map(|written| written.map_or(&[][..], |w| &*rules.types[w.index()].tree));
-            flux.add(rules, sides, &encounter.deeds, &mut turns);
+            changes.add(rules, sides, &encounter.effects, &mut turns);
         }
-        for ((target, deeds), _) in clockwork(rules).iter().zip(&prospect.timed).filter(|(_, live)| **live) {
+        for ((target, effects), _) in
+            timed_effects(rules).iter().zip(&futures.timed).filter(|(_, live)| **live)
+        {
             let tree = target.map_or(&[][..], |target| &*rules.types[target.index()].tree);
-            flux.add(rules, [tree, &[]], deeds, &mut turns);
+            changes.add(rules, [tree, &[]], effects, &mut turns);
         }
         let types = facts.len();
         let pairs = (0..turns.len()).filter(|&at| turns[at]);
         let pair = |at: usize| (SpriteType((at / types) as u16), SpriteType((at % types) as u16));
-        flux.turns = pairs.map(pair).filter(|(from, _)| flux.there[from.index()]).collect();
-        flux
+        changes.turns = pairs.map(pair).filter(|(from, _)| changes.exists[from.index()]).collect();
+        changes
     }
 
     /// Adds the effects on the sprites of both sides.
-    fn add(&mut self, rules: &Rules, sides: [&[SpriteType]; 2], deeds: &[Deed], turns: &mut [bool]) {
-        let types = self.there.len();
+    fn add(
+        &mut self,
+        rules: &Rules,
+        sides: [&[SpriteType]; 2],
+        effects: &[EffectSummary],
+        turns: &mut [bool],
+    ) {
+        let types = self.exists.len();
         let mut turn = |from: SpriteType, to: SpriteType| turns[from.index() * types + to.index()] = true;
-        for deed in deeds {
-            let gone: &[SpriteType] = match deed {
-                Deed::Kill(Side::Second) => sides[1],
-                Deed::KillAll(stype) => std::slice::from_ref(stype),
+        for effect in effects {
+            let gone: &[SpriteType] = match effect {
+                EffectSummary::Kill(Side::Second) => sides[1],
+                EffectSummary::KillAll(stype) => std::slice::from_ref(stype),
                 // Without an exit, the sprite dies.
-                Deed::Kill(Side::First) | Deed::Teleport => sides[0],
-                Deed::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
+                EffectSummary::Kill(Side::First) | EffectSummary::Teleport => sides[0],
+                EffectSummary::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
                     let other = of.map_or(&[][..], |of| &*rules.types[of.index()].tree);
-                    other.iter().for_each(|stype| self.goes[stype.index()] = true);
+                    other.iter().for_each(|stype| self.disappears[stype.index()] = true);
                     sides[0]
                 }
-                Deed::Become(to) => {
+                EffectSummary::Become(to) => {
                     sides[0].iter().for_each(|&from| turn(from, *to));
                     &[]
                 }
-                Deed::BecomeAny(options) => {
+                EffectSummary::BecomeAny(options) => {
                     for &from in sides[0] {
                         options.iter().for_each(|&to| turn(from, to));
                     }
                     &[]
                 }
-                Deed::BecomeAll(from, to) => {
+                EffectSummary::BecomeAll(from, to) => {
                     turn(*from, *to);
                     &[]
                 }
-                Deed::Make(stype) => {
+                EffectSummary::Make(stype) => {
                     self.appears[stype.index()] = true;
                     &[]
                 }
-                Deed::Clone => {
+                EffectSummary::Clone => {
                     sides[0].iter().for_each(|stype| self.appears[stype.index()] = true);
                     &[]
                 }
                 _ => &[],
             };
-            gone.iter().for_each(|stype| self.goes[stype.index()] = true);
+            gone.iter().for_each(|stype| self.disappears[stype.index()] = true);
         }
     }
 
     /// `kinds`: the number of kinds that must be alive, if the termination asks for one.
-    fn judge(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
-        let mut weights = vec![0u32; self.there.len()];
-        for stype in condition.types().iter().filter(|stype| self.there[stype.index()]) {
+    fn attainability(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
+        let mut weights = vec![0u32; self.exists.len()];
+        for stype in condition.types().iter().filter(|stype| self.exists[stype.index()]) {
             weights[stype.index()] += 1;
         }
         let counted = || (0..weights.len()).filter(|&at| weights[at] > 0);
         let turns = || self.turns.iter().map(|(from, to)| (weights[from.index()], weights[to.index()]));
         let empty = counted().next().is_none();
-        let falls = counted().any(|at| self.goes[at]) || turns().any(|(from, to)| from > to);
+        let falls = counted().any(|at| self.disappears[at]) || turns().any(|(from, to)| from > to);
         let rises = counted().any(|at| self.appears[at]) || turns().any(|(from, to)| from < to);
         let when = |possible: bool| if possible { Attainable::InPlay } else { Attainable::FromStart };
         match (condition, kinds) {
@@ -175,7 +189,7 @@ impl Flux {
 }
 
 /// Returns `true` if sprites of the type disappear by themselves.
-pub(super) fn is_mortal(rules: &Rules, stype: SpriteType) -> bool {
+pub(super) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
     let is_a = |class: SpriteClass| info.class.is_some_and(|own| own.is_a(class));
     let spawner = is_a(SpriteClass::SpawnPoint) || is_a(SpriteClass::SpawnPointMultiSprite);

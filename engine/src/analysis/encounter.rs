@@ -1,4 +1,4 @@
-//! Interactions in a neutral form: the two sprites, the effects and the condition.
+//! Interactions in summarised form: the two sprites, the effects and the condition.
 
 use crate::game::{Rules, SpriteType};
 use crate::ontology::effects::Effect;
@@ -24,7 +24,7 @@ impl Side {
 
 /// One effect of an interaction.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Deed {
+pub enum EffectSummary {
     /// The sprite of that side is removed.
     Kill(Side),
     /// Every sprite of exactly this type is removed.
@@ -60,7 +60,7 @@ pub enum Deed {
     /// The sprite of that side gains (or loses) this amount of a resource.
     Change {
         /// The side whose resources change.
-        who: Side,
+        side: Side,
         /// The resource.
         resource: SpriteType,
         /// The change in the amount.
@@ -85,11 +85,13 @@ pub enum Deed {
     },
 }
 
-impl Deed {
+impl EffectSummary {
     fn names(&self, stype: SpriteType) -> bool {
         match self {
-            Deed::Make(made) | Deed::Become(made) | Deed::Change { resource: made, .. } => *made == stype,
-            Deed::Health { of, .. } => *of == Some(stype),
+            EffectSummary::Make(made)
+            | EffectSummary::Become(made)
+            | EffectSummary::Change { resource: made, .. } => *made == stype,
+            EffectSummary::Health { of, .. } => *of == Some(stype),
             _ => false,
         }
     }
@@ -97,7 +99,7 @@ impl Deed {
 
 /// The condition under which an interaction takes effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Provided {
+pub enum Precondition {
     /// At every meeting.
     Always,
     /// The sprite of that side holds at least this amount of the resource.
@@ -107,10 +109,10 @@ pub enum Provided {
     /// With that probability.
     Chance(f64),
     /// Depends on the movement of the two: from above, head-on, leaving a place behind.
-    Way,
+    Movement,
 }
 
-/// One interaction line with one of its partners, in neutral form.
+/// One interaction line with one of its partners, in summarised form.
 #[derive(Clone, Debug)]
 pub struct Encounter {
     /// The type named first, as written. The rule holds for its whole tree (see
@@ -119,9 +121,9 @@ pub struct Encounter {
     /// The partner, as written; none: the edge of the screen.
     pub second: Option<SpriteType>,
     /// The effects, in order.
-    pub deeds: SmallVec<[Deed; 2]>,
+    pub effects: SmallVec<[EffectSummary; 2]>,
     /// The condition.
-    pub provided: Provided,
+    pub precondition: Precondition,
     /// The change in the score if the interaction happens.
     pub score: i32,
     /// Index of the line in [`Description::interactions`](crate::Description).
@@ -134,21 +136,21 @@ pub struct Encounter {
 
 impl Encounter {
     /// Returns `true` if `wanted` accepts one of the effects.
-    pub fn does(&self, wanted: impl Fn(&Deed) -> bool) -> bool {
-        self.deeds.iter().any(wanted)
+    pub fn does(&self, wanted: impl Fn(&EffectSummary) -> bool) -> bool {
+        self.effects.iter().any(wanted)
     }
 
     /// Returns `true` if the first sprite is blocked: it, or everything, moves back.
     pub fn blocks(&self) -> bool {
-        self.does(|deed| matches!(deed, Deed::Stop | Deed::Undo(_)))
+        self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
 
     /// Returns `true` if the sprite of that side is removed or turns into another type.
     pub fn ends(&self, side: Side) -> bool {
-        self.does(|deed| match deed {
-            Deed::Kill(who) => *who == side,
-            Deed::Become(_) | Deed::BecomeAny(_) => side == Side::First,
-            Deed::Health { of: None, by, .. } => side == Side::First && *by < 0,
+        self.does(|effect| match effect {
+            EffectSummary::Kill(killed) => *killed == side,
+            EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => side == Side::First,
+            EffectSummary::Health { of: None, by, .. } => side == Side::First && *by < 0,
             _ => false,
         })
     }
@@ -169,159 +171,166 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     }
     let encounter = |(first, second, effect, keyword): (SpriteType, Option<SpriteType>, u16, u16)| {
         let info = &rules.effects[usize::from(effect)];
-        let (mut deeds, mut provided) = neutral(&info.effect);
+        let (mut effects, mut precondition) = summarise(&info.effect);
         if let Effect::AddTimer { timed } = info.effect {
-            deeds.extend(later(rules, timed));
+            effects.extend(global_part(rules, timed));
         }
         // Effects on or with undeclared types, in games loaded as the reference does, never happen.
-        deeds.retain(|deed| !deed.names(SpriteType::NONE));
-        if matches!(provided, Provided::Holds(_, SpriteType::NONE, _)) {
-            provided = Provided::Way;
+        effects.retain(|effect| !effect.names(SpriteType::NONE));
+        if matches!(precondition, Precondition::Holds(_, SpriteType::NONE, _)) {
+            precondition = Precondition::Movement;
         }
         let score = match info.effect {
             Effect::SubtractHealthPoints { score_if_killed, .. } if score_if_killed != 0 => score_if_killed,
             _ if info.apply_score => info.score_change,
             _ => 0,
         };
-        Encounter { first, second, deeds, provided, score, line: info.line, effect, keyword }
+        Encounter { first, second, effects, precondition, score, line: info.line, effect, keyword }
     };
     seen.into_iter().map(encounter).collect()
 }
 
 /// Returns the timed effects, each with the type of its target (none: no particular sprite).
-pub(super) fn clockwork(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[Deed; 2]>)> {
-    let deeds = |effect: u16| {
-        let (mut deeds, _) = neutral(&rules.effects[usize::from(effect)].effect);
-        deeds.retain(|deed| !deed.names(SpriteType::NONE));
-        deeds
+pub(super) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)> {
+    let effects = |effect: u16| {
+        let (mut effects, _) = summarise(&rules.effects[usize::from(effect)].effect);
+        effects.retain(|effect| !effect.names(SpriteType::NONE));
+        effects
     };
-    rules.timed.iter().map(|timed| (timed.target, deeds(timed.effect))).collect()
+    rules.timed.iter().map(|timed| (timed.target, effects(timed.effect))).collect()
 }
 
 /// Returns the part of a timed effect that concerns all sprites of a type. (Effects that need one particular sprite
 /// find none.)
-fn later(rules: &Rules, timed: u16) -> impl Iterator<Item = Deed> {
+fn global_part(rules: &Rules, timed: u16) -> impl Iterator<Item = EffectSummary> {
     let effect = rules.timed[usize::from(timed)].effect;
-    let (deeds, _) = neutral(&rules.effects[usize::from(effect)].effect);
-    let at_large = |deed: &Deed| {
+    let (effects, _) = summarise(&rules.effects[usize::from(effect)].effect);
+    let at_large = |effect: &EffectSummary| {
         matches!(
-            deed,
-            Deed::KillAll(_) | Deed::BecomeAll(..) | Deed::Speed(Some(_)) | Deed::Health { of: Some(_), .. }
+            effect,
+            EffectSummary::KillAll(_)
+                | EffectSummary::BecomeAll(..)
+                | EffectSummary::Speed(Some(_))
+                | EffectSummary::Health { of: Some(_), .. }
         )
     };
-    deeds.into_iter().filter(at_large)
+    effects.into_iter().filter(at_large)
 }
 
 /// Returns the effects and their condition, without the details.
-fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
+fn summarise(effect: &Effect) -> (SmallVec<[EffectSummary; 2]>, Precondition) {
     use Side::{First, Second};
-    let always = |deeds: SmallVec<[Deed; 2]>| (deeds, Provided::Always);
+    let always = |effects: SmallVec<[EffectSummary; 2]>| (effects, Precondition::Always);
     // A second effect, requested by a flag of the first.
-    let with = |deed: Deed, flag: bool, more: Deed| {
-        let mut deeds: SmallVec<[Deed; 2]> = smallvec![deed];
-        deeds.extend(flag.then_some(more));
-        deeds
+    let with = |effect: EffectSummary, flag: bool, more: EffectSummary| {
+        let mut effects: SmallVec<[EffectSummary; 2]> = smallvec![effect];
+        effects.extend(flag.then_some(more));
+        effects
     };
-    let chance = |prob: f64| if prob < 1.0 { Provided::Chance(prob) } else { Provided::Always };
+    let chance = |prob: f64| if prob < 1.0 { Precondition::Chance(prob) } else { Precondition::Always };
     match *effect {
-        Effect::KillSprite | Effect::KillIfAlive => always(smallvec![Deed::Kill(First)]),
-        Effect::KillBoth => always(smallvec![Deed::Kill(First), Deed::Kill(Second)]),
-        Effect::KillAll { stype } => always(smallvec![Deed::KillAll(stype)]),
+        Effect::KillSprite | Effect::KillIfAlive => always(smallvec![EffectSummary::Kill(First)]),
+        Effect::KillBoth => always(smallvec![EffectSummary::Kill(First), EffectSummary::Kill(Second)]),
+        Effect::KillAll { stype } => always(smallvec![EffectSummary::KillAll(stype)]),
         Effect::KillIfFromAbove | Effect::KillIfFrontal { .. } => {
-            (smallvec![Deed::Kill(First)], Provided::Way)
+            (smallvec![EffectSummary::Kill(First)], Precondition::Movement)
         }
         Effect::KillIfHasLess { resource, limit } => {
-            (smallvec![Deed::Kill(First)], Provided::HoldsAtMost(First, resource, limit))
+            (smallvec![EffectSummary::Kill(First)], Precondition::HoldsAtMost(First, resource, limit))
         }
         Effect::KillIfHasMore { resource, limit } => {
-            (smallvec![Deed::Kill(First)], Provided::Holds(First, resource, limit))
+            (smallvec![EffectSummary::Kill(First)], Precondition::Holds(First, resource, limit))
         }
         Effect::KillIfOtherHasMore { resource, limit, subtract } => {
-            let spend = Deed::Change { who: Second, resource, by: limit.saturating_neg() };
-            (with(Deed::Kill(First), subtract, spend), Provided::Holds(Second, resource, limit))
+            let spend = EffectSummary::Change { side: Second, resource, by: limit.saturating_neg() };
+            (with(EffectSummary::Kill(First), subtract, spend), Precondition::Holds(Second, resource, limit))
         }
         Effect::AddHealthPoints { value, kill_second, .. } => {
-            let health = Deed::Health { of: None, by: value, dies_at: i32::MIN };
-            always(with(health, kill_second, Deed::Kill(Second)))
+            let health = EffectSummary::Health { of: None, by: value, dies_at: i32::MIN };
+            always(with(health, kill_second, EffectSummary::Kill(Second)))
         }
         Effect::SubtractHealthPoints { value, limit, stype, .. } => {
-            always(smallvec![Deed::Health { of: stype, by: value.saturating_neg(), dies_at: limit }])
+            always(smallvec![EffectSummary::Health { of: stype, by: value.saturating_neg(), dies_at: limit }])
         }
-        Effect::StepBack { .. } => always(smallvec![Deed::Stop]),
-        Effect::UndoAll { ref spare } => always(smallvec![Deed::Undo(spare.clone())]),
-        Effect::TurnAround => always(smallvec![Deed::Stop, Deed::Turn]),
-        Effect::ReverseDirection | Effect::FlipDirection => always(smallvec![Deed::Turn]),
-        Effect::AttractGaze { prob, .. } => (smallvec![Deed::Turn], chance(prob)),
-        Effect::HalfSpeed => always(smallvec![Deed::Speed(None)]),
-        Effect::ChangeSpeed { stype, .. } => always(smallvec![Deed::Speed(Some(stype))]),
-        Effect::WrapAround { .. } => always(smallvec![Deed::Wrap]),
-        Effect::Align { .. } | Effect::PullWithIt { .. } => always(smallvec![Deed::Carry]),
-        Effect::BounceForward => always(smallvec![Deed::Push]),
-        Effect::TeleportToExit => always(smallvec![Deed::Teleport]),
-        Effect::Spawn { stype, prob } => (smallvec![Deed::Make(stype)], chance(prob)),
-        Effect::SpawnBeside { stype, step_back, prob, .. } => {
-            (smallvec![Deed::Make(stype)], if step_back { Provided::Way } else { chance(prob) })
-        }
-        Effect::SpawnBehind { stype, .. } => (smallvec![Deed::Make(stype)], Provided::Way),
+        Effect::StepBack { .. } => always(smallvec![EffectSummary::Stop]),
+        Effect::UndoAll { ref spare } => always(smallvec![EffectSummary::Undo(spare.clone())]),
+        Effect::TurnAround => always(smallvec![EffectSummary::Stop, EffectSummary::Turn]),
+        Effect::ReverseDirection | Effect::FlipDirection => always(smallvec![EffectSummary::Turn]),
+        Effect::AttractGaze { prob, .. } => (smallvec![EffectSummary::Turn], chance(prob)),
+        Effect::HalfSpeed => always(smallvec![EffectSummary::Speed(None)]),
+        Effect::ChangeSpeed { stype, .. } => always(smallvec![EffectSummary::Speed(Some(stype))]),
+        Effect::WrapAround { .. } => always(smallvec![EffectSummary::Wrap]),
+        Effect::Align { .. } | Effect::PullWithIt { .. } => always(smallvec![EffectSummary::Carry]),
+        Effect::BounceForward => always(smallvec![EffectSummary::Push]),
+        Effect::TeleportToExit => always(smallvec![EffectSummary::Teleport]),
+        Effect::Spawn { stype, prob } => (smallvec![EffectSummary::Make(stype)], chance(prob)),
+        Effect::SpawnBeside { stype, step_back, prob, .. } => (
+            smallvec![EffectSummary::Make(stype)],
+            if step_back { Precondition::Movement } else { chance(prob) },
+        ),
+        Effect::SpawnBehind { stype, .. } => (smallvec![EffectSummary::Make(stype)], Precondition::Movement),
         Effect::SpawnIf { resource, limit, stype, spend, more, .. } => {
-            let spends = Deed::Change { who: First, resource, by: spend.saturating_neg() };
-            let provided = if more {
-                Provided::Holds(First, resource, limit)
+            let spends = EffectSummary::Change { side: First, resource, by: spend.saturating_neg() };
+            let precondition = if more {
+                Precondition::Holds(First, resource, limit)
             } else {
-                Provided::HoldsAtMost(First, resource, limit)
+                Precondition::HoldsAtMost(First, resource, limit)
             };
-            (with(Deed::Make(stype), more && spend != 0, spends), provided)
+            (with(EffectSummary::Make(stype), more && spend != 0, spends), precondition)
         }
-        Effect::CloneSprite => always(smallvec![Deed::Clone]),
+        Effect::CloneSprite => always(smallvec![EffectSummary::Clone]),
         Effect::TransformTo { stype, kill_second, .. } => {
-            always(with(Deed::Become(stype), kill_second, Deed::Kill(Second)))
+            always(with(EffectSummary::Become(stype), kill_second, EffectSummary::Kill(Second)))
         }
         Effect::TransformToAll { stype, to, kill_second, .. } => {
-            always(with(Deed::BecomeAll(stype, to), kill_second, Deed::Kill(Second)))
+            always(with(EffectSummary::BecomeAll(stype, to), kill_second, EffectSummary::Kill(Second)))
         }
         Effect::TransformToRandomChild { ref options, kill_second, .. } => {
-            always(with(Deed::BecomeAny(options.clone()), kill_second, Deed::Kill(Second)))
+            always(with(EffectSummary::BecomeAny(options.clone()), kill_second, EffectSummary::Kill(Second)))
         }
         Effect::CollectResource { kill_resource } => {
-            always(with(Deed::Collect, kill_resource, Deed::Kill(First)))
+            always(with(EffectSummary::Collect, kill_resource, EffectSummary::Kill(First)))
         }
         Effect::CollectResourceIfHeld { held, value, kill_resource } => {
-            let deeds = with(Deed::Collect, kill_resource, Deed::Kill(First));
-            (deeds, Provided::Holds(Second, held, value))
+            let effects = with(EffectSummary::Collect, kill_resource, EffectSummary::Kill(First));
+            (effects, Precondition::Holds(Second, held, value))
         }
         Effect::ChangeResource { resource, value, kill_resource } => {
-            let change = Deed::Change { who: First, resource, by: value };
-            always(with(change, kill_resource, Deed::Kill(Second)))
+            let change = EffectSummary::Change { side: First, resource, by: value };
+            always(with(change, kill_resource, EffectSummary::Kill(Second)))
         }
         Effect::KillIfSpeed { .. } | Effect::KillIfNotUpright => {
-            (smallvec![Deed::Kill(First)], Provided::Way)
+            (smallvec![EffectSummary::Kill(First)], Precondition::Movement)
         }
         Effect::RemoveScore { kill_second, .. } => {
-            always(if kill_second { smallvec![Deed::Kill(Second)] } else { smallvec![] })
+            always(if kill_second { smallvec![EffectSummary::Kill(Second)] } else { smallvec![] })
         }
-        Effect::UpdateSpawnType { stype, .. } => always(smallvec![Deed::Make(stype)]),
+        Effect::UpdateSpawnType { stype, .. } => always(smallvec![EffectSummary::Make(stype)]),
         Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => {
-            (smallvec![Deed::Make(stype), Deed::Make(otherwise)], Provided::Way)
+            (smallvec![EffectSummary::Make(stype), EffectSummary::Make(otherwise)], Precondition::Movement)
         }
         Effect::TransformIfCount(ref rule) => {
-            let mut deeds: SmallVec<[Deed; 2]> = rule.otherwise.into_iter().map(Deed::Become).collect();
-            deeds.push(Deed::Become(rule.stype));
-            deeds.extend(rule.kill_second.then_some(Deed::Kill(Second)));
-            (deeds, Provided::Way)
+            let mut effects: SmallVec<[EffectSummary; 2]> =
+                rule.otherwise.into_iter().map(EffectSummary::Become).collect();
+            effects.push(EffectSummary::Become(rule.stype));
+            effects.extend(rule.kill_second.then_some(EffectSummary::Kill(Second)));
+            (effects, Precondition::Movement)
         }
         Effect::TransformToSingleton { stype, other, .. } => {
-            always(smallvec![Deed::Become(stype), Deed::BecomeAll(stype, other)])
+            always(smallvec![EffectSummary::Become(stype), EffectSummary::BecomeAll(stype, other)])
         }
-        Effect::WaterPhysics => always(smallvec![Deed::Speed(None)]),
-        Effect::BounceDirection { .. } => always(smallvec![Deed::Turn]),
-        Effect::WallStop => always(smallvec![Deed::Stop]),
-        Effect::WallBounce | Effect::WallReverse => always(smallvec![Deed::Stop, Deed::Turn]),
-        // The effect happens later: see `later`.
+        Effect::WaterPhysics => always(smallvec![EffectSummary::Speed(None)]),
+        Effect::BounceDirection { .. } => always(smallvec![EffectSummary::Turn]),
+        Effect::WallStop => always(smallvec![EffectSummary::Stop]),
+        Effect::WallBounce | Effect::WallReverse => {
+            always(smallvec![EffectSummary::Stop, EffectSummary::Turn])
+        }
+        // The effect happens later: see `global_part`.
         Effect::AddTimer { .. } | Effect::Disabled(_) => always(smallvec![]),
         Effect::ShieldFrom { stype, keyword } => {
             let keyword =
                 crate::ontology::effects::NAMES.get(usize::from(keyword)).copied().unwrap_or_default();
-            always(smallvec![Deed::Shield { from: stype, keyword }])
+            always(smallvec![EffectSummary::Shield { from: stype, keyword }])
         }
     }
 }

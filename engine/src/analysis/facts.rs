@@ -1,7 +1,7 @@
 //! Properties of a sprite type by itself: its movement, the sprites it makes, and whether it can occur.
 
-use super::encounter::{Encounter, Provided};
-use super::prospect::{Prospect, Start};
+use super::encounter::{Encounter, Precondition};
+use super::futures::{PossibleFutures, Start};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
@@ -131,9 +131,9 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
         fact.symbols.sort_by_key(|&symbol| (rules.mapping[usize::from(symbol)].len(), symbol));
     }
     let placed = (0u16..).map(SpriteType).zip(&facts).filter(|(_, fact)| !fact.symbols.is_empty());
-    let there = placed.map(|(stype, _)| stype).collect();
-    let start = Start { there, planned: Start::planned(rules), ..Start::default() };
-    let possible = Prospect::of(rules, &facts, encounters, start).there;
+    let existing = placed.map(|(stype, _)| stype).collect();
+    let start = Start { existing, scheduled: Start::scheduled(rules), ..Start::default() };
+    let possible = PossibleFutures::of(rules, &facts, encounters, start).exists;
     for (fact, possible) in facts.iter_mut().zip(possible) {
         fact.possible = possible;
     }
@@ -233,5 +233,5 @@ pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
 
 /// Returns `true` if an interaction happens whatever the avatar holds and however the sprites move.
 pub(super) fn is_certain(encounter: &Encounter) -> bool {
-    matches!(encounter.provided, Provided::Always | Provided::Chance(_))
+    matches!(encounter.precondition, Precondition::Always | Precondition::Chance(_))
 }

@@ -103,7 +103,7 @@ pub(super) fn goals(rules: &Rules) -> Vec<Goal> {
             Written::StopCounter { .. } => return None,
             Written::Timeout { limit } => Condition::Tick(*limit),
         };
-        // `attain::judge` determines `attainable` later.
+        // `attain::find_attainable` determines `attainable` later.
         Some(Goal { win: termination.win, condition, line, attainable: Attainable::InPlay })
     };
     rules.terminations.iter().enumerate().filter_map(goal).collect()

@@ -1,9 +1,9 @@
 //! Locks and keys, resources, and pushable sprites.
 
-use super::encounter::{Deed, Encounter, Provided, Side};
+use super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::facts::{Avatar, Facts, Motion, Steering};
+use super::futures::PossibleFutures;
 use super::pairs::Pairs;
-use super::prospect::Prospect;
 use super::touch::{Harm, Removal, Touch};
 use crate::game::{Rules, SpriteType};
 
@@ -146,11 +146,11 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
     pairs.with(stype, |partner, own, encounter| {
         let meeting = &mut meetings[partner.index()];
         let Meeting::Free(sink) = meeting else { return };
-        let stops = encounter.does(|deed| match deed {
-            Deed::Stop => own == Side::First,
-            Deed::Undo(spare) => !spare.contains(&stype),
+        let stops = encounter.does(|effect| match effect {
+            EffectSummary::Stop => own == Side::First,
+            EffectSummary::Undo(spare) => !spare.contains(&stype),
             // A row of pushed sprites moves together; that is too subtle to rely on.
-            Deed::Push => true,
+            EffectSummary::Push => true,
             _ => false,
         });
         if stops {
@@ -158,10 +158,10 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
             return;
         }
         sink.fills |= encounter.ends(own.other());
-        for deed in &encounter.deeds {
-            match deed {
-                Deed::Become(to) if own == Side::First => sink.fate = Fate::Becomes(*to),
-                Deed::KillAll(other) | Deed::BecomeAll(other, _) => sink.opens.push(*other),
+        for effect in &encounter.effects {
+            match effect {
+                EffectSummary::Become(to) if own == Side::First => sink.fate = Fate::Becomes(*to),
+                EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) => sink.opens.push(*other),
                 _ if encounter.ends(own) && sink.fate == Fate::Stays => sink.fate = Fate::Goes,
                 _ => {}
             }
@@ -176,14 +176,14 @@ pub(super) fn resources(
     facts: &[Facts],
     (avatars, touches): (&[Avatar], &Touches),
     givers: &Givers,
-    prospect: &Prospect<'_>,
+    futures: &PossibleFutures<'_>,
 ) -> Vec<Resource> {
     let types = (0u16..).map(SpriteType).zip(facts);
     let mut takers = changes(facts, touches, |by| by.saturating_neg());
     let resources = types.filter(|(_, fact)| fact.is_resource).map(|(stype, _)| {
-        let asks = encounters.iter().map(|encounter| match encounter.provided {
-            Provided::Holds(_, resource, amount) if resource == stype => amount,
-            Provided::HoldsAtMost(_, resource, amount) if resource == stype => amount.saturating_add(1),
+        let asks = encounters.iter().map(|encounter| match encounter.precondition {
+            Precondition::Holds(_, resource, amount) if resource == stype => amount,
+            Precondition::HoldsAtMost(_, resource, amount) if resource == stype => amount.saturating_add(1),
             _ => 0,
         });
         let needed = asks.max().unwrap_or(0);
@@ -193,7 +193,7 @@ pub(super) fn resources(
             givers: givers[stype.index()].clone(),
             takers: std::mem::take(&mut takers[stype.index()]),
             needed,
-            obtainable: prospect.can_hold(stype, needed),
+            obtainable: futures.can_hold(stype, needed),
             is_ammunition: avatars.iter().any(|avatar| avatar.ammo.contains(&stype)),
         }
     });

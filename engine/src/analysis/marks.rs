@@ -1,6 +1,6 @@
 //! The facts that interactions with other types establish about each type, gathered in one pass.
 
-use super::encounter::{Deed, Encounter, Side};
+use super::encounter::{EffectSummary, Encounter, Side};
 use super::facts::{Avatar, Facts, Motion, is_certain};
 use super::goal::Aims;
 use super::touch::Harm;
@@ -105,8 +105,8 @@ pub(super) fn marks(
 
 /// Returns `true` if an interaction makes a forbidden type.
 fn spoils(encounter: &Encounter, aims: &Aims) -> bool {
-    encounter.does(|deed| match deed {
-        Deed::Become(to) | Deed::Make(to) => aims.prevent.binary_search(to).is_ok(),
+    encounter.does(|effect| match effect {
+        EffectSummary::Become(to) | EffectSummary::Make(to) => aims.prevent.binary_search(to).is_ok(),
         _ => false,
     })
 }

@@ -5,45 +5,47 @@
 //! block, harm, open, transform, make, push or can be collected; resources and the amounts needed; and one [`Role`] for
 //! every type. A rule that names a parent holds for all its subtypes; every answer here already accounts for that.
 
-mod alike;
+mod abstraction;
 mod attain;
 mod encounter;
 mod facts;
+mod futures;
 mod goal;
-mod keying;
 mod lock;
 mod marks;
 mod outlook;
 mod pairs;
-mod prospect;
 mod reach;
 mod requirement;
 mod role;
 mod scenery;
+mod symmetry;
 mod taxonomy;
 mod touch;
-mod ways;
+mod win_methods;
 
+pub use abstraction::StateAbstraction;
 pub use attain::Attainable;
-pub use encounter::{Deed, Encounter, Provided, Side};
+pub use encounter::{EffectSummary, Encounter, Precondition, Side};
 pub use facts::{Avatar, Facts, Motion, Steering};
 pub use goal::{Aims, Condition, Goal};
-pub use keying::Keying;
 pub use lock::{Fate, Key, Lock, Pushable, Resource, Sink};
 pub use pairs::MAX_RULES_PER_PAIR;
-pub use reach::{Apart, Cause, Chain, Closed, Hindrance, Lack, Obstacle, Reach, Shortage, Source};
+pub use reach::{
+    Blocker, Cause, Chain, ImpossibleGoal, Missing, Obstacle, Reach, Shortage, Source, Unreachable,
+};
 pub use requirement::{MAX_GOALS, Reason, Requirement};
 pub use role::Role;
 pub use taxonomy::{Genre, Spatiality, Taxonomy, Time};
 pub use touch::{Harm, Removal, Touch};
-pub use ways::Means;
+pub use win_methods::WinMethod;
 
 use crate::game::{Game, SpriteType};
 use crate::geometry::Direction;
+use futures::{PossibleFutures, Start};
 use lock::Touches;
 use pairs::Pairs;
-use prospect::{Prospect, Start};
-use role::Basis;
+use role::RoleInputs;
 use std::collections::BTreeSet;
 
 /// The static analysis of one game. Immutable; the same game always gives the same analysis.
@@ -63,7 +65,7 @@ pub struct Analysis {
     locks: Vec<Lock>,
     roles: Vec<Role>,
     requirements: Vec<Requirement>,
-    chance_decides: bool,
+    is_stochastic: bool,
     unseen: Vec<SpriteType>,
 }
 
@@ -75,8 +77,8 @@ impl Analysis {
         let encounters = encounter::encounters(rules);
         let facts = facts::facts(rules, &encounters);
         let mut goals = goal::goals(rules);
-        let prospect = Prospect::of(rules, &facts, &encounters, Start::of_any_level(rules));
-        attain::judge(rules, &facts, &prospect, &mut goals);
+        let futures = PossibleFutures::of(rules, &facts, &encounters, Start::of_any_level(rules));
+        attain::find_attainable(rules, &facts, &futures, &mut goals);
         let aims = goal::aims(rules, &goals);
         let avatars = facts::avatars(rules, &facts);
         let types = || game.sprite_types();
@@ -89,7 +91,7 @@ impl Analysis {
         let harm: Vec<Harm> = types().map(worst).collect();
         let givers = lock::givers(&facts, &touches);
         let pushables = lock::pushables(&pairs, &facts, &avatars, &touches);
-        let resources = lock::resources(rules, &encounters, &facts, (&avatars, &touches), &givers, &prospect);
+        let resources = lock::resources(rules, &encounters, &facts, (&avatars, &touches), &givers, &futures);
         let locks = lock::locks(&facts, &avatars, &touches, &pushables, &givers);
         let threat = marks::threats(rules, &encounters, &facts, &aims);
         let bad = |stype: SpriteType| {
@@ -99,7 +101,7 @@ impl Analysis {
         };
         let source = sources(game, &encounters, &facts, &types().map(bad).collect::<Vec<bool>>());
         let marks = marks::marks(rules, &encounters, &facts, (&avatars, &aims), (&harm, &threat, &source));
-        let basis = Basis {
+        let basis = RoleInputs {
             rules,
             facts: &facts,
             avatars: &avatars,
@@ -112,11 +114,11 @@ impl Analysis {
             source: &source,
         };
         let roles: Vec<Role> = types().map(|stype| basis.role(stype)).collect();
-        let chance_decides = outlook::draws(rules, &prospect, None);
-        let unseen = outlook::unseen(rules, &facts, &prospect, &goals);
+        let is_stochastic = outlook::draws(rules, &futures, None);
+        let unseen = outlook::unseen(rules, &facts, &futures, &goals);
         let mut analysis = Analysis {
             game: game.clone(),
-            chance_decides,
+            is_stochastic,
             unseen,
             encounters,
             facts,
@@ -215,7 +217,7 @@ impl Analysis {
     /// O(encounters).
     pub fn blocks(&self, obstacle: SpriteType, mover: SpriteType) -> bool {
         let undone = |encounter: &Encounter| {
-            encounter.does(|deed| matches!(deed, Deed::Undo(spare) if !spare.contains(&mover)))
+            encounter.does(|effect| matches!(effect, EffectSummary::Undo(spare) if !spare.contains(&mover)))
         };
         self.between(mover, obstacle).any(Encounter::blocks) || self.between(obstacle, mover).any(undone)
     }
@@ -225,8 +227,8 @@ impl Analysis {
     pub fn turns(&self, stype: SpriteType) -> Vec<(SpriteType, SpriteType)> {
         let mut list = Vec::new();
         for encounter in self.encounters.iter().filter(|encounter| self.applies(encounter.first, stype)) {
-            for deed in &encounter.deeds {
-                if let (Deed::Become(to), Some(by)) = (deed, encounter.second) {
+            for effect in &encounter.effects {
+                if let (EffectSummary::Become(to), Some(by)) = (effect, encounter.second) {
                     list.push((*to, by));
                 }
             }
@@ -275,19 +277,19 @@ impl Analysis {
         &self.requirements
     }
 
-    /// Returns `true` if nothing draws random numbers; see also [`Analysis::chance_decides`].
+    /// Returns `true` if nothing draws random numbers; see also [`Analysis::is_stochastic`].
     pub fn is_deterministic(&self) -> bool {
         self.game.is_deterministic()
     }
 
     /// Returns `true` if any effect is timed, from the start or after some interaction.
-    pub fn has_clockwork(&self) -> bool {
+    pub fn has_timed_effects(&self) -> bool {
         !self.game.0.timed.is_empty()
     }
 
     /// Returns `true` if sprites of an avatar type move from cell to cell by the arrow keys: four ways or along a line,
     /// with grid physics, one whole cell per step.
-    pub fn steps_by_cells(&self, avatar: SpriteType) -> bool {
+    pub fn moves_by_whole_cells(&self, avatar: SpriteType) -> bool {
         let traits = &self.game.0.types[avatar.index()].traits;
         let steering = self.avatars.iter().find(|known| known.stype == avatar).map(|known| known.steering);
         let steps = matches!(
@@ -335,8 +337,8 @@ fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool])
         makes[at].extend(&fact.makes);
     }
     for encounter in encounters {
-        for deed in &encounter.deeds {
-            let Deed::Make(to) = deed else { continue };
+        for effect in &encounter.effects {
+            let EffectSummary::Make(to) = effect else { continue };
             for stype in &types[encounter.first.index()].tree {
                 makes[stype.index()].insert(*to);
             }

@@ -1,9 +1,9 @@
 //! Forward-looking questions about a game or a state: can chance decide anything, and is every relevant sprite visible?
 
 use super::Analysis;
-use super::encounter::{Deed, Encounter};
+use super::encounter::{EffectSummary, Encounter};
 use super::facts::Facts;
-use super::prospect::{Prospect, Start};
+use super::futures::{PossibleFutures, Start};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
@@ -14,15 +14,15 @@ impl Analysis {
     /// Returns `true` if chance can decide anything in some level. Draws with a certain outcome do not count, so this
     /// can be `false` where [`Game::is_deterministic`](crate::Game::is_deterministic) is `false`, too. If this is
     /// `false`, the same actions always give the same sprites, scores and outcomes.
-    pub fn chance_decides(&self) -> bool {
-        self.chance_decides
+    pub fn is_stochastic(&self) -> bool {
+        self.is_stochastic
     }
 
     /// Returns `true` only if chance certainly plays no part from here on: given the sprites in this state, and all
     /// that can follow, the same actions give the same sprites, scores and outcomes for every seed. Cost: O(sprites),
     /// and for the rules O(rounds × interactions).
     pub fn is_deterministic_from(&self, state: &State) -> bool {
-        state.is_over() || !draws(&self.game.0, &self.prospect(state), Some(state))
+        state.is_over() || !draws(&self.game.0, &self.futures(state), Some(state))
     }
 
     /// The relevant types that the player does not see: in some level they take part in interactions, are counted by
@@ -39,26 +39,26 @@ impl Analysis {
     /// Returns `true` if the player sees every relevant sprite from here on. Cost: as
     /// [`Analysis::is_deterministic_from`].
     pub fn is_fully_observable_from(&self, state: &State) -> bool {
-        state.is_over() || unseen(&self.game.0, &self.facts, &self.prospect(state), &self.goals).is_empty()
+        state.is_over() || unseen(&self.game.0, &self.facts, &self.futures(state), &self.goals).is_empty()
     }
 
-    /// Returns the prospect of a state: all that can still follow.
-    pub(super) fn prospect(&self, state: &State) -> Prospect<'_> {
+    /// Returns the futures of a state: all that can still follow.
+    pub(super) fn futures(&self, state: &State) -> PossibleFutures<'_> {
         let rules = &*self.game.0;
-        let there: Vec<SpriteType> =
+        let existing: Vec<SpriteType> =
             self.game.sprite_types().filter(|&stype| state.group(stype).count > 0).collect();
         // Spawn points may have been given another type to make.
         let spawning = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
-        let spawners = there.iter().filter(|stype| rules.types[stype.index()].class.is_some_and(spawning));
+        let spawners = existing.iter().filter(|stype| rules.types[stype.index()].class.is_some_and(spawning));
         let making = spawners.flat_map(|&stype| state.slots(stype)).map(|slot| state.overrides(slot).spawns);
         let making = making.filter(|&stype| stype != SpriteType::NONE).collect();
         let mut held = vec![false; rules.types.len()];
         for holding in state.held.iter().filter(|holding| holding.amount > 0) {
             held[holding.resource.index()] = true;
         }
-        let planned = state.timers.iter().map(|timer| timer.timed).collect();
-        let start = Start { there, making, planned, held: Some(held) };
-        Prospect::of(rules, &self.facts, &self.encounters, start)
+        let scheduled = state.timers.iter().map(|timer| timer.timed).collect();
+        let start = Start { existing, making, scheduled, held: Some(held) };
+        PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }
 }
 
@@ -69,21 +69,26 @@ fn is_open(prob: f64) -> bool {
 
 /// Returns `true` if anything that can happen can draw a random number with an open outcome; without a state, in any
 /// level.
-pub(super) fn draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>) -> bool {
+pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<&State>) -> bool {
     let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));
-    let mut types = types.filter(|stype| prospect.there[stype.index()]);
-    let live = prospect.encounters().iter().zip(&prospect.live).filter(|(_, live)| **live);
+    let mut types = types.filter(|stype| futures.exists[stype.index()]);
+    let live = futures.encounters().iter().zip(&futures.live).filter(|(_, live)| **live);
     let mut met = live.map(|(encounter, _)| (encounter.second, encounter.effect));
-    let timed = rules.timed.iter().zip(&prospect.timed).filter(|(_, live)| **live);
+    let timed = rules.timed.iter().zip(&futures.timed).filter(|(_, live)| **live);
     let mut timed = timed.map(|(timed, _)| (None, timed.effect));
     let mut open = |(second, effect): (Option<SpriteType>, u16)| {
-        effect_draws(rules, prospect, state, &rules.effects[usize::from(effect)].effect, second)
+        effect_draws(rules, futures, state, &rules.effects[usize::from(effect)].effect, second)
     };
-    types.any(|stype| update_draws(rules, prospect, state, stype)) || met.any(&mut open) || timed.any(open)
+    types.any(|stype| update_draws(rules, futures, state, stype)) || met.any(&mut open) || timed.any(open)
 }
 
 /// Returns `true` if sprites of the type draw, with an open outcome, in their own updates.
-fn update_draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>, stype: SpriteType) -> bool {
+fn update_draws(
+    rules: &Rules,
+    futures: &PossibleFutures<'_>,
+    state: Option<&State>,
+    stype: SpriteType,
+) -> bool {
     use SpriteClass as C;
     let info = &rules.types[stype.index()];
     let traits = &info.traits;
@@ -94,7 +99,7 @@ fn update_draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>, s
             let unset = |state: &State| {
                 state.slots(stype).any(|slot| state.overrides(slot).orientation == Direction::NIL)
             };
-            let new = traits.orientation == Direction::NIL && prospect.made[stype.index()];
+            let new = traits.orientation == Direction::NIL && futures.made[stype.index()];
             new || state.map_or(traits.orientation == Direction::NIL, unset)
         }
         C::Spreader => is_open(traits.spread_probability),
@@ -112,7 +117,7 @@ fn update_draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>, s
 /// Returns `true` if an effect draws with an open outcome.
 fn effect_draws(
     rules: &Rules,
-    prospect: &Prospect<'_>,
+    futures: &PossibleFutures<'_>,
     state: Option<&State>,
     effect: &Effect,
     second: Option<SpriteType>,
@@ -129,10 +134,10 @@ fn effect_draws(
             // A single exit leaves no choice.
             let single = |exit: SpriteType| {
                 let few = state.is_some_and(|state| state.group(exit).count <= 1);
-                few && !prospect.made[exit.index()]
+                few && !futures.made[exit.index()]
             };
             let portals = second.map_or(&[][..], |second| &*rules.types[second.index()].tree);
-            let portals = portals.iter().filter(|portal| prospect.there[portal.index()]);
+            let portals = portals.iter().filter(|portal| futures.exists[portal.index()]);
             portals.filter_map(|portal| rules.types[portal.index()].leads_to()).any(|exit| !single(exit))
         }
         _ => false,
@@ -143,10 +148,10 @@ fn effect_draws(
 pub(super) fn unseen(
     rules: &Rules,
     facts: &[Facts],
-    prospect: &Prospect<'_>,
+    futures: &PossibleFutures<'_>,
     goals: &[super::Goal],
 ) -> Vec<SpriteType> {
-    let hidden = |at: &usize| prospect.there[*at] && facts[*at].hidden;
+    let hidden = |at: &usize| futures.exists[*at] && facts[*at].hidden;
     let hidden: Vec<usize> = (0..facts.len()).filter(hidden).collect();
     if hidden.is_empty() {
         return Vec::new();
@@ -157,7 +162,7 @@ pub(super) fn unseen(
     };
     goals.iter().for_each(|goal| mark(goal.condition.types()));
     let family = |stype: SpriteType| &*rules.types[stype.index()].tree;
-    for (info, _) in rules.types.iter().zip(&prospect.there).filter(|(_, there)| **there) {
+    for (info, _) in rules.types.iter().zip(&futures.exists).filter(|(_, exists)| **exists) {
         // The types that it chases, flees from, or leads to.
         info.traits
             .stypes
@@ -165,7 +170,7 @@ pub(super) fn unseen(
             .filter(|&&stype| stype != SpriteType::NONE)
             .for_each(|&stype| mark(family(stype)));
     }
-    let live = prospect.encounters().iter().zip(&prospect.live).filter(|(_, live)| **live);
+    let live = futures.encounters().iter().zip(&futures.live).filter(|(_, live)| **live);
     for (encounter, _) in live {
         let Encounter { first, second, effect, .. } = encounter;
         mark(family(*first));
@@ -175,13 +180,13 @@ pub(super) fn unseen(
             Effect::SpawnIfCounterSubTypes { counted, .. } => mark(family(*counted)),
             _ => {}
         }
-        for deed in &encounter.deeds {
-            if let Deed::BecomeAll(from, _) = deed {
+        for effect in &encounter.effects {
+            if let EffectSummary::BecomeAll(from, _) = effect {
                 mark(&[*from]);
             }
         }
     }
-    let timed = rules.timed.iter().zip(&prospect.timed).filter(|(_, live)| **live);
+    let timed = rules.timed.iter().zip(&futures.timed).filter(|(_, live)| **live);
     timed.filter_map(|(timed, _)| timed.target).for_each(|target| mark(family(target)));
     hidden.into_iter().filter(|&at| matters[at]).map(|at| SpriteType(at as u16)).collect()
 }

@@ -1,6 +1,6 @@
 //! Interactions indexed by pair of types, so that one type can be compared with every other without scanning all rules.
 
-use super::encounter::{Deed, Encounter, Side};
+use super::encounter::{EffectSummary, Encounter, Side};
 use crate::game::{Rules, SpriteType};
 
 /// The number of interactions between two types that are considered; the rest, in order of the tick, are assumed to be
@@ -63,9 +63,11 @@ impl<'a> Pairs<'a> {
     pub(super) fn shields(&self, own: SpriteType) -> Vec<SpriteType> {
         let concerned =
             self.encounters.iter().filter(|encounter| self.rules.types[encounter.first.index()].in_tree(own));
-        let shield = |deed: &Deed| if let Deed::Shield { from, .. } = deed { Some(*from) } else { None };
+        let shield = |effect: &EffectSummary| {
+            if let EffectSummary::Shield { from, .. } = effect { Some(*from) } else { None }
+        };
         let mut from: Vec<SpriteType> =
-            concerned.flat_map(|encounter| &encounter.deeds).filter_map(shield).collect();
+            concerned.flat_map(|encounter| &encounter.effects).filter_map(shield).collect();
         from.sort_unstable();
         from.dedup();
         from

@@ -1,7 +1,7 @@
 //! Requirements on the sprites of a level, so that playing it makes sense.
 
 use super::Analysis;
-use super::encounter::{Deed, Encounter};
+use super::encounter::{EffectSummary, Encounter};
 use super::goal::Condition;
 use super::lock::{Fate, Key, Sink};
 use super::role::Role;
@@ -15,7 +15,7 @@ pub enum Reason {
     /// The termination at this index must not hold at the start.
     Goal(usize),
     /// The termination at this index could never be met otherwise.
-    Means(usize),
+    WinMethod(usize),
     /// Locks of this type need this amount of their key.
     Lock(SpriteType),
     /// Portals of this type need an exit.
@@ -69,7 +69,7 @@ pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
             list.push(Requirement { types, at_least, at_most, reason: Reason::Goal(at) });
         }
         if goal.win {
-            list.extend(means(analysis, at, &makers));
+            list.extend(methods(analysis, at, &makers));
         }
     }
     list.extend(keys(analysis));
@@ -92,8 +92,8 @@ fn count(number: i32) -> u32 {
 fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     let mut makers = vec![None; analysis.facts.len()];
     for encounter in &analysis.encounters {
-        for deed in &encounter.deeds {
-            if let Deed::Become(to) | Deed::Make(to) = deed {
+        for effect in &encounter.effects {
+            if let EffectSummary::Become(to) | EffectSummary::Make(to) = effect {
                 makers[to.index()].get_or_insert(encounter);
             }
         }
@@ -103,7 +103,7 @@ fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
 
 /// Returns what is needed to make the sprites that a win requires, or to remove unwanted ones that the avatar's touch
 /// does not remove.
-fn means(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
+fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {
         Condition::AtLeast(_, limit) => *limit > 0,
@@ -113,7 +113,7 @@ fn means(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<R
     let mut list = Vec::new();
     let single = |stype: SpriteType, at_least: u32| {
         let types = vec![stype];
-        Requirement { types, at_least, at_most: None, reason: Reason::Means(at) }
+        Requirement { types, at_least, at_most: None, reason: Reason::WinMethod(at) }
     };
     if wants_more {
         for &wanted in condition.types() {

@@ -65,7 +65,7 @@ pub enum Role {
 }
 
 /// The data from which roles are derived.
-pub(super) struct Basis<'a> {
+pub(super) struct RoleInputs<'a> {
     pub(super) rules: &'a Rules,
     pub(super) facts: &'a [Facts],
     pub(super) avatars: &'a [Avatar],
@@ -81,7 +81,7 @@ pub(super) struct Basis<'a> {
     pub(super) source: &'a [bool],
 }
 
-impl Basis<'_> {
+impl RoleInputs<'_> {
     /// Returns the role of a type. Cost: O(types × avatars).
     pub(super) fn role(&self, stype: SpriteType) -> Role {
         let at = stype.index();

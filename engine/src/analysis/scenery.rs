@@ -9,7 +9,7 @@ impl Analysis {
     /// the same spelling as the type mentions it, too.
     pub fn is_scenery(&self, stype: SpriteType) -> bool {
         let moves = self.facts(stype).motion != super::Motion::Still || !self.facts(stype).makes.is_empty();
-        !moves && !self.game.0.spoken_of[stype.index()]
+        !moves && !self.game.0.referenced[stype.index()]
     }
 }
 
@@ -18,7 +18,7 @@ mod tests {
     use crate::{Analysis, Game};
 
     #[test]
-    fn what_no_rule_is_about() {
+    fn types_without_rules_are_scenery() {
         let game = Game::from_source(
             "BasicGame\n  SpriteSet\n    grass > Immovable\n    ground >\n      sand > Immovable\n      clay > Immovable\n    \
              asleep > Immovable\n    bird > RandomNPC\n    nest > SpawnPoint stype=bird\n    hero > MovingAvatar\n  LevelMapping\n    \

@@ -2,12 +2,12 @@
 //!
 //! Every term has one definition, below, and names do not matter: a game with renamed sprites has the same taxonomy.
 
-use super::encounter::{Deed, Encounter};
+use super::encounter::{EffectSummary, Encounter};
 use super::facts::{Motion, Steering};
 use super::lock::{Key, Sink};
 use super::role::Role;
 use super::touch::Touch;
-use super::ways::{Means, Ways};
+use super::win_methods::{WinMethod, WinMethods};
 use super::{Analysis, attain};
 use crate::game::SpriteType;
 use crate::ontology::class::SpriteClass;
@@ -28,7 +28,7 @@ pub struct Taxonomy {
     pub spatiality: Spatiality,
     /// The genres, the main one first; empty if none fits.
     pub genres: Vec<Genre>,
-    /// `true` if chance can decide anything: see [`Analysis::chance_decides`].
+    /// `true` if chance can decide anything: see [`Analysis::is_stochastic`].
     pub chance: bool,
     /// `true` if sprites that the player does not see can make a difference: see [`Analysis::unseen`].
     pub hidden: bool,
@@ -147,7 +147,7 @@ impl Analysis {
             time: self.time(),
             spatiality: self.spatiality(),
             genres: self.genres(),
-            chance: self.chance_decides,
+            chance: self.is_stochastic,
             hidden: !self.unseen.is_empty(),
         }
     }
@@ -159,7 +159,7 @@ impl Analysis {
         let fades = |stype: SpriteType| {
             let fact = self.facts(stype);
             let placed = fact.possible && !fact.symbols.is_empty();
-            placed && attain::is_mortal(rules, stype) && self.takes_part(stype)
+            placed && attain::disappears_by_itself(rules, stype) && self.takes_part(stype)
         };
         // Sprites that stand still until an interaction gives them a speed.
         let sets_off = |encounter: &Encounter| {
@@ -206,12 +206,12 @@ impl Analysis {
 
     fn genres(&self) -> Vec<Genre> {
         use Genre as G;
-        let ways = Ways::of(self);
-        let means = ways.means();
-        let has = |wanted: Means| means.contains(&wanted);
-        let waits = means.iter().all(|&means| means == Means::Wait);
-        let exit = has(Means::Exit);
-        let calm = !self.chance_decides && self.of_role(Role::Enemy).next().is_none();
+        let methods = WinMethods::of(self);
+        let means = methods.methods();
+        let has = |wanted: WinMethod| means.contains(&wanted);
+        let waits = means.iter().all(|&means| means == WinMethod::Wait);
+        let exit = has(WinMethod::Exit);
+        let calm = !self.is_stochastic && self.of_role(Role::Enemy).next().is_none();
         let on_grid = self.spatiality() == Spatiality::Grid;
         let stops = self.start_avatar().is_some_and(|avatar| avatar.steering == Steering::FourWay);
         let guarded = |stype: SpriteType| {
@@ -223,21 +223,21 @@ impl Analysis {
             Key::Avatar(_) | Key::Switch(..) => 1,
         });
         let amounts: Vec<i32> = amounts.collect();
-        let shoots = ways.shoots();
+        let shoots = methods.shoots();
         let fits = [
             (G::Platformer, self.has_class(SpriteClass::PlatformerAvatar)),
             (G::Race, self.is_race()),
-            (G::Puzzle, has(Means::Push) || self.bridges() || (calm && on_grid && stops && !waits)),
-            (G::Crossing, on_grid && self.has_traffic(&ways)),
-            (G::Shooter, has(Means::Shoot) || (shoots && waits)),
-            (G::Hunt, has(Means::Catch)),
-            (G::Collect, has(Means::Take) || (exit && amounts.iter().any(|&amount| amount >= MANY))),
+            (G::Puzzle, has(WinMethod::Push) || self.bridges() || (calm && on_grid && stops && !waits)),
+            (G::Crossing, on_grid && self.has_traffic(&methods)),
+            (G::Shooter, has(WinMethod::Shoot) || (shoots && waits)),
+            (G::Hunt, has(WinMethod::Catch)),
+            (G::Collect, has(WinMethod::Take) || (exit && amounts.iter().any(|&amount| amount >= MANY))),
             (G::Adventure, amounts.iter().any(|&amount| amount < MANY)),
             (G::Escape, exit),
-            (G::Guide, has(Means::Others)),
+            (G::Guide, has(WinMethod::Others)),
             (G::Defence, self.game.sprite_types().any(guarded)),
-            (G::Survive, has(Means::Wait)),
-            (G::Shooter, shoots && !waits && !has(Means::Shoot)),
+            (G::Survive, has(WinMethod::Wait)),
+            (G::Shooter, shoots && !waits && !has(WinMethod::Shoot)),
         ];
         fits.into_iter().filter(|(_, fits)| *fits).map(|(genre, _)| genre).collect()
     }
@@ -262,11 +262,12 @@ impl Analysis {
 
     /// Returns `true` if some harmful type that is not shot down moves straight ahead and reappears at the opposite
     /// edge.
-    fn has_traffic(&self, ways: &Ways<'_>) -> bool {
+    fn has_traffic(&self, methods: &WinMethods<'_>) -> bool {
         self.of_role(Role::Enemy).any(|stype| {
-            let wraps = self.at_edge(stype).any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
+            let wraps =
+                self.at_edge(stype).any(|encounter| encounter.does(|effect| *effect == EffectSummary::Wrap));
             let straight = matches!(self.facts(stype).motion, Motion::Straight(_));
-            wraps && straight && !ways.is_shot_down(stype)
+            wraps && straight && !methods.is_shot_down(stype)
         })
     }
 
@@ -279,8 +280,8 @@ impl Analysis {
             fact.possible && !matches!(fact.motion, Motion::Still | Motion::Steered)
         };
         let brought = |encounter: &Encounter, list: &[SpriteType]| {
-            encounter.does(|deed| match deed {
-                Deed::Become(to) | Deed::Make(to) => list.binary_search(to).is_ok(),
+            encounter.does(|effect| match effect {
+                EffectSummary::Become(to) | EffectSummary::Make(to) => list.binary_search(to).is_ok(),
                 _ => false,
             })
         };

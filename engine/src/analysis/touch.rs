@@ -1,6 +1,6 @@
 //! The result of an avatar touching a sprite: all interactions of the two types, in either order, combined.
 
-use super::encounter::{Deed, Encounter, Provided, Side};
+use super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::goal::Aims;
 use super::pairs::Pairs;
 use crate::game::{Rules, SpriteType};
@@ -108,19 +108,19 @@ fn add(
     touch.any = true;
     touch.score = touch.score.saturating_add(encounter.score);
     let (mut certain, mut safe_with) = (true, None);
-    let removal = match encounter.provided {
-        Provided::Always => Removal::Always,
-        Provided::Holds(side, resource, amount) if side == own => {
+    let removal = match encounter.precondition {
+        Precondition::Always => Removal::Always,
+        Precondition::Holds(side, resource, amount) if side == own => {
             certain = amount <= 0;
             if certain { Removal::Always } else { Removal::IfHolds(resource, amount) }
         }
-        Provided::HoldsAtMost(side, resource, amount) if side == own => {
+        Precondition::HoldsAtMost(side, resource, amount) if side == own => {
             certain = false;
             safe_with = Some((resource, amount.saturating_add(1)));
             Removal::Sometimes
         }
-        Provided::Chance(_) => Removal::Sometimes,
-        Provided::Holds(..) | Provided::HoldsAtMost(..) | Provided::Way => {
+        Precondition::Chance(_) => Removal::Sometimes,
+        Precondition::Holds(..) | Precondition::HoldsAtMost(..) | Precondition::Movement => {
             certain = false;
             Removal::Sometimes
         }
@@ -129,11 +129,11 @@ fn add(
         touch.harm = touch.harm.max(if certain { harm } else { Harm::Conditional });
         touch.safe_with = touch.safe_with.or(safe_with.take());
     };
-    for deed in &encounter.deeds {
-        match deed {
-            Deed::Kill(side) if *side == own => hurt(touch, Harm::Kills),
-            Deed::Kill(_) => touch.removal = stronger(touch.removal, removal),
-            Deed::Become(to) if own == Side::First => {
+    for effect in &encounter.effects {
+        match effect {
+            EffectSummary::Kill(side) if *side == own => hurt(touch, Harm::Kills),
+            EffectSummary::Kill(_) => touch.removal = stronger(touch.removal, removal),
+            EffectSummary::Become(to) if own == Side::First => {
                 if is_avatar(*to) {
                     touch.becomes = Some(*to);
                 } else if aims.create.binary_search(to).is_ok() {
@@ -142,31 +142,35 @@ fn add(
                     hurt(touch, Harm::Kills);
                 }
             }
-            Deed::Become(to) => touch.changes = Some(*to),
-            Deed::BecomeAny(options) if own == Side::First => {
+            EffectSummary::Become(to) => touch.changes = Some(*to),
+            EffectSummary::BecomeAny(options) if own == Side::First => {
                 touch.becomes = options.iter().copied().find(|&to| is_avatar(to));
                 if options.iter().any(|&to| !is_avatar(to)) {
                     touch.harm = touch.harm.max(Harm::Conditional);
                 }
             }
-            Deed::BecomeAny(options) => touch.changes = options.first().copied(),
-            Deed::KillAll(stype) if is_avatar(*stype) => hurt(touch, Harm::Kills),
-            Deed::BecomeAll(stype, to) if is_avatar(*stype) && !is_avatar(*to) => hurt(touch, Harm::Kills),
-            Deed::KillAll(stype) | Deed::BecomeAll(stype, _) => touch.opens.push(*stype),
-            Deed::Stop => touch.blocks |= own == Side::First,
-            Deed::Undo(spare) => touch.blocks |= !spare.contains(&avatar),
-            Deed::Push => touch.pushes |= own == Side::Second,
-            Deed::Carry => touch.carries |= own == Side::First,
-            Deed::Teleport => touch.teleports |= own == Side::First,
-            Deed::Make(stype) => touch.makes.push(*stype),
-            Deed::Collect if own == Side::Second => {
+            EffectSummary::BecomeAny(options) => touch.changes = options.first().copied(),
+            EffectSummary::KillAll(stype) if is_avatar(*stype) => hurt(touch, Harm::Kills),
+            EffectSummary::BecomeAll(stype, to) if is_avatar(*stype) && !is_avatar(*to) => {
+                hurt(touch, Harm::Kills)
+            }
+            EffectSummary::KillAll(stype) | EffectSummary::BecomeAll(stype, _) => touch.opens.push(*stype),
+            EffectSummary::Stop => touch.blocks |= own == Side::First,
+            EffectSummary::Undo(spare) => touch.blocks |= !spare.contains(&avatar),
+            EffectSummary::Push => touch.pushes |= own == Side::Second,
+            EffectSummary::Carry => touch.carries |= own == Side::First,
+            EffectSummary::Teleport => touch.teleports |= own == Side::First,
+            EffectSummary::Make(stype) => touch.makes.push(*stype),
+            EffectSummary::Collect if own == Side::Second => {
                 let traits = &rules.types[other.index()].traits;
                 if traits.is_resource {
                     touch.gives.push((other, traits.value));
                 }
             }
-            Deed::Change { who, resource, by } if *who == own => touch.gives.push((*resource, *by)),
-            Deed::Health { of, by, dies_at } if *by < 0 => {
+            EffectSummary::Change { side, resource, by } if *side == own => {
+                touch.gives.push((*resource, *by))
+            }
+            EffectSummary::Health { of, by, dies_at } if *by < 0 => {
                 let hits_avatar =
                     of.map_or(own == Side::First, |stype| rules.types[stype.index()].in_tree(avatar));
                 if hits_avatar {
@@ -176,14 +180,14 @@ fn add(
                     touch.removal = stronger(touch.removal, Removal::Sometimes);
                 }
             }
-            Deed::Collect
-            | Deed::Change { .. }
-            | Deed::Health { .. }
-            | Deed::Turn
-            | Deed::Wrap
-            | Deed::Speed(_)
-            | Deed::Clone
-            | Deed::Shield { .. } => {}
+            EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Turn
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Clone
+            | EffectSummary::Shield { .. } => {}
         }
     }
 }

@@ -452,7 +452,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_inherited_and_what_is_the_default_is_not_told_apart() {
+    fn inherited_and_default_values_are_not_distinguished() {
         let of = clauses(GAME);
         let spelled = GAME
             .replace("moving > speed=0.5", "moving >")
@@ -464,7 +464,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_told_pair_by_pair() {
+    fn interactions_are_described_pair_by_pair() {
         let of = clauses(GAME);
         let effects: Vec<&str> = of.interactions.iter().map(|clause| clause.effect).collect();
         assert_eq!(effects, ["killSprite", "killSprite", "stepBack", "wrapAround", "addTimer"]);

@@ -91,7 +91,7 @@ pub(super) fn program(
     for (at, line) in description.interactions.iter().enumerate() {
         let timed = program.timed.len() as u16;
         let mut reader = Reader::new(line, names, setting, timed);
-        reader.told = problems.len();
+        reader.reported = problems.len();
         let built = reader.line(at);
         let clock = reader.clock();
         let planned = reader.planned.take();
@@ -199,7 +199,7 @@ fn by_the_clock(
         (other, [Partner::Clock, ..]) => other,
         _ => {
             if let Some(at) = seconds.iter().position(|second| matches!(second, Partner::Clock)) {
-                let message = "TIME stands first, or first among the partners";
+                let message = "TIME must come first, or first among the partners";
                 let problem = Diagnostic::error("bad-interaction", line.second[at].span, message);
                 problems.push(problem.help("write a line of its own: `sprite TIME > …`"));
             }
@@ -230,7 +230,7 @@ pub(super) fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnost
     let problem = names.unknown(word, &["EOS", "TIME"], problems.len());
     problems.push(match word.text.split_once(',') {
         Some((one, _)) if names.find(one).is_some() => {
-            problem.help("names stand apart with a blank between them: one before, partners after")
+            problem.help("separate names by blanks: one name before, partners after")
         }
         _ => problem,
     });
@@ -245,7 +245,7 @@ pub(super) struct Reader<'a> {
     used: Vec<&'a str>,
     pub(super) problems: Vec<Diagnostic>,
     /// The number of problems of the lines before.
-    told: usize,
+    reported: usize,
     /// `true` if the reference makes no effect of the line and stops reading.
     pub(super) failed: bool,
     /// `true` for each of `scoreChange` and `scoreChangeIfKilled` that is not a number.
@@ -275,7 +275,7 @@ impl<'a> Reader<'a> {
     ) -> Reader<'a> {
         let (used, problems) = (Vec::new(), Vec::new());
         let (failed, score_faults, planned) = (false, [false; 2], None);
-        Reader { line, names, setting, used, problems, told: 0, failed, score_faults, timed, planned }
+        Reader { line, names, setting, used, problems, reported: 0, failed, score_faults, timed, planned }
     }
 
     /// Compiles the line; `None` if there is no such effect.
@@ -286,8 +286,8 @@ impl<'a> Reader<'a> {
             let message = format!("no effect named `{name}`");
             let problem = Diagnostic::error("unknown-effect", self.line.effect.span, message);
             let problem = problem.help("see `arcade docs effects` for all effects");
-            let told = self.told + self.problems.len();
-            self.problems.push(problem.suggest_after(told, name, effects::NAMES.iter().copied()));
+            let reported = self.reported + self.problems.len();
+            self.problems.push(problem.suggest_after(reported, name, effects::NAMES.iter().copied()));
             return None;
         };
         let keyword =
@@ -424,8 +424,8 @@ impl<'a> Reader<'a> {
                 [] => format!("remove it: `{name}` has no parameters of its own"),
                 _ => format!("remove it, or write one of its own: {}", own.join(", ")),
             });
-            let told = self.told + self.problems.len();
-            self.problems.push(problem.suggest_after(told, key, known));
+            let reported = self.reported + self.problems.len();
+            self.problems.push(problem.suggest_after(reported, key, known));
         }
     }
 
@@ -598,8 +598,8 @@ impl Arguments for Reader<'_> {
                 let message = format!("no effect named `{name}`");
                 let problem = Diagnostic::error("unknown-effect", param.value.span, message);
                 let problem = problem.help("see `arcade docs effects` for all effects");
-                let told = self.told + self.problems.len();
-                self.problems.push(problem.suggest_after(told, name, effects::NAMES.iter().copied()));
+                let reported = self.reported + self.problems.len();
+                self.problems.push(problem.suggest_after(reported, name, effects::NAMES.iter().copied()));
                 NO_KEYWORD
             },
             |at| at as u16,

@@ -25,7 +25,7 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites::{self as behaviour, Mover};
 use crate::ontology::terminations::{Condition, Decision, Termination};
 use crate::population::{base_overrides, prototype};
-use crate::scenery::{scenery, spoken_of};
+use crate::scenery::{referenced, scenery};
 use crate::sleep::shortcuts;
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
@@ -93,7 +93,7 @@ fn compile_with(
         program.edge.push((SpriteType::NONE, 0));
     }
     if !Diagnostics::has_errors(&problems) {
-        never_there(description, &types, &mapping, &program, &mut problems);
+        report_sprites_that_never_exist(description, &types, &mapping, &program, &mut problems);
     }
     if policy == Policy::Reference {
         // The reference overlooks the rest.
@@ -129,7 +129,7 @@ fn compile_with(
         })
     };
     let movers: Vec<Mover> = order.iter().rev().filter_map(mover).collect();
-    let spoken_of = spoken_of(description, &types);
+    let referenced = referenced(description, &types);
     let mut contacts = Contacts::of(&types, &program.passes);
     let barriers = barriers(&types, &program.passes, &program.effects, &mut contacts, &movers);
     // The reference makes one sprite of each resource to learn its limit, and logs messages about its parameters then,
@@ -155,8 +155,8 @@ fn compile_with(
         square_size: header.square_size,
         counters: header.counters,
         can_end,
-        scenery: scenery(&types, &spoken_of, &movers),
-        spoken_of,
+        scenery: scenery(&types, &referenced, &movers),
+        referenced,
         movers,
         base_overrides: types.iter().map(base_overrides).collect(),
         prototypes: (0..).zip(&types).map(|(at, info)| prototype(SpriteType(at), info)).collect(),
@@ -223,8 +223,7 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
                 }
             };
             let problem = Diagnostic::warning("duplicate-parameter", param.span(), message);
-            problems
-                .push(problem.help(format!("keep one: `{key}={last}`, if the game plays as you mean it")));
+            problems.push(problem.help(format!("keep one: `{key}={last}`, if the game plays as intended")));
         }
     }
 }
@@ -290,7 +289,7 @@ fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnosti
 }
 
 /// Reports sprite types that no level can place and nothing makes: legal, but surely not intended.
-fn never_there(
+fn report_sprites_that_never_exist(
     description: &Description,
     types: &[TypeInfo],
     mapping: &[SmallVec<[SpriteType; 4]>],
@@ -311,8 +310,7 @@ fn never_there(
             continue;
         };
         if types[stype.index()].class.is_some() {
-            let message =
-                format!("`{name}` is never there: no level character places it and nothing makes it");
+            let message = format!("`{name}` never exists: no level character places it and nothing makes it");
             let problem = Diagnostic::warning("never-there", line.name.span, message);
             // `wall` and `avatar` exist even if nothing declares them.
             let undeclared = types[..2]
@@ -467,16 +465,16 @@ mod tests {
     #[track_caller]
     fn warnings(source: &str, expect: &[&str]) {
         let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
-        let told = game.warnings().iter().filter(|warning| warning.code == "never-there");
-        assert_eq!(told.map(|warning| warning.message.as_str()).collect::<Vec<_>>(), expect);
+        let reported = game.warnings().iter().filter(|warning| warning.code == "never-there");
+        assert_eq!(reported.map(|warning| warning.message.as_str()).collect::<Vec<_>>(), expect);
     }
 
     #[test]
-    fn sprites_that_are_never_there() {
+    fn sprites_that_never_exist() {
         warnings(GAME, &[]);
-        let egg = "`egg` is never there: no level character places it and nothing makes it";
+        let egg = "`egg` never exists: no level character places it and nothing makes it";
         warnings(&GAME.replace("    e > egg\n", ""), &[egg]);
-        let chick = "`chick` is never there: no level character places it and nothing makes it";
+        let chick = "`chick` never exists: no level character places it and nothing makes it";
         warnings(&GAME.replace("coop > SpawnPoint stype=chick", "coop > SpawnPoint stype=egg"), &[chick]);
     }
 }

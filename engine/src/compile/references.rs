@@ -129,7 +129,7 @@ impl Subject<'_> {
     /// Checks the types that sprites of this type make.
     fn makes(&self, key: &str, stypes: &[SpriteType], names: Names<'_>, problems: &mut Vec<Diagnostic>) {
         use SpriteClass as C;
-        let dies = "the reference engine dies of that";
+        let dies = "the reference engine crashes on that";
         let Some(param) = self.given(key) else {
             if self.class == C::Spreader && self.leaf {
                 let message = format!("without `stype=`, `{}` would spread into its own type", self.name);

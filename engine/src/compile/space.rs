@@ -110,7 +110,7 @@ impl<'a> Space<'a> {
             _ => boolean(text).map(Values::Bool),
         };
         found.unwrap_or_else(|| {
-            let message = format!("`{text}` is no value of this kind");
+            let message = format!("`{text}` is not a value of this kind");
             let problem = Diagnostic::error("bad-parameter-values", value.value.span, message);
             problems.push(problem.help(format!("write `value={}`, for example", range.text(0))));
             range
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_is_not_given_is_drawn_or_asked_for() {
+    fn missing_values_are_drawn_or_required() {
         let source = GAME.replace("values=2:3:9 value=5", "values=2:3:9");
         assert_eq!(settle(&source, Policy::Strict).1, ["missing-parameter"]);
         let (game, problems) = settle(&source, Policy::Reference);

@@ -84,9 +84,9 @@ struct Rejected<'a> {
 
 impl Rejected<'_> {
     fn by_all(self, problems: &mut Vec<Diagnostic>) {
-        let mut told = self.taken;
+        let mut reported = self.taken;
         for (class, param) in self.refused {
-            if told.insert(param.key.span) {
+            if reported.insert(param.key.span) {
                 problems.push(unknown_parameter(class, param, problems.len()));
             }
         }
@@ -122,7 +122,7 @@ fn inherit<'a>(
                 let message =
                     format!("a sprite has at most {MAX_PARAMETERS} parameters, inherited ones included");
                 let problem = Diagnostic::error("too-large", param.key.span, message);
-                problems.push(problem.help("no class has as many: remove those that are not meant"));
+                problems.push(problem.help("no class has as many: remove those that are not intended"));
                 break;
             }
             own_params.push(param);
@@ -208,7 +208,7 @@ fn duplicates(resolved: &[Resolved<'_>], problems: &mut Vec<Diagnostic>) {
             problems.push(problem.help("remove one of the two, or give it another name"));
         }
         if sprite.name.eq_ignore_ascii_case("EOS") || sprite.name.eq_ignore_ascii_case("TIME") {
-            let message = format!("`{}` has a meaning of its own in interactions", sprite.name);
+            let message = format!("`{}` is a reserved word in interactions", sprite.name);
             problems.push(
                 Diagnostic::error("reserved-name", line.name.span, message).help("choose another name"),
             );
@@ -263,7 +263,7 @@ fn type_info<'a>(
             let span = given.map(|param| param.value.span).unwrap_or_default();
             let message = format!("`{key}` is a number of cells above 0 and at most {}", MAX_REACH);
             let problem = Diagnostic::error("bad-parameter", span, message);
-            problems.push(problem.help(format!("leave it out, and it is `{key}=1`")));
+            problems.push(problem.help(format!("leave it out to get `{key}=1`")));
         }
     }
     traits.settle();

@@ -2,7 +2,7 @@
 
 use super::rules;
 use super::words::list;
-use crate::analysis::{Analysis, Cause, Hindrance, Reach};
+use crate::analysis::{Analysis, Cause, ImpossibleGoal, Reach};
 use crate::game::SpriteType;
 use crate::level::Level;
 
@@ -18,32 +18,33 @@ pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     let all = level.cells().len();
     let reached = (0..all).filter(|&cell| reach.avatar_reaches(cell)).count();
     let mut lines = vec![format!("You can get to {reached} of its {all} cells, at most.")];
-    lines.extend(hindrances(analysis, level, reach, |_| true));
+    lines.extend(impossible_goals(analysis, level, reach, |_| true));
     lines
 }
 
 /// The winning terminations that can never hold in a level, and the reasons, a sentence each.
 pub fn hindered_wins(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
-    hindrances(analysis, level, reach, |goal| analysis.goals()[goal].win)
+    impossible_goals(analysis, level, reach, |goal| analysis.goals()[goal].win)
 }
 
-fn hindrances(
+fn impossible_goals(
     analysis: &Analysis,
     level: &Level,
     reach: &Reach,
     about: impl Fn(usize) -> bool,
 ) -> Vec<String> {
-    let hindrances = reach.hindrances().iter().filter(|hindrance| about(hindrance.goal));
-    let sentence = |Hindrance { goal, cause }: &Hindrance| {
+    let impossible_goals =
+        reach.impossible_goals().iter().filter(|impossible_goal| about(impossible_goal.goal));
+    let sentence = |ImpossibleGoal { goal, cause }: &ImpossibleGoal| {
         let ending = rules::goal(analysis, &analysis.goals()[*goal]);
         let but = match cause {
-            Cause::Stay(sprites) => format!("nothing can ever end {}", placed(analysis, level, sprites)),
+            Cause::Permanent(sprites) => format!("nothing can ever end {}", placed(analysis, level, sprites)),
             Cause::AtMost(0) => "there can never be any".to_owned(),
             Cause::AtMost(most) => format!("there can never be more than {most}"),
         };
         format!("{ending}, but here {but}.")
     };
-    hindrances.map(sentence).collect()
+    impossible_goals.map(sentence).collect()
 }
 
 /// Sprites by name and place, the first ones.

@@ -28,7 +28,7 @@ pub struct Guide {
     /// The members of the groups that the interactions name, a line each.
     pub groups: Vec<String>,
     /// The effects that run by the clock, a line each.
-    pub clockwork: Vec<String>,
+    pub timed_effects: Vec<String>,
     /// The interactions, a line each, in file order.
     pub meetings: Vec<String>,
     /// The sprites that each level character places, by character.
@@ -52,7 +52,7 @@ impl Guide {
             losing: rules::endings(analysis, false),
             sprites: sprites::sprites(analysis),
             groups: rules::groups(analysis),
-            clockwork: rules::clockwork(analysis),
+            timed_effects: rules::timed_effects(analysis),
             meetings: rules::meetings(analysis),
             legend: sprites::legend(analysis),
             kind: kind::kind(&analysis.taxonomy()),
@@ -77,7 +77,7 @@ impl fmt::Display for Guide {
             ("How you lose", &self.losing),
             ("What the others do", &self.sprites),
             ("Words for several", &self.groups),
-            ("What happens by the clock", &self.clockwork),
+            ("What happens by the clock", &self.timed_effects),
             ("What happens when sprites meet", &self.meetings),
             ("What the level's characters stand for", &self.legend),
         ];

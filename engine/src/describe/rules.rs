@@ -272,7 +272,7 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
 }
 
 /// One sentence for each line that runs by the clock.
-pub(super) fn clockwork(analysis: &Analysis) -> Vec<String> {
+pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     let rules = &analysis.game().0;
     let line = |timed: &Timed| {
         let first = timed.first_due?;

@@ -107,7 +107,7 @@ What the level's characters stand for:
 }
 
 #[test]
-fn several_avatars_are_told_apart() {
+fn several_avatars_are_distinguished() {
     let game = Game::from_source(
         "BasicGame\n  SpriteSet\n    key > Immovable\n    door > Door\n    hero >\n      bare > MovingAvatar\n      armed > \
          MovingAvatar\n  LevelMapping\n    k > key\n    d > door\n    A > bare\n  InteractionSet\n    bare key > transformTo \
@@ -130,7 +130,7 @@ fn several_avatars_are_told_apart() {
 }
 
 #[test]
-fn counters_and_what_they_decide() {
+fn counters_and_their_decisions() {
     let source = "BasicGame no_counters=2\n  SpriteSet\n    key > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    k > key\n  InteractionSet\n    avatar key > stepBack counter=1,-2 counterElse=0,-1\n  TerminationSet\n    Timeout limit=9 use_counter=True compare=True\n";
     let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
     assert_eq!(

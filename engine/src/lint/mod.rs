@@ -7,7 +7,7 @@ mod terminations;
 pub use swapped::{SwappedRule, swapped_rule};
 pub(crate) use terminations::over_at_start;
 
-use crate::analysis::{Analysis, Deed, Encounter, Motion, Provided};
+use crate::analysis::{Analysis, EffectSummary, Encounter, Motion, Precondition};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Game, SpriteType};
 use crate::ontology::class::SpriteClass;
@@ -19,11 +19,11 @@ pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     linter.rules_that_never_fire(&mut problems);
     linter.terminations(&mut problems);
-    linter.lacking_ends(&mut problems);
-    linter.barriers_that_hold_nobody(&mut problems);
+    linter.unreachable_outcomes(&mut problems);
+    linter.swapped_barriers(&mut problems);
     linter.hidden_sprites(&mut problems);
     linter.ignored_parameters(&mut problems);
-    linter.lost_avatar(&mut problems);
+    linter.avatar_drawn_first(&mut problems);
     problems
 }
 
@@ -39,7 +39,8 @@ impl Linter<'_> {
         for (number, line) in lines.iter().enumerate() {
             let own: Vec<&Encounter> =
                 self.analysis.encounters().iter().filter(|encounter| encounter.line == number).collect();
-            let Some(reasons) = own.iter().map(|encounter| self.idle(encounter)).collect::<Option<Vec<_>>>()
+            let Some(reasons) =
+                own.iter().map(|encounter| self.never_fires_reason(encounter)).collect::<Option<Vec<_>>>()
             else {
                 continue;
             };
@@ -48,13 +49,13 @@ impl Linter<'_> {
             let span = Span::new(line.first.span.start, line.effect.span.end);
             let message = format!("this rule never fires: {reason}");
             let problem = Diagnostic::warning("never-fires", span, message);
-            problems.push(problem.help("remove it, or let what it needs happen"));
+            problems.push(problem.help("remove it, or make its condition possible"));
         }
     }
 
     /// Reports interactions that move back a sprite that never moves, while nothing else stops the avatar that walks
     /// into it.
-    fn barriers_that_hold_nobody(&self, problems: &mut Vec<Diagnostic>) {
+    fn swapped_barriers(&self, problems: &mut Vec<Diagnostic>) {
         let encounters = self.analysis.encounters();
         for (number, line) in self.game.description().interactions.iter().enumerate() {
             if line.effect.text != "stepBack" {
@@ -88,8 +89,9 @@ impl Linter<'_> {
             let (first, avatar) = (&line.first.text, self.game.name(avatar));
             let others = line.second.iter().map(|word| word.text.as_str()).filter(|name| *name != avatar);
             let partners: Vec<&str> = [first.as_str()].into_iter().chain(others).collect();
-            let message =
-                format!("`{first}` does not move: it is never put back, and nothing stops `{avatar}` there");
+            let message = format!(
+                "`{first}` does not move, so this rule never moves it back, and nothing stops `{avatar}` there"
+            );
             let problem = Diagnostic::warning("swapped-rule", span, message);
             problems
                 .push(problem.help(format!("did you mean `{avatar} {} > stepBack`?", partners.join(" "))));
@@ -98,14 +100,14 @@ impl Linter<'_> {
 
     /// Returns the reason why an interaction never happens; empty if one of the two never occurs; None if it may
     /// happen.
-    fn idle(&self, encounter: &Encounter) -> Option<String> {
+    fn never_fires_reason(&self, encounter: &Encounter) -> Option<String> {
         let name = |stype: SpriteType| self.game.name(stype);
         let first = self.tree(encounter.first);
         let second = encounter.second.map(|second| self.tree(second));
         if first.is_empty() || second.as_ref().is_some_and(Vec::is_empty) {
             return Some(String::new());
         }
-        if let Provided::Holds(_, resource, amount) = encounter.provided
+        if let Precondition::Holds(_, resource, amount) = encounter.precondition
             && amount > 0
             && !self.gained(resource)
         {
@@ -144,15 +146,22 @@ impl Linter<'_> {
     fn roams(&self, stype: SpriteType) -> bool {
         let facts = self.analysis.facts(stype);
         let info = &self.game.0.types[stype.index()];
-        let made = |deed: &Deed| match deed {
-            Deed::Become(to) | Deed::BecomeAll(_, to) | Deed::Make(to) => *to == stype,
-            Deed::BecomeAny(options) => options.contains(&stype),
+        let made = |effect: &EffectSummary| match effect {
+            EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) | EffectSummary::Make(to) => {
+                *to == stype
+            }
+            EffectSummary::BecomeAny(options) => options.contains(&stype),
             _ => false,
         };
-        let moves = |deed: &Deed| {
+        let moves = |effect: &EffectSummary| {
             matches!(
-                deed,
-                Deed::Push | Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Clone | Deed::Undo(_)
+                effect,
+                EffectSummary::Push
+                    | EffectSummary::Carry
+                    | EffectSummary::Teleport
+                    | EffectSummary::Wrap
+                    | EffectSummary::Clone
+                    | EffectSummary::Undo(_)
             )
         };
         facts.motion != Motion::Still
@@ -168,9 +177,9 @@ impl Linter<'_> {
     /// Returns `true` if a sprite can gain more of a resource.
     fn gained(&self, resource: SpriteType) -> bool {
         self.analysis.encounters().iter().any(|encounter| {
-            encounter.does(|deed| match deed {
-                Deed::Collect => self.analysis.applies(encounter.first, resource),
-                Deed::Change { resource: other, by, .. } => *other == resource && *by > 0,
+            encounter.does(|effect| match effect {
+                EffectSummary::Collect => self.analysis.applies(encounter.first, resource),
+                EffectSummary::Change { resource: other, by, .. } => *other == resource && *by > 0,
                 _ => false,
             })
         })
@@ -203,7 +212,7 @@ impl Linter<'_> {
                 };
                 let (above, below) = (self.game.name(above), self.game.name(below));
                 let message =
-                    format!("`{below}` is drawn under `{above}`, which no rule speaks of, and is not seen");
+                    format!("`{below}` is hidden: `{above}`, which no rule mentions, is drawn over it");
                 let problem = Diagnostic::warning("hidden-sprite", word.span, message);
                 problems.push(problem.help(format!("declare `{above}` before `{below}` in the SpriteSet")));
             }
@@ -212,14 +221,15 @@ impl Linter<'_> {
 
     /// Reports an avatar type that is drawn before all others: the reference does not look for the player's avatar
     /// there.
-    fn lost_avatar(&self, problems: &mut Vec<Diagnostic>) {
+    fn avatar_drawn_first(&self, problems: &mut Vec<Diagnostic>) {
         let Some(&first) = self.game.0.order.first() else { return };
         if self.game.class(first).is_some_and(SpriteClass::is_avatar) {
             let name = self.game.name(first);
             let lines = self.game.description().sprite_lines();
             let Some((_, line)) = lines.iter().find(|(_, line)| line.name.text == name) else { return };
-            let message =
-                format!("`{name}` stands before every other sprite, `wall` included: no player controls it");
+            let message = format!(
+                "`{name}` is declared before every other sprite, `wall` included, so the player cannot control it"
+            );
             let problem = Diagnostic::warning("lost-avatar", line.name.span, message);
             problems.push(problem.help(format!("declare another sprite, such as `wall`, before `{name}`")));
         }
@@ -314,8 +324,8 @@ BasicGame
         let source = GAME.replace(replace, with);
         let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}"));
         let line = |start| crate::line_and_column(&source, start).0;
-        let told = game.warnings().iter().map(|warning| (warning.code, line(warning.span.start)));
-        assert_eq!(told.collect::<Vec<_>>(), expect, "{:?}", game.warnings());
+        let reported = game.warnings().iter().map(|warning| (warning.code, line(warning.span.start)));
+        assert_eq!(reported.collect::<Vec<_>>(), expect, "{:?}", game.warnings());
     }
 
     #[test]
@@ -342,7 +352,7 @@ BasicGame
     }
 
     #[test]
-    fn barriers_the_wrong_way_round() {
+    fn swapped_barriers_are_reported() {
         let rule = "avatar stone fence nest > stepBack";
         check(rule, "stone avatar fence nest > stepBack", &[("swapped-rule", 19)]);
         check(rule, &format!("{rule}\n        stone avatar > stepBack"), &[]);
@@ -367,7 +377,7 @@ BasicGame
     }
 
     #[test]
-    fn avatars_before_everything() {
+    fn avatars_drawn_first_are_reported() {
         let first = GAME.replace(
             "        grass > Immovable\n",
             "        hen > MovingAvatar\n        wall > Immovable\n        grass > Immovable\n",

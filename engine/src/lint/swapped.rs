@@ -92,7 +92,7 @@ fn in_words(line: &InteractionLine) -> String {
 }
 
 /// Returns the warning about the swapped rule that makes a game unwinnable, and the game with that rule repaired.
-pub(super) fn told(game: &Game) -> Option<(Diagnostic, Game)> {
+pub(super) fn swapped_rule_warning(game: &Game) -> Option<(Diagnostic, Game)> {
     let found = swapped_rule(game, |game| Analysis::of(game).can_win())?;
     let SwappedRule { line, span, repaired } = found;
     let message = "the game cannot be won with this rule as it stands, and may be won with its sides swapped";
@@ -127,16 +127,16 @@ mod tests {
 
     #[track_caller]
     fn check(game: &Game, expect: &[(&str, &str)]) {
-        let told: Vec<(&str, &str)> = game
+        let reported: Vec<(&str, &str)> = game
             .warnings()
             .iter()
             .map(|warning| (warning.code, warning.help.as_deref().unwrap_or_default()))
             .collect();
-        assert_eq!(told, expect, "{:?}", game.warnings());
+        assert_eq!(reported, expect, "{:?}", game.warnings());
     }
 
     #[test]
-    fn a_rule_the_wrong_way_round_is_told_with_its_repair() {
+    fn swapped_rules_are_reported_with_their_repair() {
         check(&game("", ""), &[]);
         let meant = "did you mean `egg avatar > collectResource`?";
         check(&game("egg avatar > collect", "avatar egg > collect"), &[("swapped-rule", meant)]);
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rule_that_is_only_in_the_way_is_not_taken_for_a_swapped_one() {
+    fn a_rule_that_is_only_in_the_way_is_not_reported_as_swapped() {
         // Nothing removes posts, even with swapped rules; and without the fences no game would be won either.
         let immortal = game("stype=chick win", "stype=post win");
         check(&immortal, &[("no-win", "add a rule that lowers it, or another termination")]);

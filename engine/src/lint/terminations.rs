@@ -1,7 +1,7 @@
 //! Terminations that end a game too early, or never.
 
 use super::{Linter, swapped};
-use crate::analysis::{Analysis, Attainable, Condition as Counted, Deed, Goal, Provided, Side};
+use crate::analysis::{Analysis, Attainable, Condition as Counted, EffectSummary, Goal, Precondition, Side};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Game, SpriteType};
 use crate::limits::MAX_TICKS;
@@ -55,7 +55,7 @@ pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
                 line.class.text
             );
             let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
-            problems.push(problem.help("place what it counts, or change its `limit=`"));
+            problems.push(problem.help("place some of the sprites that it counts, or change its `limit=`"));
         }
     }
     problems
@@ -83,7 +83,8 @@ impl Linter<'_> {
                 }
                 Condition::Timeout { limit } => {
                     if *limit > MAX_TICKS {
-                        let message = format!("an episode has {MAX_TICKS} ticks at most: this never happens");
+                        let message =
+                            format!("an episode has at most {MAX_TICKS} ticks, so this never happens");
                         let problem = Diagnostic::warning("never-ends", limit_of(line), message);
                         problems.push(problem.help(format!("write a limit below {MAX_TICKS}")));
                     }
@@ -97,21 +98,21 @@ impl Linter<'_> {
                 problems.push(problem.help(match (&end.condition, limit_of(line) == line.class.span) {
                     (Condition::Timeout { .. }, true) => "add `limit=` and a number of ticks",
                     (Condition::Timeout { .. }, false) => "set a `limit=` of some ticks",
-                    _ => "let levels place what it counts, or set another `limit=`",
+                    _ => "let levels place some of the sprites that it counts, or set another `limit=`",
                 }));
             }
         }
     }
 
     /// Reports that the rules cannot lead to a win, or to a loss, unless another warning gives the reason.
-    pub(super) fn lacking_ends(&self, problems: &mut Vec<Diagnostic>) {
+    pub(super) fn unreachable_outcomes(&self, problems: &mut Vec<Diagnostic>) {
         if problems.iter().any(|problem| problem.code == "ends-at-once") {
             return;
         }
         if !self.analysis.can_win() {
             // Types that never occur already have a warning, and may well be the reason.
-            let told = self.game.0.warnings.iter().any(|problem| problem.code == "never-there");
-            match Some(self.game).filter(|_| !told).and_then(swapped::told) {
+            let reported = self.game.0.warnings.iter().any(|problem| problem.code == "never-there");
+            match Some(self.game).filter(|_| !reported).and_then(swapped::swapped_rule_warning) {
                 Some((problem, repaired)) => {
                     // Rules that never fire because of the swapped rule are no problems of their own.
                     let mut left = Vec::new();
@@ -120,27 +121,27 @@ impl Linter<'_> {
                     problems.retain(|other| other.code != "never-fires" || left.contains(other));
                     problems.push(problem);
                 }
-                None => self.lacking_end(true, "the game cannot be won", problems),
+                None => self.report_unreachable(true, "the game cannot be won", problems),
             }
         }
         if !self.analysis.can_lose() {
-            self.lacking_end(false, "the game cannot be lost before its last tick", problems);
+            self.report_unreachable(false, "the game cannot be lost before its last tick", problems);
         }
     }
 
-    fn lacking_end(&self, win: bool, fault: &str, problems: &mut Vec<Diagnostic>) {
+    fn report_unreachable(&self, win: bool, fault: &str, problems: &mut Vec<Diagnostic>) {
         let code = if win { "no-win" } else { "no-lose" };
         let lines = &self.game.description().terminations;
         let mut goals = self.analysis.goals().iter().filter(|goal| goal.win == win).peekable();
         let (line, reason, help) = if goals.peek().is_some() {
-            let told = goals.find_map(|goal| Some((&lines[goal.line], self.unattained(goal)?)));
-            let Some((line, (reason, help))) = told else { return };
+            let reported = goals.find_map(|goal| Some((&lines[goal.line], self.unattained(goal)?)));
+            let Some((line, (reason, help))) = reported else { return };
             (line, reason, help)
         } else {
             // The compiler reports that no termination wins.
             let Some(first) = lines.first().filter(|_| !win) else { return };
             let reason = "no termination has `win=False`".to_owned();
-            (first, reason, "add a Timeout, or what ends the game badly".to_owned())
+            (first, reason, "add a Timeout, or another termination with `win=False`".to_owned())
         };
         problems.push(Diagnostic::warning(code, line.class.span, format!("{fault}: {reason}")).help(help));
     }
@@ -161,7 +162,7 @@ impl Linter<'_> {
         let (verb, limit) = match (&goal.condition, goal.attainable) {
             (_, Attainable::InPlay | Attainable::AtOnce) => {
                 let reason = "another termination holds at the start of every level".to_owned();
-                return Some((reason, "let levels place what that one counts".to_owned()));
+                return Some((reason, "let levels place some of the sprites that it counts".to_owned()));
             }
             (Counted::Tick(_), _) => return None,
             (Counted::AtMost(_, limit), _) | (Counted::Exactly(_, limit @ ..=0), _) => ("lowers", *limit),
@@ -173,30 +174,32 @@ impl Linter<'_> {
             return Some((reason, "set another `limit=`".to_owned()));
         }
         if verb == "lowers"
-            && let Some(short) = stypes.iter().find_map(|&stype| self.out_of_hands(stype))
+            && let Some(short) = stypes.iter().find_map(|&stype| self.unobtainable(stype))
         {
             return Some(short);
         }
         let there = stypes.iter().any(|&stype| !self.tree(stype).is_empty());
-        let told = !there || stypes.iter().any(|&stype| self.has_idle_rules(stype));
+        let reported = !there || stypes.iter().any(|&stype| self.has_rules_that_never_fire(stype));
         let reason = format!("nothing {verb} the number of {}", names());
-        (!told).then(|| (reason, format!("add a rule that {verb} it, or another termination")))
+        (!reported).then(|| (reason, format!("add a rule that {verb} it, or another termination")))
     }
 
     /// Returns the rule that would remove sprites of this type, if it requires more of a resource than any sprite can
     /// hold, and a suggestion.
-    fn out_of_hands(&self, written: SpriteType) -> Option<(String, String)> {
+    fn unobtainable(&self, written: SpriteType) -> Option<(String, String)> {
         let lines = &self.game.description().interactions;
         let encounters = self.analysis.encounters();
         encounters.iter().find_map(|encounter| {
-            let Provided::Holds(_, resource, needed) = encounter.provided else { return None };
+            let Precondition::Holds(_, resource, needed) = encounter.precondition else { return None };
             let on = |side: SpriteType| self.analysis.applies(written, side);
             let ends = encounter.ends(Side::First) && on(encounter.first)
                 || encounter.ends(Side::Second) && encounter.second.is_some_and(on);
             let info = &self.game.0.types[resource.index()];
             // Amounts given by anything but collecting may exceed the limit.
             let given = encounters.iter().any(|other| {
-                other.does(|deed| matches!(deed, Deed::Change { resource: of, .. } if *of == resource))
+                other.does(
+                    |effect| matches!(effect, EffectSummary::Change { resource: of, .. } if *of == resource),
+                )
             });
             if !ends || given || needed <= info.resource_limit {
                 return None;
@@ -207,23 +210,23 @@ impl Linter<'_> {
             let rule = format!("{} {} > {}", line.first.text, partners.join(" "), line.effect.text);
             let asks = format!("`{rule}` needs {needed} `{name}`, and");
             if info.traits.is_resource {
-                let help = format!("raise the `limit=` of `{name}` to {needed}, or ask for fewer");
-                return Some((format!("{asks} nobody can hold more than {limit}"), help));
+                let help = format!("raise the `limit=` of `{name}` to {needed}, or require fewer");
+                return Some((format!("{asks} no sprite can hold more than {limit}"), help));
             }
             let class = info.class.map_or("no Resource", SpriteClass::name);
-            let reason = format!("{asks} nobody can hold one: `{name}` is {class}, not Resource");
+            let reason = format!("{asks} no sprite can hold any: `{name}` is {class}, not Resource");
             Some((reason, format!("make it a Resource: `{name} > Resource limit={needed}`")))
         })
     }
 
     /// Returns `true` if sprites counted as this type would be changed by a rule that never happens, which has a
     /// warning of its own.
-    fn has_idle_rules(&self, written: SpriteType) -> bool {
+    fn has_rules_that_never_fire(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
         encounters.any(|encounter| {
             (counts(encounter.first) || encounter.second.is_some_and(counts))
-                && self.idle(encounter).is_some()
+                && self.never_fires_reason(encounter).is_some()
         })
     }
 
@@ -265,8 +268,8 @@ mod tests {
         let (head, _) = GAME.split_once("        SpriteCounter").unwrap();
         let head = head.replace("TerminationSet", &format!("    {rule}\n    TerminationSet"));
         let game = Game::from_source(&format!("{head}        {terminations}\n")).unwrap();
-        let told: Vec<&str> = game.warnings().iter().map(|warning| warning.message.as_str()).collect();
-        assert_eq!(told, expect);
+        let reported: Vec<&str> = game.warnings().iter().map(|warning| warning.message.as_str()).collect();
+        assert_eq!(reported, expect);
     }
 
     #[test]
@@ -289,7 +292,7 @@ mod tests {
         let reason = "the game cannot be won: the number of `stone` is never below 0";
         check_ends(rule, &format!("SpriteCounter stype=stone limit=-1 win=True\n        {lost}"), &[reason]);
         // A problem that has a warning is reported only once.
-        let never = "an episode has 2000 ticks at most: this never happens";
+        let never = "an episode has at most 2000 ticks, so this never happens";
         check_ends(rule, &format!("Timeout limit=9000 win=True\n        {lost}"), &[never]);
         let at_once = "this holds at the start of every level: the game is over in its first tick";
         check_ends(rule, "SpriteCounter stype=stone win=True\n        Timeout limit=0", &[at_once]);
@@ -310,25 +313,24 @@ mod tests {
     }
 
     #[test]
-    fn a_rule_that_asks_for_more_than_anybody_can_hold_is_named() {
+    fn a_rule_that_requires_more_than_any_sprite_can_hold_is_named() {
         let check = |replace: &str, with: &str, expect: &[&str]| {
             let game = GAME.replace("Timeout limit=300 win=True", "SpriteCounter stype=stone win=True");
             let rule = "stone avatar > killIfOtherHasMore resource=egg limit=3";
             let game = game.replace("egg avatar > collect", &format!("{rule}\n        egg avatar > collect"));
             let game = Game::from_source(&game.replace(replace, with)).unwrap();
-            let told = game.warnings().iter().filter(|warning| warning.code == "no-win");
-            assert_eq!(told.map(|warning| warning.message.as_str()).collect::<Vec<_>>(), expect);
+            let reported = game.warnings().iter().filter(|warning| warning.code == "no-win");
+            assert_eq!(reported.map(|warning| warning.message.as_str()).collect::<Vec<_>>(), expect);
         };
         check("", "", &[]);
-        let asks =
-            "the game cannot be won: `stone avatar > killIfOtherHasMore` needs 3 `egg`, and nobody can hold";
+        let asks = "the game cannot be won: `stone avatar > killIfOtherHasMore` needs 3 `egg`, and no sprite can hold";
         check("Resource limit=3", "Resource limit=1", &[&format!("{asks} more than 1")]);
         let kind = format!("{asks} one: `egg` is Immovable, not Resource");
         check("egg > Resource limit=3", "egg > Immovable", &[&kind]);
     }
 
     #[test]
-    fn what_holds_from_the_start_may_be_held_up() {
+    fn conditions_that_hold_from_the_start_can_be_suspended() {
         // This holds from the start and ends nothing.
         let ends = "SpriteCounterMore stype=stone win=True canEnd=False\n        Timeout limit=300 win=False";
         check_ends("stone chick > killSprite", ends, &[]);

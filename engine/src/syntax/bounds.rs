@@ -14,9 +14,9 @@ pub(super) fn unreadable(source: &str) -> Option<Diagnostic> {
     }
     let is_no_text = |c: char| c.is_control() && !"\t\n\r\u{b}\u{c}".contains(c);
     let (at, c) = source.char_indices().find(|&(_, c)| is_no_text(c))?;
-    let message = format!("the file holds the control character `{}`", c.escape_default());
+    let message = format!("the file contains the control character `{}`", c.escape_default());
     let problem = Diagnostic::error("not-text", Span::new(at, at + c.len_utf8()), message);
-    Some(problem.help("remove it, or is this no VGDL file? VGDL is plain text"))
+    Some(problem.help("remove it, or is this not a VGDL file? VGDL is plain text"))
 }
 
 /// The problem of a line that is too long to be read.
@@ -39,5 +39,5 @@ pub(super) fn long_name(name: &Word) -> Option<Diagnostic> {
 pub(super) fn too_deep(line: &Line<'_>) -> Diagnostic {
     let message = format!("sprites are nested more than {MAX_NESTING} deep");
     let problem = Diagnostic::error("too-deep", line.span, message);
-    problem.help("indent siblings alike: a line that is indented deeper is a subtype")
+    problem.help("indent siblings by the same amount: a line that is indented deeper is a subtype")
 }

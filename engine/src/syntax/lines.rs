@@ -87,7 +87,7 @@ impl Reader {
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
         let Some((word, fixed)) = meant else {
             let (message, help) = match has_arrow {
-                true => ("nothing stands before the `>`", "put the name before the `>`".to_owned()),
+                true => ("there is nothing before the `>`", "put the name before the `>`".to_owned()),
                 false => ("this line has no ` > `", format!("put ` > ` {place}, with a blank on both sides")),
             };
             let problem = Diagnostic::error("missing-arrow", line.span, format!("{message}: {shape}"));
@@ -96,7 +96,7 @@ impl Reader {
         };
         let start = line.span.start + (word.as_ptr() as usize - line.text.as_ptr() as usize);
         let span = Span::new(start, start + word.len());
-        let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is no ` > `: {shape}"));
+        let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is not ` > `: {shape}"));
         self.problems.push(problem.help(format!("write ` {fixed} `, with blanks around the `>`")));
         Some(fixed)
     }
@@ -117,7 +117,7 @@ impl Reader {
             }
             let before = line.text[..start(arrow) - line.span.start].trim_end();
             let (message, end) = match before {
-                "" => ("no character stands before the `>`".to_owned(), start(arrow) + 1),
+                "" => ("there is no character before the `>`".to_owned(), start(arrow) + 1),
                 _ => (format!("`{before}` is more than one character"), line.span.start + before.len()),
             };
             let problem = Diagnostic::error("bad-mapping", Span::new(line.span.start, end), message);
@@ -180,10 +180,10 @@ impl Reader {
         }
         let partners = "name two sprites before `>`: the one acted upon, then its partner (or EOS)";
         let fault = match (&names[..], &after[..]) {
-            ([], _) => Some((arrow, "no sprites stand before the `>`".to_owned(), partners)),
+            ([], _) => Some((arrow, "there are no sprites before the `>`".to_owned(), partners)),
             ([one], _) => Some((one.span, format!("`{}` has no partner", one.text), partners)),
             (_, []) => {
-                Some((arrow, "no effect stands after the `>`".to_owned(), "name the effect after `>`"))
+                Some((arrow, "there is no effect after the `>`".to_owned(), "name the effect after `>`"))
             }
             _ => None,
         };

@@ -57,7 +57,7 @@ impl Reader {
         lines.retain_mut(|line| self.without_foreign_comment(line));
         self.description.tail = tail.into_iter().map(str::to_owned).collect();
         let Some((header, rest)) = lines.split_first() else {
-            let problem = Diagnostic::error("empty-game", Span::new(0, 0), "the file holds no game")
+            let problem = Diagnostic::error("empty-game", Span::new(0, 0), "the file contains no game")
                 .help("a game starts with a line `BasicGame`, then SpriteSet, LevelMapping, InteractionSet, TerminationSet");
             self.problems.push(problem);
             return;
@@ -79,10 +79,10 @@ impl Reader {
             self.body(&part);
         }
         for (has, section) in self.description.has.into_iter().zip(Section::ALL) {
-            let told = |problem: &Diagnostic| {
+            let reported = |problem: &Diagnostic| {
                 problem.code == "missing-section" && problem.message.contains(section.name())
             };
-            if !has && !self.problems.iter().any(told) {
+            if !has && !self.problems.iter().any(reported) {
                 let message = format!("the game has no {}", section.name());
                 let help = format!("add a line `{}`, indented below the first line", section.name());
                 self.problems.push(Diagnostic::error("missing-section", header.span, message).help(help));

@@ -16,7 +16,7 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
         let problem =
             Diagnostic::error("bare-comment", span, "a line of nothing but `#` in the first column");
-        return Err(problem.help("the reference engine dies of it; write a blank or a word as well"));
+        return Err(problem.help("the reference engine crashes on it; write a blank or a word as well"));
     }
     let (lines, _) = layout::lines(source);
     if let Some(problem) = lines.iter().find_map(long_line) {
@@ -107,7 +107,7 @@ impl<'a> Tree<'a> {
 
     fn describe(mut self) -> Result<Description, Diagnostic> {
         let Some(root) = self.nodes.first() else {
-            return Err(Diagnostic::error("empty-game", Span::new(0, 0), "the file holds no game"));
+            return Err(Diagnostic::error("empty-game", Span::new(0, 0), "the file contains no game"));
         };
         let class = root.tokens[0].clone();
         let is_space = class.text == "GameSpace";
@@ -131,7 +131,7 @@ impl<'a> Tree<'a> {
                 {
                     let problem =
                         Diagnostic::error("stray-line", node.line.span, "this line is in no section");
-                    return Err(problem.help("the reference engine dies of it; indent it below a section"));
+                    return Err(problem.help("the reference engine crashes on it; indent it below a section"));
                 }
                 None => {}
             }
@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_reference_dies_of() {
+    fn crashes_of_the_reference() {
         dies("", "empty-game");
         dies("##\nBasicGame\n", "bare-comment");
         sound(&format!("# ok\n #\n{SMALL}"));

@@ -78,9 +78,9 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
         .map(|part| part.section)
         .collect();
     for part in parts {
-        let mut told = part.body.iter().filter_map(|line| guess.section(line));
-        let Some(meant) = told.next().filter(|meant| !sound.contains(meant)) else { continue };
-        if meant != part.section && told.all(|other| other == meant) {
+        let mut guesses = part.body.iter().filter_map(|line| guess.section(line));
+        let Some(meant) = guesses.next().filter(|meant| !sound.contains(meant)) else { continue };
+        if meant != part.section && guesses.all(|other| other == meant) {
             let message = format!("the lines of this {} are {}", part.section.name(), lines_of(meant));
             let problem = Diagnostic::error("swapped-section", part.head.span, message);
             problems.push(problem.help(format!("write `{}`", meant.name())));
@@ -178,7 +178,7 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
         let section = part.section;
         part.body.retain(|line| {
             let Some(meant) = guess.section(line).filter(|&meant| meant != section) else { return true };
-            let message = format!("this line is {}, and stands in the {}", line_of(meant), section.name());
+            let message = format!("this line is {}, but is in the {}", line_of(meant), section.name());
             let problem = Diagnostic::error("wrong-section", line.span, message);
             problems.push(problem.help(format!("move it to the {}", meant.name())));
             moved.push((meant, line));

@@ -20,7 +20,7 @@ pub(super) enum Token {
 
 impl Reader {
     pub(super) fn tokens(&mut self, line: &Line<'_>) -> Vec<Token> {
-        let mut pairs = Grammar::parse(Rule::tokens, line.text).expect("whatever is no blank is a token");
+        let mut pairs = Grammar::parse(Rule::tokens, line.text).expect("anything but blanks is a token");
         let mut tokens = Vec::new();
         let mut pairs = pairs.next().expect("the rule matched").into_inner().peekable();
         while let Some(pair) = pairs.next() {

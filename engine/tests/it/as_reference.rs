@@ -110,7 +110,7 @@ fn surplus_avatars_are_removed_with_a_message() {
 }
 
 #[test]
-fn what_the_reference_dies_of_stops_the_episode() {
+fn crashes_of_the_reference_stop_the_episode() {
     let classless = GAME.replace("gold > Immovable", "gold >");
     let (_, _, state) = load(&classless, "Ag \n");
     assert!(matches!(state.outcome(), Outcome::Stopped(_)));

@@ -407,7 +407,7 @@ fn resource_limits() {
 
 /// Q31, K-31: on a sprite that is not a resource, collectResource scores as it did the last time.
 #[test]
-fn collecting_what_is_no_resource() {
+fn collecting_sprites_that_are_no_resources() {
     let sprites = "thing >\n  rock > Immovable\n  gold > Resource limit=1\navatar > MovingAvatar";
     let placed = [
         ("rock", 10, 20),

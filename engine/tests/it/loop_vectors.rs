@@ -403,7 +403,7 @@ fn the_order_of_sections() {
 
 /// The player's avatar is updated whatever its type; other sprites of avatar classes are not updated.
 #[test]
-fn avatars_that_come_about() {
+fn avatars_made_in_play() {
     let sprites = "hero > MovingAvatar\n  knight > MovingAvatar\na > Immovable\nlog > Missile orientation=RIGHT\navatar > MovingAvatar";
     let rules = "avatar a > transformTo stype=hero\nhero wall > stepBack";
     let placed = [("a", 20, 20), ("avatar", 20, 20), ("wall", 50, 20)];

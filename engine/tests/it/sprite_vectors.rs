@@ -497,7 +497,7 @@ fn flat_sprites() {
 }
 
 #[test]
-fn what_a_sprite_passes_for() {
+fn flags_set_by_parameters() {
     let sprites = "avatar > MovingAvatar is_avatar=False\ns > Immovable is_from_avatar=True on_ground=True";
     let mut vector = Vector::as_reference(sprites, "", &[("avatar", 50, 20), ("s", 100, 20)], 1);
     assert_eq!((vector.state.avatar_id(), vector.one("s").flags, vector.one("avatar").flags), (None, 12, 0));
@@ -554,7 +554,7 @@ fn search_keys_tell_phases_apart() {
 
 /// In strict loading, each of these is an error at its place, with help.
 #[test]
-fn strict_loading_says_what_is_wrong() {
+fn strict_loading_reports_errors() {
     let check = |line: &str, code: &str, marked: &str| {
         let source = format!(
             "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n    GOLD > Immovable\n    s > {line}\n  LevelMapping\n    s > s GOLD\n  InteractionSet\n    avatar s > stepBack\n  TerminationSet\n    Timeout limit=5 win=True\n"

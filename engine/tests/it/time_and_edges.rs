@@ -122,7 +122,7 @@ fn planned_effects_that_need_sprites() {
 
 /// Q7, K-18: the score of a line with TIME is its own, whatever its effect does.
 #[test]
-fn the_clock_ignores_what_effects_say_of_scores() {
+fn timed_effects_ignore_score_parameters() {
     let sprites = "r > Resource limit=9\na > Immovable healthPoints=1\navatar > MovingAvatar";
     let rule = "avatar TIME > killIfHasMore resource=r limit=5 scoreChange=1";
     let mut board = setup(sprites, rule).place(&[AVATAR]);
@@ -134,7 +134,7 @@ fn the_clock_ignores_what_effects_say_of_scores() {
 
 /// `spec/03` §6.3: once per sprite, without killed and disabled ones; counters too.
 #[test]
-fn the_clock_visits_every_sprite_of_the_tree() {
+fn timed_effects_run_on_every_sprite_of_the_tree() {
     let sprites = "all >\n  a > Immovable\n  b > Immovable\navatar > MovingAvatar";
     let rules =
         "all TIME > flipDirection scoreChange=1 counter=1,0 counterElse=10,0\nall TIME > killAll stype=a";

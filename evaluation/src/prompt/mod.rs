@@ -275,7 +275,7 @@ impl Prompter {
             "losing": guide.losing,
             "sprites": guide.sprites,
             "groups": guide.groups,
-            "clockwork": guide.clockwork,
+            "clockwork": guide.timed_effects,
             "meetings": guide.meetings,
             "controls": guide.controls,
             "legend": self.legend.lines(),

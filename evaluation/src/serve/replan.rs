@@ -76,7 +76,7 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
 fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
-    if analysis.chance_decides() {
+    if analysis.is_stochastic() {
         return Err("chance plays a part in this game".to_owned());
     }
     if let Some(&unseen) = analysis.unseen().first() {

@@ -11,7 +11,7 @@ use super::layout::{self, Family};
 use super::palette::Palette;
 use super::plan::furnishable;
 use crate::{GenerateError, Generator};
-use engine::analysis::{Condition, Deed, Goal, Motion, Reason, Role, Steering};
+use engine::analysis::{Condition, EffectSummary, Goal, Motion, Reason, Role, Steering};
 use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
 
 /// The number of boards to try for one seed.
@@ -236,8 +236,11 @@ impl<'a> ConstructiveLevels<'a> {
         let loops =
             if chased { 0.8 - 0.3 * self.config.difficulty } else { 0.5 - 0.5 * self.config.difficulty };
         // Closed layouts have a border even if nothing could leave, unless things wrap around to the other side.
-        let wraps =
-            self.analysis.encounters().iter().any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
+        let wraps = self
+            .analysis
+            .encounters()
+            .iter()
+            .any(|encounter| encounter.does(|effect| *effect == EffectSummary::Wrap));
         let closed = self.palette.wall.is_some() && !wraps && grid.columns > 4 && grid.rows > 4;
         let ring = ring || (closed && family != Family::Field && target.is_none());
         let wall = match &target {

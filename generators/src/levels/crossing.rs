@@ -5,7 +5,7 @@ use super::builder::{Builder, way};
 use super::grid::Grid;
 use super::palette::Palette;
 use super::plan;
-use engine::analysis::{Deed, Motion, Role};
+use engine::analysis::{EffectSummary, Motion, Role};
 use engine::{Analysis, SpriteType};
 
 /// The use of a row.
@@ -36,7 +36,8 @@ pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic>
         _ => None,
     };
     let returns = |stype: &SpriteType| {
-        let wraps = analysis.at_edge(*stype).any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
+        let wraps =
+            analysis.at_edge(*stype).any(|encounter| encounter.does(|effect| *effect == EffectSummary::Wrap));
         wraps && sideways(stype).is_some()
     };
     let wrapping: Vec<SpriteType> = enemies.iter().copied().filter(returns).collect();

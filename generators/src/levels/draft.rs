@@ -257,7 +257,7 @@ impl<'v> Draft<'v> {
         for requirement in analysis.requirements() {
             let asked = match requirement.reason {
                 Reason::Avatar => false,
-                Reason::Goal(_) | Reason::Means(_) => true,
+                Reason::Goal(_) | Reason::WinMethod(_) => true,
                 Reason::Lock(stype) => {
                     matches!(analysis.role(stype), Role::Gate | Role::Exit) && self.sprites(stype) > 0
                 }

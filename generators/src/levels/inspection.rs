@@ -52,7 +52,7 @@ impl ConstructiveLevels<'_> {
                     locks && board.count(&self.analysis, stype) > 0
                 }
                 Reason::Portal(stype) => board.count(&self.analysis, stype) > 0,
-                Reason::Means(_) | Reason::Avatar | Reason::Goal(_) => false,
+                Reason::WinMethod(_) | Reason::Avatar | Reason::Goal(_) => false,
             };
             let ground = requirement.types.iter().any(|stype| self.palette.ground.contains(stype));
             lock && !ground

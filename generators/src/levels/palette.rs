@@ -1,6 +1,6 @@
 //! The level characters to build with: for the empty cell, for walls, and for every sprite type.
 
-use engine::analysis::{Deed, Harm, Lock, Motion, Removal, Role};
+use engine::analysis::{EffectSummary, Harm, Lock, Motion, Removal, Role};
 use engine::{Analysis, SpriteType};
 
 /// The effect of a level character on walking, for the avatar as it starts.
@@ -209,7 +209,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     });
     let strength = |stype: SpriteType| {
         let held = |mover: &&SpriteType| {
-            let ends = analysis.between(**mover, stype).any(|encounter| !encounter.deeds.is_empty());
+            let ends = analysis.between(**mover, stype).any(|encounter| !encounter.effects.is_empty());
             analysis.blocks(stype, **mover) || ends
         };
         movers.iter().filter(held).count()
@@ -262,8 +262,11 @@ fn walk(analysis: &Analysis, avatar: SpriteType, ground: &[SpriteType], symbol: 
 fn shot_away(analysis: &Analysis, stype: SpriteType) -> bool {
     let shots = analysis.avatars().iter().flat_map(|avatar| &avatar.shots);
     let ends = |shot: &SpriteType| {
-        let first = |deed: &Deed| matches!(deed, Deed::Kill(engine::analysis::Side::First) | Deed::Become(_));
-        let second = |deed: &Deed| matches!(deed, Deed::Kill(engine::analysis::Side::Second));
+        let first = |effect: &EffectSummary| {
+            matches!(effect, EffectSummary::Kill(engine::analysis::Side::First) | EffectSummary::Become(_))
+        };
+        let second =
+            |effect: &EffectSummary| matches!(effect, EffectSummary::Kill(engine::analysis::Side::Second));
         analysis.between(stype, *shot).any(|encounter| encounter.does(first))
             || analysis.between(*shot, stype).any(|encounter| encounter.does(second))
     };

@@ -43,7 +43,7 @@ pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
         let two = load(&made.game, &made.twin.levels[number])?;
         let seed = original.seed(Twin::Mirrored).child("level", number as u64);
         let known = original.witnesses[number];
-        if !analysis.chance_decides() {
+        if !analysis.is_stochastic() {
             let mut plays: Vec<Vec<Action>> =
                 known.map(|episode| episode.actions.clone()).into_iter().collect();
             plays.extend((0..PLAYS).map(|play| random_actions(seed.child("play", play))));

@@ -35,7 +35,7 @@ fn sample(folder: &Path) -> Option<Sample> {
         }
     }
     let name = folder.file_name()?.to_string_lossy().into_owned();
-    Some(Sample { name, source, levels, witnesses, chance: analysis.chance_decides() })
+    Some(Sample { name, source, levels, witnesses, chance: analysis.is_stochastic() })
 }
 
 fn samples() -> Vec<Sample> {

@@ -5,7 +5,7 @@
 //! leaves out, and the same wins.
 
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
-use engine::analysis::Keying;
+use engine::analysis::StateAbstraction;
 use engine::{Action, Analysis, Game, Level, Outcome, Seed, State};
 use std::collections::BTreeMap;
 
@@ -117,7 +117,7 @@ fn cases() -> Vec<(&'static str, Game, Levels)> {
 
 struct Case<'a> {
     analysis: &'a Analysis,
-    keying: Keying,
+    abstraction: StateAbstraction,
     start: State,
 }
 
@@ -125,7 +125,7 @@ impl Case<'_> {
     /// Returns all reachable states of the ongoing game, told apart by `tell`, and the fewest actions that win;
     /// breadth first.
     fn reached<T: Ord>(&self, tell: impl Fn(&State) -> T) -> (BTreeMap<T, Vec<u64>>, Option<usize>) {
-        let words = |state: &State| self.keying.words(self.analysis, state);
+        let words = |state: &State| self.abstraction.words(self.analysis, state);
         let mut met = BTreeMap::from([(tell(&self.start), words(&self.start))]);
         let mut queue = std::collections::VecDeque::from([(0, self.start.clone())]);
         let mut fewest = None;
@@ -159,9 +159,9 @@ fn distinct<T>(met: &BTreeMap<T, Vec<u64>>) -> Vec<&Vec<u64>> {
 fn check(name: &str, analysis: &Analysis, level: &Level, winnable: bool) {
     let game = analysis.game();
     let start = game.start(level, Seed::from_text("search"));
-    let case = Case { analysis, keying: analysis.keying(&start), start: start.clone() };
-    let (by_key, _) = case.reached(|state| case.keying.key(analysis, state));
-    let (by_words, _) = case.reached(|state| case.keying.words(analysis, state));
+    let case = Case { analysis, abstraction: analysis.abstraction(&start), start: start.clone() };
+    let (by_key, _) = case.reached(|state| case.abstraction.key(analysis, state));
+    let (by_words, _) = case.reached(|state| case.abstraction.words(analysis, state));
     assert_eq!(by_key.len(), by_words.len(), "{name}: no two states share a key by accident");
     let (in_full, fewest) = case.reached(|state| state.search_key(game));
     assert_eq!(fewest.is_some(), winnable, "{name}");

@@ -2,7 +2,7 @@
 
 use super::families::{ClassFamily, EffectFamily};
 use super::guards::Guards;
-use engine::analysis::{Attainable, Condition, Genre, Key, Means, Motion, Role, Steering};
+use engine::analysis::{Attainable, Condition, Genre, Key, Motion, Role, Steering, WinMethod};
 use engine::{Analysis, SpriteClass, SpriteType, Term};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -110,8 +110,8 @@ const MANY: i32 = 3;
 impl GoalKind {
     /// Classifies a game. Cost: O(types × avatars + interactions × relatives).
     pub fn of(analysis: &Analysis) -> GoalKind {
-        let means = analysis.means();
-        let has = |wanted: Means| means.contains(&wanted);
+        let means = analysis.win_methods();
+        let has = |wanted: WinMethod| means.contains(&wanted);
         let in_play = |win: bool| {
             let goals = analysis.goals().iter();
             goals.filter(move |goal| goal.win == win && goal.attainable == Attainable::InPlay)
@@ -129,17 +129,17 @@ impl GoalKind {
             .any(|lock| matches!(lock.key, Key::Resource { amount, .. } if amount >= MANY));
         let guards = analysis.of_role(Role::Ward).any(|ward| analysis.aims().protect.contains(&ward));
         let can_lose = in_play(false).any(|goal| !matches!(goal.condition, Condition::Tick(_)));
-        let waits = has(Means::Wait);
+        let waits = has(WinMethod::Wait);
         let fits = [
             (GoalKind::Race, analysis.taxonomy().genres.contains(&Genre::Race)),
-            (GoalKind::Deliver, has(Means::Push)),
+            (GoalKind::Deliver, has(WinMethod::Push)),
             (GoalKind::Grow, grows),
-            (GoalKind::Eliminate, has(Means::Shoot) || has(Means::Tool)),
-            (GoalKind::Hunt, has(Means::Catch)),
-            (GoalKind::Collect, has(Means::Take) || (has(Means::Exit) && many)),
-            (GoalKind::Unlock, has(Means::Exit) && !analysis.locks().is_empty()),
-            (GoalKind::Reach, has(Means::Exit)),
-            (GoalKind::Herd, has(Means::Others)),
+            (GoalKind::Eliminate, has(WinMethod::Shoot) || has(WinMethod::Tool)),
+            (GoalKind::Hunt, has(WinMethod::Catch)),
+            (GoalKind::Collect, has(WinMethod::Take) || (has(WinMethod::Exit) && many)),
+            (GoalKind::Unlock, has(WinMethod::Exit) && !analysis.locks().is_empty()),
+            (GoalKind::Reach, has(WinMethod::Exit)),
+            (GoalKind::Herd, has(WinMethod::Others)),
             (GoalKind::Guard, waits && guards),
             (GoalKind::Survive, waits && can_lose),
         ];
@@ -184,7 +184,7 @@ pub enum ChanceKind {
 impl ChanceKind {
     /// Classifies a game. Cost: O(types + interactions).
     pub fn of(analysis: &Analysis) -> ChanceKind {
-        if !analysis.chance_decides() {
+        if !analysis.is_stochastic() {
             return ChanceKind::None;
         }
         let game = analysis.game();

@@ -153,7 +153,7 @@ fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
 /// Returns the share of the actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls;
 /// none in a game where randomness decides nothing.
 fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
-    if !analysis.chance_decides() {
+    if !analysis.is_stochastic() {
         return 0.0;
     }
     let game = analysis.game();

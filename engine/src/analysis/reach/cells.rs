@@ -169,83 +169,87 @@ impl Cells {
 
 /// A set of directions: the four of the grid, any other, and none at all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Ways(u8);
+pub(super) struct Directions(u8);
 
-impl Ways {
-    pub(super) const NONE: Ways = Ways(0);
-    pub(super) const UP: Ways = Ways(1);
-    pub(super) const LEFT: Ways = Ways(2);
-    pub(super) const DOWN: Ways = Ways(4);
-    pub(super) const RIGHT: Ways = Ways(8);
+impl Directions {
+    pub(super) const NONE: Directions = Directions(0);
+    pub(super) const UP: Directions = Directions(1);
+    pub(super) const LEFT: Directions = Directions(2);
+    pub(super) const DOWN: Directions = Directions(4);
+    pub(super) const RIGHT: Directions = Directions(8);
     /// A direction off the grid's axes.
-    pub(super) const ASKEW: Ways = Ways(16);
+    pub(super) const ASKEW: Directions = Directions(16);
     /// No direction: for a sprite that has none, or has not moved.
-    pub(super) const UNSET: Ways = Ways(32);
-    pub(super) const FOUR: Ways = Ways(15);
+    pub(super) const UNSET: Directions = Directions(32);
+    pub(super) const FOUR: Directions = Directions(15);
     /// Every direction.
-    pub(super) const ANY: Ways = Ways(31);
+    pub(super) const ANY: Directions = Directions(31);
     /// Every direction, and no direction.
-    pub(super) const ALL: Ways = Ways(63);
+    pub(super) const ALL: Directions = Directions(63);
 
-    pub(super) fn of(direction: Direction) -> Ways {
+    pub(super) fn of(direction: Direction) -> Directions {
         match (direction.x, direction.y) {
-            (0.0, 0.0) => Ways::UNSET,
+            (0.0, 0.0) => Directions::UNSET,
             (0.0, y) => {
                 if y < 0.0 {
-                    Ways::UP
+                    Directions::UP
                 } else {
-                    Ways::DOWN
+                    Directions::DOWN
                 }
             }
             (x, 0.0) => {
                 if x < 0.0 {
-                    Ways::LEFT
+                    Directions::LEFT
                 } else {
-                    Ways::RIGHT
+                    Directions::RIGHT
                 }
             }
-            _ => Ways::ASKEW,
+            _ => Directions::ASKEW,
         }
     }
 
-    pub(super) fn with(self, other: Ways) -> Ways {
-        Ways(self.0 | other.0)
+    pub(super) fn with(self, other: Directions) -> Directions {
+        Directions(self.0 | other.0)
     }
 
-    pub(super) fn shared(self, other: Ways) -> Ways {
-        Ways(self.0 & other.0)
+    pub(super) fn shared(self, other: Directions) -> Directions {
+        Directions(self.0 & other.0)
     }
 
-    pub(super) fn without(self, other: Ways) -> Ways {
-        Ways(self.0 & !other.0)
+    pub(super) fn without(self, other: Directions) -> Directions {
+        Directions(self.0 & !other.0)
     }
 
     /// Returns `true` if the sets share a direction.
-    pub(super) fn meets(self, other: Ways) -> bool {
+    pub(super) fn meets(self, other: Directions) -> bool {
         self.0 & other.0 != 0
     }
 
     /// The opposite directions.
-    pub(super) fn mirrored(self) -> Ways {
-        let swap = |from: Ways, to: Ways| if self.meets(from) { to } else { Ways::NONE };
-        let axes = swap(Ways::UP, Ways::DOWN)
-            .with(swap(Ways::DOWN, Ways::UP))
-            .with(swap(Ways::LEFT, Ways::RIGHT))
-            .with(swap(Ways::RIGHT, Ways::LEFT));
-        axes.with(Ways(self.0 & (Ways::ASKEW.0 | Ways::UNSET.0)))
+    pub(super) fn mirrored(self) -> Directions {
+        let swap = |from: Directions, to: Directions| if self.meets(from) { to } else { Directions::NONE };
+        let axes = swap(Directions::UP, Directions::DOWN)
+            .with(swap(Directions::DOWN, Directions::UP))
+            .with(swap(Directions::LEFT, Directions::RIGHT))
+            .with(swap(Directions::RIGHT, Directions::LEFT));
+        axes.with(Directions(self.0 & (Directions::ASKEW.0 | Directions::UNSET.0)))
     }
 
     /// The direction of a step along an axis.
-    pub(super) fn of_step((x, y): (i32, i32)) -> Ways {
-        Ways::of(Direction { x: f64::from(x), y: f64::from(y) })
+    pub(super) fn of_step((x, y): (i32, i32)) -> Directions {
+        Directions::of(Direction { x: f64::from(x), y: f64::from(y) })
     }
 
     /// Returns the one-cell steps that a sprite moving in these directions can take, diagonal ones last.
     pub(super) fn steps(self) -> impl Iterator<Item = (i32, i32)> {
-        let straight =
-            [(Ways::UP, (0, -1)), (Ways::LEFT, (-1, 0)), (Ways::DOWN, (0, 1)), (Ways::RIGHT, (1, 0))];
+        let straight = [
+            (Directions::UP, (0, -1)),
+            (Directions::LEFT, (-1, 0)),
+            (Directions::DOWN, (0, 1)),
+            (Directions::RIGHT, (1, 0)),
+        ];
         let askew = [(-1, -1), (1, -1), (-1, 1), (1, 1)];
-        let any = self.meets(Ways::ASKEW);
+        let any = self.meets(Directions::ASKEW);
         let straight = straight.into_iter().filter(move |(way, _)| any || self.meets(*way));
         straight.map(|(_, step)| step).chain(askew.into_iter().filter(move |_| any))
     }
@@ -277,12 +281,12 @@ mod tests {
 
     #[test]
     fn directions_as_sets() {
-        let ways = Ways::of(Direction::UP).with(Ways::of(Direction::LEFT));
-        assert_eq!(ways.steps().collect::<Vec<_>>(), [(0, -1), (-1, 0)]);
-        assert_eq!(ways.mirrored(), Ways::DOWN.with(Ways::RIGHT));
-        assert_eq!(Ways::of(Direction::NIL), Ways::ASKEW);
-        assert_eq!(Ways::of(Direction::NONE.reversed()), Ways::UNSET);
-        assert_eq!(Ways::ASKEW.steps().count(), 8);
-        assert_eq!(Ways::ALL.without(Ways::UNSET), Ways::ANY);
+        let directions = Directions::of(Direction::UP).with(Directions::of(Direction::LEFT));
+        assert_eq!(directions.steps().collect::<Vec<_>>(), [(0, -1), (-1, 0)]);
+        assert_eq!(directions.mirrored(), Directions::DOWN.with(Directions::RIGHT));
+        assert_eq!(Directions::of(Direction::NIL), Directions::ASKEW);
+        assert_eq!(Directions::of(Direction::NONE.reversed()), Directions::UNSET);
+        assert_eq!(Directions::ASKEW.steps().count(), 8);
+        assert_eq!(Directions::ALL.without(Directions::UNSET), Directions::ANY);
     }
 }

@@ -6,7 +6,7 @@
 //! well.
 
 use super::super::Analysis;
-use super::super::encounter::{Deed, Encounter, Provided, Side};
+use super::super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::Cause;
 use super::cells::Cells;
 use super::events::{Events, Gift};
@@ -32,12 +32,12 @@ pub struct Obstacle {
     /// The index of the rule in [`Description::interactions`](crate::Description); none: a sprite makes it by itself.
     pub line: Option<usize>,
     /// The missing link.
-    pub lack: Lack,
+    pub missing: Missing,
 }
 
 /// The first missing requirement of a rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Lack {
+pub enum Missing {
     /// No sprite of the type is placed in this level, and no rule or existing sprite makes one.
     Absent(SpriteType),
     /// No sprite of the type is placed in this level, and none is ever made, because these rules lack something; none:
@@ -46,9 +46,9 @@ pub enum Lack {
     /// It requires more of a resource than any sprite can get.
     Resource(Shortage),
     /// No sprite of one of the types ever gets to a certain cell.
-    Apart(Apart),
+    Unreachable(Unreachable),
     /// Sprites of the type come to the cell, but the rule at that index moves them back before this rule is reached.
-    HeldUp(SpriteType, usize),
+    Blocked(SpriteType, usize),
     /// Sprites of the two types never meet anywhere; none: the edge of the screen.
     Nowhere(SpriteType, Option<SpriteType>),
 }
@@ -82,23 +82,23 @@ pub struct Source {
     /// The amount that each gives.
     pub each: i64,
     /// The obstacle to getting it; none: it can be obtained.
-    pub apart: Option<Apart>,
+    pub unreachable: Option<Unreachable>,
 }
 
 /// A cell that sprites of a type never get to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Apart {
+pub struct Unreachable {
     /// The type.
-    pub who: SpriteType,
+    pub stype: SpriteType,
     /// The cell.
     pub cell: usize,
     /// Sprites on the paths to it, beside cells that the type can be in, that some rule could remove.
-    pub closed: Vec<Closed>,
+    pub blockers: Vec<Blocker>,
 }
 
 /// A sprite in the way.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Closed {
+pub struct Blocker {
     /// Its type.
     pub stype: SpriteType,
     /// Its cell.
@@ -110,7 +110,7 @@ pub struct Closed {
 /// The largest number of rules reported for one sprite.
 const MAX_RULES: usize = 3;
 /// The largest number of sprites in the way that are reported.
-const MAX_CLOSED: usize = 2;
+const MAX_BLOCKERS: usize = 2;
 /// The largest number of sources that are reported.
 const MAX_SOURCES: usize = 16;
 /// The largest number of sprites in the way, one behind the other, that are followed.
@@ -141,15 +141,15 @@ impl<'a, 'e> Chains<'a, 'e> {
 
     /// Returns the chain of a termination that is hindered by this cause.
     pub(super) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         let obstacles = match &cause {
-            Cause::Stay(sprites) => {
-                sprites.first().map_or(Vec::new(), |&(stype, cell)| self.keeping(stype, cell, &mut told))
+            Cause::Permanent(sprites) => {
+                sprites.first().map_or(Vec::new(), |&(stype, cell)| self.keeping(stype, cell, &mut reported))
             }
             Cause::AtMost(_) => {
                 let mut types = self.analysis.goals()[goal].condition.types().to_vec();
                 types.dedup();
-                let lacking = types.iter().flat_map(|&stype| self.unmade(stype, &mut told));
+                let lacking = types.iter().flat_map(|&stype| self.unmade(stype, &mut reported));
                 lacking.take(MAX_RULES).collect()
             }
         };
@@ -157,50 +157,59 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the rules that could remove a sprite where it stands, with their missing requirements.
-    fn keeping(&self, stype: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
-        if told.contains(&(stype, cell)) || told.len() >= MAX_DEPTH {
+    fn keeping(
+        &self,
+        stype: SpriteType,
+        cell: usize,
+        reported: &mut Vec<(SpriteType, usize)>,
+    ) -> Vec<Obstacle> {
+        if reported.contains(&(stype, cell)) || reported.len() >= MAX_DEPTH {
             return Vec::new();
         }
-        told.push((stype, cell));
+        reported.push((stype, cell));
         let mut obstacles: Vec<Obstacle> = Vec::new();
         for encounter in &self.analysis.encounters {
             let Some(ended) = self.ended(encounter, stype) else { continue };
             if obstacles.iter().any(|known| known.line == Some(encounter.line)) {
                 continue;
             }
-            if let Some(lack) = self.lack(encounter, Some((stype, cell, ended)), told) {
-                obstacles.push(Obstacle { target: stype, line: Some(encounter.line), lack });
+            if let Some(missing) = self.missing(encounter, Some((stype, cell, ended)), reported) {
+                obstacles.push(Obstacle { target: stype, line: Some(encounter.line), missing });
             }
         }
         // The obstacles that are closest to being overcome come first.
-        obstacles.sort_by_key(|obstacle| obstacle.lack.rank());
+        obstacles.sort_by_key(|obstacle| obstacle.missing.rank());
         obstacles.truncate(MAX_RULES);
         obstacles
     }
 
     /// Returns the rules and sprites that could make sprites of a type, with their missing requirements.
-    fn unmade(&self, stype: SpriteType, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
+    fn unmade(&self, stype: SpriteType, reported: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
         let makes = |encounter: &Encounter| {
-            encounter.does(|deed| match deed {
-                Deed::Make(to) | Deed::Become(to) | Deed::BecomeAll(_, to) => *to == stype,
-                Deed::BecomeAny(options) => options.contains(&stype),
-                Deed::Clone => self.analysis.applies(encounter.first, stype),
+            encounter.does(|effect| match effect {
+                EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
+                    *to == stype
+                }
+                EffectSummary::BecomeAny(options) => options.contains(&stype),
+                EffectSummary::Clone => self.analysis.applies(encounter.first, stype),
                 _ => false,
             })
         };
         let mut obstacles: Vec<Obstacle> = Vec::new();
         for encounter in self.analysis.encounters.iter().filter(|encounter| makes(encounter)) {
             let known = obstacles.iter().any(|known| known.line == Some(encounter.line));
-            if let Some(lack) = Some(()).filter(|()| !known).and_then(|()| self.lack(encounter, None, told)) {
-                obstacles.push(Obstacle { target: stype, line: Some(encounter.line), lack });
+            if let Some(missing) =
+                Some(()).filter(|()| !known).and_then(|()| self.missing(encounter, None, reported))
+            {
+                obstacles.push(Obstacle { target: stype, line: Some(encounter.line), missing });
             }
         }
         for maker in self.analysis.game().sprite_types() {
-            if self.analysis.facts(maker).makes.contains(&stype) && !self.events.is_there(maker) {
-                obstacles.push(Obstacle { target: stype, line: None, lack: Lack::Absent(maker) });
+            if self.analysis.facts(maker).makes.contains(&stype) && !self.events.can_occur(maker) {
+                obstacles.push(Obstacle { target: stype, line: None, missing: Missing::Absent(maker) });
             }
         }
-        obstacles.sort_by_key(|obstacle| obstacle.lack.rank());
+        obstacles.sort_by_key(|obstacle| obstacle.missing.rank());
         obstacles
     }
 
@@ -210,18 +219,25 @@ impl<'a, 'e> Chains<'a, 'e> {
         let first = self.analysis.applies(encounter.first, stype);
         let second = encounter.second.is_some_and(|second| self.analysis.applies(second, stype));
         // Only resources are collected.
-        let collects = encounter.deeds.contains(&Deed::Collect);
+        let collects = encounter.effects.contains(&EffectSummary::Collect);
         let first = first && (!collects || rules.types[stype.index()].traits.is_resource);
-        encounter.deeds.iter().find_map(|deed| match deed {
-            Deed::Kill(Side::First) | Deed::Become(_) | Deed::BecomeAny(_) | Deed::Teleport if first => {
+        encounter.effects.iter().find_map(|effect| match effect {
+            EffectSummary::Kill(Side::First)
+            | EffectSummary::Become(_)
+            | EffectSummary::BecomeAny(_)
+            | EffectSummary::Teleport
+                if first =>
+            {
                 Some(Ended::Side(Side::First))
             }
-            Deed::Health { of: None, dies_at, by } if first && *dies_at > i32::MIN && *by < 0 => {
+            EffectSummary::Health { of: None, dies_at, by } if first && *dies_at > i32::MIN && *by < 0 => {
                 Some(Ended::Side(Side::First))
             }
-            Deed::Kill(Side::Second) if second => Some(Ended::Side(Side::Second)),
-            Deed::KillAll(all) | Deed::BecomeAll(all, _) if *all == stype => Some(Ended::Anywhere),
-            Deed::Health { of: Some(of), dies_at, .. }
+            EffectSummary::Kill(Side::Second) if second => Some(Ended::Side(Side::Second)),
+            EffectSummary::KillAll(all) | EffectSummary::BecomeAll(all, _) if *all == stype => {
+                Some(Ended::Anywhere)
+            }
+            EffectSummary::Health { of: Some(of), dies_at, .. }
                 if *dies_at > i32::MIN && self.analysis.applies(*of, stype) =>
             {
                 Some(Ended::Anywhere)
@@ -232,33 +248,33 @@ impl<'a, 'e> Chains<'a, 'e> {
 
     /// Returns the missing requirement of an interaction; given a `target`, of removing that sprite where it stands.
     /// None if nothing is proved.
-    fn lack(
+    fn missing(
         &self,
         encounter: &Encounter,
         target: Option<(SpriteType, usize, Ended)>,
-        told: &mut Vec<(SpriteType, usize)>,
-    ) -> Option<Lack> {
-        let Encounter { first, second, provided, .. } = *encounter;
+        reported: &mut Vec<(SpriteType, usize)>,
+    ) -> Option<Missing> {
+        let Encounter { first, second, precondition, .. } = *encounter;
         if let Some(absent) = [Some(first), second].into_iter().flatten().find(|&side| !self.is_alive(side)) {
-            let there = &self.events.flood.model.there;
+            let exists = &self.events.flood.model.exists;
             let mut family = self.analysis.game().0.types[absent.index()].tree.iter();
-            return Some(match family.find(|stype| there[stype.index()]) {
-                None => Lack::Absent(absent),
-                Some(&stype) if told.contains(&(stype, UNMADE)) || told.len() >= MAX_DEPTH => {
-                    Lack::Unmade(stype, Vec::new())
+            return Some(match family.find(|stype| exists[stype.index()]) {
+                None => Missing::Absent(absent),
+                Some(&stype) if reported.contains(&(stype, UNMADE)) || reported.len() >= MAX_DEPTH => {
+                    Missing::Unmade(stype, Vec::new())
                 }
                 Some(&stype) => {
-                    told.push((stype, UNMADE));
-                    let mut obstacles = self.unmade(stype, told);
+                    reported.push((stype, UNMADE));
+                    let mut obstacles = self.unmade(stype, reported);
                     obstacles.truncate(1);
-                    Lack::Unmade(stype, obstacles)
+                    Missing::Unmade(stype, obstacles)
                 }
             });
         }
-        if let Provided::Holds(_, resource, needed) = provided
-            && !self.events.can_be(provided)
+        if let Precondition::Holds(_, resource, needed) = precondition
+            && !self.events.can_be(precondition)
         {
-            return Some(Lack::Resource(self.shortage(resource, needed, told)));
+            return Some(Missing::Resource(self.shortage(resource, needed, reported)));
         }
         let Some((stype, cell, Ended::Side(side))) = target else {
             let met = match second {
@@ -273,19 +289,19 @@ impl<'a, 'e> Chains<'a, 'e> {
             };
             let apart = second.and_then(|second| apart(second, first).or_else(|| apart(first, second)));
             return met.is_empty().then(|| match apart {
-                Some((comes, cell)) => Lack::Apart(self.apart(comes, cell, told)),
-                None => Lack::Nowhere(first, second),
+                Some((comes, cell)) => Missing::Unreachable(self.unreachable(comes, cell, reported)),
+                None => Missing::Nowhere(first, second),
             });
         };
         let Some(other) = (if side == Side::First { second } else { Some(first) }) else {
-            return Some(Lack::Nowhere(first, None));
+            return Some(Missing::Nowhere(first, None));
         };
         // With two sprites of one type, it is unclear which one is meant.
         if self.analysis.applies(other, stype) {
             return None;
         }
         if !self.all(other).contains(self.inner(cell)) {
-            return Some(Lack::Apart(self.apart(other, cell, told)));
+            return Some(Missing::Unreachable(self.unreachable(other, cell, reported)));
         }
         let blocks = |earlier: &&Encounter| {
             earlier.blocks()
@@ -294,11 +310,16 @@ impl<'a, 'e> Chains<'a, 'e> {
         };
         let before = self.analysis.encounters.iter().take_while(|known| !std::ptr::eq(*known, encounter));
         let lines: BTreeSet<usize> = before.filter(blocks).map(|earlier| earlier.line).collect();
-        Some(Lack::HeldUp(other, lines.first().copied()?))
+        Some(Missing::Blocked(other, lines.first().copied()?))
     }
 
     /// Returns the reason why no more of a resource can be obtained.
-    fn shortage(&self, resource: SpriteType, needed: i32, told: &mut Vec<(SpriteType, usize)>) -> Shortage {
+    fn shortage(
+        &self,
+        resource: SpriteType,
+        needed: i32,
+        reported: &mut Vec<(SpriteType, usize)>,
+    ) -> Shortage {
         let model = self.events.flood.model;
         let rules = &*self.analysis.game().0;
         let limit = rules.types[resource.index()].resource_limit;
@@ -311,7 +332,7 @@ impl<'a, 'e> Chains<'a, 'e> {
                 lines.push(encounter.line);
             }
             let family = rules.types[giver.index()].tree.iter().copied();
-            for stype in family.filter(|stype| model.there[stype.index()]) {
+            for stype in family.filter(|stype| model.exists[stype.index()]) {
                 let traits = &rules.types[stype.index()].traits;
                 let own = each.unwrap_or(i64::from(traits.value));
                 let gives = each.is_some() || traits.is_resource && traits.resource == resource;
@@ -325,8 +346,8 @@ impl<'a, 'e> Chains<'a, 'e> {
                         .gifts
                         .get(&(resource, stype))
                         .is_some_and(|gift| !model.of_type(stype).fixed || gift.cells.contains(cell));
-                    let apart = (!got).then(|| self.apart(taker, at, told));
-                    sources.push(Source { stype, cell: at, count, each: own, apart });
+                    let unreachable = (!got).then(|| self.unreachable(taker, at, reported));
+                    sources.push(Source { stype, cell: at, count, each: own, unreachable });
                 }
             }
         }
@@ -343,13 +364,15 @@ impl<'a, 'e> Chains<'a, 'e> {
     ) -> Option<(SpriteType, SpriteType, Option<i64>)> {
         let second = encounter.second?;
         let rules = &*self.analysis.game().0;
-        encounter.deeds.iter().find_map(|deed| match deed {
-            Deed::Collect => {
+        encounter.effects.iter().find_map(|effect| match effect {
+            EffectSummary::Collect => {
                 let mut family = rules.types[encounter.first.index()].tree.iter();
                 let gives = family.any(|stype| rules.types[stype.index()].traits.resource == resource);
                 gives.then_some((encounter.first, second, None))
             }
-            Deed::Change { who: Side::First, resource: changed, by } if *changed == resource && *by > 0 => {
+            EffectSummary::Change { side: Side::First, resource: changed, by }
+                if *changed == resource && *by > 0 =>
+            {
                 Some((second, encounter.first, Some(i64::from(*by))))
             }
             _ => None,
@@ -357,22 +380,27 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the obstacle that keeps sprites of a type from a cell.
-    fn apart(&self, who: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Apart {
-        let closed = self.in_the_way(who, cell);
-        let closed = closed.into_iter().take(MAX_CLOSED).map(|(stype, cell)| {
-            let obstacles = self.keeping(stype, cell, told);
-            Closed { stype, cell, obstacles }
+    fn unreachable(
+        &self,
+        stype: SpriteType,
+        cell: usize,
+        reported: &mut Vec<(SpriteType, usize)>,
+    ) -> Unreachable {
+        let blockers = self.in_the_way(stype, cell);
+        let blockers = blockers.into_iter().take(MAX_BLOCKERS).map(|(stype, cell)| {
+            let obstacles = self.keeping(stype, cell, reported);
+            Blocker { stype, cell, obstacles }
         });
-        Apart { who, cell, closed: closed.collect() }
+        Unreachable { stype, cell, blockers: blockers.collect() }
     }
 
     /// Returns the sprites, each with its cell, that some rule could remove and that stand on paths to a cell, beside
     /// cells where sprites of a type can be. (Paths go from a cell to its four neighbours.)
-    fn in_the_way(&self, who: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
+    fn in_the_way(&self, stype: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
-        let family: Vec<SpriteType> = rules.types[who.index()].tree.to_vec();
+        let family: Vec<SpriteType> = rules.types[stype.index()].tree.to_vec();
         let rest = family.iter().fold(Cells::none(board), |mut all, &stype| {
-            if self.events.is_there(stype) {
+            if self.events.can_occur(stype) {
                 all.add(self.events.rest(stype));
             }
             all
@@ -410,14 +438,14 @@ impl<'a, 'e> Chains<'a, 'e> {
     /// Returns `true` if sprites for which a rule on `written` holds can exist.
     fn is_alive(&self, written: SpriteType) -> bool {
         let tree = &self.analysis.game().0.types[written.index()].tree;
-        tree.iter().any(|&stype| self.events.is_there(stype))
+        tree.iter().any(|&stype| self.events.can_occur(stype))
     }
 
     /// Returns the cells where sprites for which a rule on `written` holds can be at some moment.
     fn all(&self, written: SpriteType) -> Cells {
         let mut all = Cells::none(self.events.board());
         for &stype in self.analysis.game().0.types[written.index()].tree.iter() {
-            if self.events.is_there(stype) {
+            if self.events.can_occur(stype) {
                 all.add(self.events.touch(stype));
             }
         }
@@ -430,16 +458,16 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 }
 
-impl Lack {
+impl Missing {
     /// Returns a rank: the smaller, the closer the requirement is to being met.
     fn rank(&self) -> u8 {
         match self {
-            Lack::Resource(_) => 0,
-            Lack::HeldUp(..) => 1,
-            Lack::Apart(_) => 2,
-            Lack::Nowhere(..) => 3,
-            Lack::Unmade(..) => 2,
-            Lack::Absent(_) => 4,
+            Missing::Resource(_) => 0,
+            Missing::Blocked(..) => 1,
+            Missing::Unreachable(_) => 2,
+            Missing::Nowhere(..) => 3,
+            Missing::Unmade(..) => 2,
+            Missing::Absent(_) => 4,
         }
     }
 }

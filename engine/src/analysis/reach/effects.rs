@@ -1,6 +1,6 @@
 //! The effects of collisions on the positions and orientations of sprites.
 
-use super::cells::{Cells, Ways};
+use super::cells::{Cells, Directions};
 use super::events::Events;
 use super::meetings::{Meeting, Order};
 use super::mobility::pushes_straight;
@@ -77,12 +77,12 @@ impl Events<'_> {
             }
             Effect::Align { .. } => {
                 let more = if model.scales { model.spread(one) } else { 0 };
-                let there = self.board().around(&partner, more);
-                self.come_to(one, &there, at);
+                let targets = self.board().around(&partner, more);
+                self.come_to(one, &targets, at);
             }
             Effect::AttractGaze { align: true, .. } => {
-                let there = self.board().around(cells, 1 + model.rules.reach.max(1));
-                self.come_to(one, &there, at);
+                let targets = self.board().around(cells, 1 + model.rules.reach.max(1));
+                self.come_to(one, &targets, at);
             }
             Effect::BounceForward => self.push((one, two), own, at),
             Effect::PullWithIt { pixel_perfect } => {
@@ -92,9 +92,9 @@ impl Events<'_> {
                 }
             }
             Effect::TeleportToExit => {
-                for &exit in model.exits[two.index()].iter().filter(|exit| model.there[exit.index()]) {
-                    let there = self.touch(exit).clone();
-                    self.come_to(one, &there, at);
+                for &exit in model.exits[two.index()].iter().filter(|exit| model.exists[exit.index()]) {
+                    let targets = self.touch(exit).clone();
+                    self.come_to(one, &targets, at);
                 }
             }
             _ => {}
@@ -103,7 +103,7 @@ impl Events<'_> {
 
     /// Turns all sprites of a type into another.
     pub(super) fn become_all(&mut self, from: SpriteType, to: SpriteType, at: Order) {
-        if self.is_there(from) {
+        if self.can_occur(from) {
             let all = Cells::all(self.board());
             self.turn(from, to, &all, at);
         }
@@ -112,7 +112,7 @@ impl Events<'_> {
     /// Turns sprites that are met in these cells into others.
     fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
-        if !model.there[to.index()] {
+        if !model.exists[to.index()] {
             return;
         }
         let here = self.near(from, cells);
@@ -130,7 +130,7 @@ impl Events<'_> {
     fn turn_to(&mut self, one: SpriteType, cells: &Cells, effect: &Effect) {
         let model = self.flood.model;
         let own = *model.of_type(one);
-        let turn = |heading: Ways| match effect {
+        let turn = |heading: Directions| match effect {
             Effect::ReverseDirection => heading.mirrored(),
             Effect::TurnAround if !model.info(one).traits.rotate_in_place => heading.mirrored(),
             _ => own.facing,
@@ -155,8 +155,11 @@ impl Events<'_> {
         }
         // By the end of the tick it may be back at its previous position, or wherever else it is moved.
         let far = own.stride.max(model.pushed_far(one)).saturating_add(model.spread(one));
-        let far =
-            if own.placed || own.thrown { self.board().side() + 2 } else { far.min(self.board().side() + 2) };
+        let far = if own.placed || own.moved_any_distance {
+            self.board().side() + 2
+        } else {
+            far.min(self.board().side() + 2)
+        };
         let around = self.board().around(cells, far);
         self.flood.face(one, &around, turn);
     }
@@ -169,14 +172,14 @@ impl Events<'_> {
             return;
         }
         let board = self.board();
-        let far = if own.boundless || own.thrown {
+        let far = if own.boundless || own.moved_any_distance {
             board.side() + 2
         } else {
             own.stride.saturating_add(1 + model.spread(one))
         };
         let from = board.around(cells, far.saturating_add(model.pushed_far(one))).shared(self.rest(one));
         // Two steps of one cell each, if neither is only a turn; otherwise either can be shorter.
-        let exact = !own.loose && own.top <= 1.0 && !traits.rotate_in_place;
+        let exact = !own.off_grid && own.top <= 1.0 && !traits.rotate_in_place;
         let most = 2 * model.stride(own.top.max(1.0)).0;
         // A negative speed moves it up.
         let signs: &[i32] = if own.backwards { &[1, -1] } else { &[1] };
@@ -195,18 +198,19 @@ impl Events<'_> {
     fn wrap(&mut self, one: SpriteType, from: &Cells, offset: f64, at: Order) {
         let board = self.board();
         let facing = self.flood.model.of_type(one).facing;
-        let facing = if facing.meets(Ways::ASKEW) { Ways::ANY } else { facing };
-        let size = if self.flood.model.of_type(one).loose { self.flood.model.rules.reach.max(1) } else { 0 };
+        let facing = if facing.meets(Directions::ASKEW) { Directions::ANY } else { facing };
+        let size =
+            if self.flood.model.of_type(one).off_grid { self.flood.model.rules.reach.max(1) } else { 0 };
         for cell in from.iter() {
             let (x, y) = board.place(cell);
             let mut to: Vec<(i32, i32)> = Vec::new();
             let near = if offset == 0.0 { 0..=size } else { -1..=board.side() };
             for inset in near {
                 for (way, place) in [
-                    (Ways::RIGHT, (inset, y)),
-                    (Ways::LEFT, (board.columns - 1 - inset, y)),
-                    (Ways::DOWN, (x, inset)),
-                    (Ways::UP, (x, board.rows - 1 - inset)),
+                    (Directions::RIGHT, (inset, y)),
+                    (Directions::LEFT, (board.columns - 1 - inset, y)),
+                    (Directions::DOWN, (x, inset)),
+                    (Directions::UP, (x, board.rows - 1 - inset)),
                 ] {
                     to.extend(facing.meets(way).then_some(place));
                 }
@@ -226,7 +230,7 @@ impl Events<'_> {
         let board = self.board();
         let distance = model.carried(one, two);
         let (stride, leap) = model.stride(distance);
-        let exact = pushes_straight(&pusher) && !pusher.backwards && !pusher.loose && !box_.loose;
+        let exact = pushes_straight(&pusher) && !pusher.backwards && !pusher.off_grid && !box_.off_grid;
         let exact = exact && !pusher.boundless && !box_.placed;
         let from = if box_.placed { own.clone() } else { own.shared(self.rest(one)) };
         let facing = box_.facing;
@@ -251,11 +255,11 @@ impl Events<'_> {
         let distance = if traits.continuous { carrier.top * 10.0 / model.block } else { carrier.top };
         let (stride, leap) = model.stride(distance.max(passenger.top / model.block));
         let from = if passenger.placed { own.clone() } else { own.shared(self.rest(one)) };
-        if traits.off_grid || carrier.moved.meets(Ways::ASKEW) || carrier.backwards {
+        if traits.off_grid || carrier.moved.meets(Directions::ASKEW) || carrier.backwards {
             // It may be placed on top of the carrier, too.
             let more = stride.saturating_add(1 + model.rules.reach.max(1)).min(self.board().side() + 2);
-            let there = self.board().around(&from, more);
-            return self.come_to(one, &there, at);
+            let targets = self.board().around(&from, more);
+            return self.come_to(one, &targets, at);
         }
         let facing = passenger.facing;
         let steps: Vec<(i32, i32)> = carrier.moved.steps().collect();

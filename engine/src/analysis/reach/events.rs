@@ -1,9 +1,9 @@
 //! The main fixed point: sprites move, make others, obtain resources and meet, until nothing changes.
 
-use super::super::encounter::Provided;
-use super::cells::{Board, Cells, Ways};
+use super::super::encounter::Precondition;
+use super::cells::{Board, Cells, Directions};
 use super::flood::Flood;
-use super::meetings::{End, Meeting, Order, Whose, With};
+use super::meetings::{End, Meeting, Order, RemovalScope, With};
 use crate::game::SpriteType;
 use crate::ontology::effects::Effect;
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ pub(super) struct Gift {
 impl<'a> Events<'a> {
     pub(super) fn of(flood: Flood<'a>, placed: &'a Placed) -> Events<'a> {
         let ring = flood.board.ring();
-        let (types, meetings) = (flood.model.there.len(), flood.model.meetings.len());
+        let (types, meetings) = (flood.model.exists.len(), flood.model.meetings.len());
         Events { flood, placed, ring, have: vec![0; types], seen: vec![(u32::MAX, u32::MAX); meetings] }
     }
 
@@ -51,9 +51,9 @@ impl<'a> Events<'a> {
             self.have = self.resources();
             for at in 0..self.flood.model.meetings.len() {
                 // A pushed sprite may be pushed again.
-                while !self.flood.is_spent() && self.meet(at) {}
+                while !self.flood.is_over_budget() && self.meet(at) {}
             }
-            if self.flood.is_spent() {
+            if self.flood.is_over_budget() {
                 return false;
             }
             if self.state() == before {
@@ -84,8 +84,8 @@ impl<'a> Events<'a> {
         &self.flood.regions[stype.index()].rest
     }
 
-    pub(super) fn is_there(&self, stype: SpriteType) -> bool {
-        self.flood.model.there[stype.index()] && !self.touch(stype).is_empty()
+    pub(super) fn can_occur(&self, stype: SpriteType) -> bool {
+        self.flood.model.exists[stype.index()] && !self.touch(stype).is_empty()
     }
 
     /// Returns the cells that a sprite of the type can overlap if it is met in these cells.
@@ -96,7 +96,7 @@ impl<'a> Events<'a> {
         around.shared(self.touch(stype))
     }
 
-    pub(super) fn appear_in(&mut self, stype: SpriteType, cells: &Cells, at: Order, heading: Ways) {
+    pub(super) fn appear_in(&mut self, stype: SpriteType, cells: &Cells, at: Order, heading: Directions) {
         // A sprite larger than its maker, or between cells like its maker, extends to the right and down.
         let more = self.flood.model.spread(stype);
         let grows = self.flood.model.scales && more > 0;
@@ -126,7 +126,7 @@ impl<'a> Events<'a> {
         let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
         for meeting in self.flood.model.meetings {
             let (Some(one), Some(two)) = (meeting.one, meeting.two()) else { continue };
-            if !self.is_there(one) || !self.is_there(two) || !self.can_be(meeting.provided) {
+            if !self.can_occur(one) || !self.can_occur(two) || !self.can_be(meeting.precondition) {
                 continue;
             }
             let value = i64::from(self.flood.model.info(one).traits.value);
@@ -176,15 +176,15 @@ impl<'a> Events<'a> {
     }
 
     /// Returns `true` if the condition of an effect can hold.
-    pub(super) fn can_be(&self, provided: Provided) -> bool {
-        match provided {
-            Provided::Holds(_, resource, amount) => {
+    pub(super) fn can_be(&self, precondition: Precondition) -> bool {
+        match precondition {
+            Precondition::Holds(_, resource, amount) => {
                 let limit = self.flood.model.info(resource).resource_limit;
                 let within = amount <= limit || self.flood.model.unlimited[resource.index()];
                 amount <= 0 || (within && self.have[resource.index()] >= i64::from(amount))
             }
-            Provided::Chance(prob) => prob > 0.0,
-            Provided::Always | Provided::HoldsAtMost(..) | Provided::Way => true,
+            Precondition::Chance(prob) => prob > 0.0,
+            Precondition::Always | Precondition::HoldsAtMost(..) | Precondition::Movement => true,
         }
     }
 
@@ -209,7 +209,7 @@ impl<'a> Events<'a> {
                 | Effect::TransformToSingleton { .. }
                 | Effect::UpdateSpawnType { .. }
         );
-        if (self.seen[at] == versions && !far) || !self.can_be(meeting.provided) {
+        if (self.seen[at] == versions && !far) || !self.can_be(meeting.precondition) {
             return false;
         }
         self.flood.work += self.sweep();
@@ -217,14 +217,14 @@ impl<'a> Events<'a> {
             self.at_large(&meeting);
             return false;
         };
-        if !self.is_there(one) {
+        if !self.can_occur(one) {
             return false;
         }
         let cells = match meeting.with {
-            With::Sprite(two) if self.is_there(two) => self.met(one, two, meeting.order),
+            With::Sprite(two) if self.can_occur(two) => self.met(one, two, meeting.order),
             With::Sprite(_) => return false,
             With::Edge => self.touch(one).shared(&self.ring),
-            With::Nobody => self.touch(one).clone(),
+            With::NoPartner => self.touch(one).clone(),
         };
         if cells.is_empty() {
             return false;
@@ -246,10 +246,10 @@ impl<'a> Events<'a> {
 
     /// Removes the sprites that a meeting in these cells can remove.
     fn end(&mut self, meeting: &Meeting<'_>, cells: &Cells) {
-        for End { stype, whose, .. } in meeting.ends(self.flood.model.rules) {
-            let at = match whose {
-                Whose::All => Cells::all(self.board()),
-                Whose::First | Whose::Second => self.near(stype, cells),
+        for End { stype, scope, .. } in meeting.ends(self.flood.model.rules) {
+            let at = match scope {
+                RemovalScope::All => Cells::all(self.board()),
+                RemovalScope::First | RemovalScope::Second => self.near(stype, cells),
             };
             self.flood.end(stype, &at);
         }

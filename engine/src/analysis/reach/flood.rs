@@ -1,6 +1,6 @@
 //! Flood fill: the cells that sprites reach from their positions, cell by cell, until nothing new is reached.
 
-use super::cells::{Board, Cells, Ways};
+use super::cells::{Board, Cells, Directions};
 use super::meetings::{End, Meeting, Order, With};
 use super::mobility::is_stop;
 use super::model::Model;
@@ -21,7 +21,7 @@ pub(super) struct Region {
     pub(super) rest: Cells,
     /// For types that keep their direction until something turns them, by cell of `rest`: the directions possible
     /// there.
-    headings: Vec<Ways>,
+    headings: Vec<Directions>,
     /// Cells of `rest` from which all moves have been followed, or are queued.
     spread: Cells,
     queue: Vec<usize>,
@@ -35,7 +35,7 @@ pub(super) struct Region {
 
 /// A type that keeps sprites of another type out of its cells, or removes them there.
 #[derive(Clone, Copy, Debug)]
-struct Bar {
+struct Barrier {
     /// The barring type; none: the edge of the board.
     by: Option<SpriteType>,
     kills: bool,
@@ -50,15 +50,15 @@ pub(super) struct Flood<'a> {
     pub(super) board: Board,
     pub(super) regions: Vec<Region>,
     /// By type: cells where one stands from the start and, as far as is known, forever.
-    pub(super) firm: Vec<Cells>,
+    pub(super) permanent: Vec<Cells>,
     /// By type: cells where one can be removed.
-    pub(super) ended: Vec<Cells>,
+    pub(super) removable: Vec<Cells>,
     /// The number of times that a type has become removable in new cells.
     pub(super) ends: u64,
     /// By type: some can appear during play.
     pub(super) made: Vec<bool>,
     /// By type: the bars that keep it out.
-    bars: Vec<Vec<Bar>>,
+    bars: Vec<Vec<Barrier>>,
     /// By type: the types that it keeps out.
     bars_to: Vec<Vec<SpriteType>>,
     /// By type: it may be removed in the middle of a tick; until the end of the tick others still meet it there.
@@ -72,21 +72,21 @@ pub(super) struct Flood<'a> {
 impl<'a> Flood<'a> {
     pub(super) fn of(model: &'a Model<'a>) -> Flood<'a> {
         let board = model.board;
-        let types = model.there.len();
+        let types = model.exists.len();
         let none = Cells::none(board);
         let [touch, late, rest, spread] = std::array::from_fn(|_| none.clone());
         let region = Region { touch, late, rest, spread, ..Region::default() };
-        let for_each = |there: &bool| if *there { none.clone() } else { Cells::default() };
+        let for_each = |exists: &bool| if *exists { none.clone() } else { Cells::default() };
         let mut flood = Flood {
             model,
             board,
             regions: model
-                .there
+                .exists
                 .iter()
-                .map(|&there| if there { region.clone() } else { Region::default() })
+                .map(|&exists| if exists { region.clone() } else { Region::default() })
                 .collect(),
-            firm: model.there.iter().map(for_each).collect(),
-            ended: model.there.iter().map(for_each).collect(),
+            permanent: model.exists.iter().map(for_each).collect(),
+            removable: model.exists.iter().map(for_each).collect(),
             ends: 0,
             made: vec![false; types],
             bars: vec![Vec::new(); types],
@@ -102,11 +102,11 @@ impl<'a> Flood<'a> {
                 flood.regions[stype.index()].rises = vec![0; board.size()];
             }
             if model.of_type(stype).is_steady() {
-                flood.regions[stype.index()].headings = vec![Ways::NONE; board.size()];
+                flood.regions[stype.index()].headings = vec![Directions::NONE; board.size()];
             }
         }
         for stype in model.types() {
-            flood.removed[stype.index()] = super::super::attain::is_mortal(model.rules, stype);
+            flood.removed[stype.index()] = super::super::attain::disappears_by_itself(model.rules, stype);
         }
         let wraps = Flood::always_wraps(model);
         for meeting in model.meetings {
@@ -128,14 +128,14 @@ impl<'a> Flood<'a> {
     fn add_bars(&mut self, meeting: &Meeting<'_>, wraps: &[bool]) {
         let model = self.model;
         let (Some(one), effect) = (meeting.one, meeting.effect(model.rules)) else { return };
-        if !meeting.certain || meeting.with == With::Nobody {
+        if !meeting.certain || meeting.with == With::NoPartner {
             return;
         }
         let is_avatar = model.info(one).class.is_some_and(|class| class.is_avatar());
-        let bar = |flood: &mut Flood<'_>, whom: SpriteType, by: Option<SpriteType>, kills: bool| {
+        let bar = |flood: &mut Flood<'_>, stype: SpriteType, by: Option<SpriteType>, kills: bool| {
             // A moving sprite lets others pass sooner or later.
             if by.is_none_or(|by| flood.can_be_firm(by)) {
-                flood.bar(whom, Bar { by, kills, first: meeting.order, last: meeting.order });
+                flood.bar(stype, Barrier { by, kills, first: meeting.order, last: meeting.order });
             }
         };
         let own = model.of_type(one);
@@ -160,15 +160,15 @@ impl<'a> Flood<'a> {
         }
     }
 
-    fn bar(&mut self, whom: SpriteType, new: Bar) {
-        let bars = &mut self.bars[whom.index()];
+    fn bar(&mut self, stype: SpriteType, new: Barrier) {
+        let bars = &mut self.bars[stype.index()];
         if let Some(bar) = bars.iter_mut().find(|bar| (bar.by, bar.kills) == (new.by, new.kills)) {
             (bar.first, bar.last) = (bar.first.min(new.first), bar.last.max(new.last));
             return;
         }
         bars.push(new);
         if let Some(by) = new.by {
-            self.bars_to[by.index()].push(whom);
+            self.bars_to[by.index()].push(stype);
         }
     }
 
@@ -177,10 +177,10 @@ impl<'a> Flood<'a> {
     fn always_wraps(model: &Model<'_>) -> Vec<bool> {
         let goes_ahead = |stype: SpriteType| {
             let own = model.of_type(stype);
-            own.goes_ahead && !own.backwards && !own.facing.with(own.ways).meets(Ways::ASKEW)
+            own.goes_ahead && !own.backwards && !own.facing.with(own.directions).meets(Directions::ASKEW)
         };
         let mut wraps: Vec<bool> =
-            (0..model.there.len()).map(|at| goes_ahead(SpriteType(at as u16))).collect();
+            (0..model.exists.len()).map(|at| goes_ahead(SpriteType(at as u16))).collect();
         for meeting in model.meetings {
             let disturbs = match meeting.effect(model.rules) {
                 Effect::WrapAround { offset } => !(0.0..=1.0).contains(offset),
@@ -191,7 +191,7 @@ impl<'a> Flood<'a> {
                 _ => meeting.with == With::Edge,
             };
             match meeting.one {
-                _ if meeting.with == With::Nobody => wraps.fill(false),
+                _ if meeting.with == With::NoPartner => wraps.fill(false),
                 Some(one) if disturbs => wraps[one.index()] = false,
                 _ => {}
             }
@@ -205,14 +205,14 @@ impl<'a> Flood<'a> {
         let traits = &info.traits;
         let singleton = info.path.iter().any(|&stype| self.model.info(stype).singleton);
         let whole = traits.width_factor == 1.0 && traits.height_factor == 1.0;
-        let mortal = super::super::attain::is_mortal(self.model.rules, stype);
+        let mortal = super::super::attain::disappears_by_itself(self.model.rules, stype);
         self.model.of_type(stype).fixed && whole && !singleton && !info.is_like_avatar() && !mortal
     }
 
     /// Places a sprite of the level.
     pub(super) fn place(&mut self, stype: SpriteType, cell: usize) {
         if self.can_be_firm(stype) {
-            self.firm[stype.index()].insert(cell);
+            self.permanent[stype.index()].insert(cell);
         }
         // A sprite larger than a cell extends to the right and down.
         let (columns, rows) = self.model.info(stype).traits.span();
@@ -232,7 +232,7 @@ impl<'a> Flood<'a> {
         let stopped = first || !self.removed[stype.index()];
         for bar in &self.bars[stype.index()] {
             if let (Some(by), true) = (bar.by, bar.first < at && stopped) {
-                cells.drop_unless(&self.firm[by.index()], [rest, late]);
+                cells.drop_unless(&self.permanent[by.index()], [rest, late]);
             }
         }
         cells
@@ -243,7 +243,7 @@ impl<'a> Flood<'a> {
     fn is_barred(&self, stype: SpriteType, cell: usize, after: Order, kills_only: bool) -> bool {
         let bars = self.bars[stype.index()].iter();
         bars.filter(|bar| bar.last > after && (bar.kills || !kills_only)).any(|bar| match bar.by {
-            Some(by) => self.firm[by.index()].contains(cell),
+            Some(by) => self.permanent[by.index()].contains(cell),
             None => self.board.is_ring(cell),
         })
     }
@@ -251,11 +251,11 @@ impl<'a> Flood<'a> {
     /// Returns the types whose sprites keep those of a type out of a cell forever, or remove them there.
     pub(super) fn barring(&self, stype: SpriteType, cell: usize) -> impl Iterator<Item = SpriteType> + '_ {
         let bars = self.bars[stype.index()].iter().filter_map(|bar| bar.by);
-        bars.filter(move |by| self.firm[by.index()].contains(cell))
+        bars.filter(move |by| self.permanent[by.index()].contains(cell))
     }
 
     /// Returns `true` if the work budget is exceeded.
-    pub(super) fn is_spent(&self) -> bool {
+    pub(super) fn is_over_budget(&self) -> bool {
         self.work > BUDGET
     }
 
@@ -269,13 +269,13 @@ impl<'a> Flood<'a> {
     }
 
     /// `heading`: the directions that it can have there, if it keeps its direction.
-    fn rest_at(&mut self, stype: SpriteType, cell: usize, heading: Ways) {
+    fn rest_at(&mut self, stype: SpriteType, cell: usize, heading: Directions) {
         let region = &mut self.regions[stype.index()];
         let mut new = region.touch.insert(cell);
         new |= region.rest.insert(cell);
         let mut follow = region.spread.insert(cell);
         if let Some(known) = region.headings.get_mut(cell) {
-            let turned = heading.without(*known) != Ways::NONE;
+            let turned = heading.without(*known) != Directions::NONE;
             *known = known.with(heading);
             (new, follow) = (new | turned, follow | turned);
         }
@@ -286,7 +286,7 @@ impl<'a> Flood<'a> {
     }
 
     /// Turns sprites between two ticks in these cells: `turn` maps their directions to the new ones.
-    pub(super) fn face(&mut self, stype: SpriteType, cells: &Cells, turn: impl Fn(Ways) -> Ways) {
+    pub(super) fn face(&mut self, stype: SpriteType, cells: &Cells, turn: impl Fn(Directions) -> Directions) {
         if self.regions[stype.index()].headings.is_empty() {
             return;
         }
@@ -301,7 +301,7 @@ impl<'a> Flood<'a> {
     }
 
     /// Adds a sprite that comes to a cell at that moment of a tick, in one of these directions.
-    pub(super) fn come(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Ways) {
+    pub(super) fn come(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
         self.touch(stype, cell, at);
         if !self.is_barred(stype, cell, at, false) {
             self.rest_at(stype, cell, heading);
@@ -309,8 +309,8 @@ impl<'a> Flood<'a> {
     }
 
     /// Adds a sprite that appears in a cell at that moment of a tick, in one of these directions.
-    pub(super) fn appear(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Ways) {
-        if !self.model.there[stype.index()] {
+    pub(super) fn appear(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
+        if !self.model.exists[stype.index()] {
             return;
         }
         if !std::mem::replace(&mut self.made[stype.index()], true) {
@@ -333,24 +333,24 @@ impl<'a> Flood<'a> {
 
     /// Records that sprites of a type can be removed in these cells.
     pub(super) fn end(&mut self, stype: SpriteType, cells: &Cells) {
-        if !self.model.there[stype.index()] {
+        if !self.model.exists[stype.index()] {
             return;
         }
         let at = stype.index();
-        self.ends += u64::from(self.ended[at].add(cells));
-        let opened = self.firm[at].shared(cells);
+        self.ends += u64::from(self.removable[at].add(cells));
+        let opened = self.permanent[at].shared(cells);
         for cell in opened.iter() {
-            self.firm[at].remove(cell);
-            for whom in self.bars_to[at].clone() {
-                self.regions[whom.index()].version += 1;
-                let region = &self.regions[whom.index()];
+            self.permanent[at].remove(cell);
+            for stype in self.bars_to[at].clone() {
+                self.regions[stype.index()].version += 1;
+                let region = &self.regions[stype.index()];
                 let waiting = region.touch.contains(cell) && !region.spread.contains(cell);
-                if waiting && !self.is_barred(whom, cell, Order::UPDATE, false) {
+                if waiting && !self.is_barred(stype, cell, Order::UPDATE, false) {
                     // The way by which it came there is unknown.
-                    if let Some(climb) = self.climbs[whom.index()] {
-                        self.regions[whom.index()].rises[cell] = climb;
+                    if let Some(climb) = self.climbs[stype.index()] {
+                        self.regions[stype.index()].rises[cell] = climb;
                     }
-                    self.rest_at(whom, cell, self.model.of_type(whom).facing);
+                    self.rest_at(stype, cell, self.model.of_type(stype).facing);
                 }
             }
         }
@@ -366,7 +366,7 @@ impl<'a> Flood<'a> {
             region.rises[cell] = rise;
             region.spread.remove(cell);
         }
-        self.rest_at(stype, cell, Ways::NONE);
+        self.rest_at(stype, cell, Directions::NONE);
     }
 
     /// Lets sprites on solid ground jump from there.
@@ -384,7 +384,7 @@ impl<'a> Flood<'a> {
     pub(super) fn spread(&mut self) {
         loop {
             self.ground();
-            if !self.spread_once() || self.is_spent() {
+            if !self.spread_once() || self.is_over_budget() {
                 return;
             }
         }
@@ -397,7 +397,7 @@ impl<'a> Flood<'a> {
             while let Some(cell) = self.regions[stype.index()].queue.pop() {
                 self.follow(stype, cell);
                 any = true;
-                if self.is_spent() {
+                if self.is_over_budget() {
                     return false;
                 }
             }
@@ -416,7 +416,7 @@ impl<'a> Flood<'a> {
         } else if self.climbs[stype.index()].is_some() {
             let rise = self.regions[stype.index()].rises[from];
             self.leap(stype, from, rise);
-        } else if own.ways.meets(Ways::ASKEW) {
+        } else if own.directions.meets(Directions::ASKEW) {
             let (x, y) = self.board.place(from);
             for dy in -own.stride..=own.stride {
                 for dx in -own.stride..=own.stride {
@@ -429,13 +429,14 @@ impl<'a> Flood<'a> {
                 }
             }
         } else {
-            let ways = heading.map_or(own.ways, |heading| {
-                let back = if own.backwards { heading.mirrored() } else { Ways::NONE };
-                heading.with(back).shared(own.ways)
+            let directions = heading.map_or(own.directions, |heading| {
+                let back = if own.backwards { heading.mirrored() } else { Directions::NONE };
+                heading.with(back).shared(own.directions)
             });
-            for step in ways.steps() {
+            for step in directions.steps() {
                 // It faces the direction of its move; if it can move backwards, it faces either way.
-                let ahead = if own.backwards { heading.unwrap_or(own.facing) } else { Ways::of_step(step) };
+                let ahead =
+                    if own.backwards { heading.unwrap_or(own.facing) } else { Directions::of_step(step) };
                 self.go(stype, from, step, (own.stride, own.leap), (Order::UPDATE, ahead));
             }
         }
@@ -448,7 +449,7 @@ impl<'a> Flood<'a> {
         from: usize,
         step: (i32, i32),
         (stride, leap): (i32, i32),
-        (at, heading): (Order, Ways),
+        (at, heading): (Order, Directions),
     ) {
         for times in 1..=stride.max(leap + 1) {
             let cell = self.board.shifted(from, step, times);

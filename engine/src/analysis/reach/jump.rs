@@ -37,7 +37,7 @@ pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
         && traits.orientation.y >= 0.0
         && traits.speed >= 0.0;
     let bound = jumps && traits.continuous && sane && !own.boundless && !own.placed && own.leap == 0;
-    if !bound || model.meetings.iter().any(|meeting| frees(model, stype, meeting)) {
+    if !bound || model.meetings.iter().any(|meeting| breaks_gravity_bound(model, stype, meeting)) {
         return None;
     }
     let lift = traits.jump_strength / traits.mass;
@@ -47,7 +47,7 @@ pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
 }
 
 /// Returns `true` if an effect gives a sprite a velocity or a position that is not its own doing.
-fn frees(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
+fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
     let effect = meeting.effect(model.rules);
     // A new sprite may take over an orientation.
     if effect.makes().contains(&stype) {
@@ -76,7 +76,7 @@ fn frees(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
         Effect::WallStop | Effect::StepBack { pixel_perfect: true } => {
             own && meeting.two().is_some_and(|two| !model.stops_in_order(stype, two))
         }
-        _ => own && meeting.with == With::Nobody,
+        _ => own && meeting.with == With::NoPartner,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The sprites that types make by themselves, and the cells where they appear.
 
-use super::cells::{Cells, Ways};
+use super::cells::{Cells, Directions};
 use super::events::Events;
 use super::meetings::Order;
 use crate::game::SpriteType;
@@ -11,21 +11,21 @@ impl Events<'_> {
     /// Adds the sprites that types make by themselves.
     pub(super) fn make(&mut self) {
         for maker in self.flood.model.types() {
-            if !self.is_there(maker) || self.flood.is_spent() {
+            if !self.can_occur(maker) || self.flood.is_over_budget() {
                 continue;
             }
             let model = self.flood.model;
             let loaded = |ammo: Option<SpriteType>| ammo.is_none_or(|ammo| self.have[ammo.index()] > 0);
             let kinds = model.makes[maker.index()].iter();
-            let kinds = kinds.filter(|(made, ammo)| model.there[made.index()] && loaded(*ammo));
+            let kinds = kinds.filter(|(made, ammo)| model.exists[made.index()] && loaded(*ammo));
             let kinds: Vec<SpriteType> = kinds.map(|(made, _)| *made).collect();
             if kinds.is_empty() {
                 continue;
             }
-            let muzzles = self.muzzles(maker);
+            let spawn_cells = self.spawn_cells(maker);
             self.flood.work += self.board().size() as u64;
             for made in kinds {
-                for (from, facing) in &muzzles {
+                for (from, facing) in &spawn_cells {
                     let heading = self.given(maker, made, *facing);
                     self.appear_in(made, from, Order::UPDATE, heading);
                 }
@@ -34,7 +34,7 @@ impl Events<'_> {
     }
 
     /// Returns the directions that a new sprite gets from a maker that faces one way.
-    fn given(&self, maker: SpriteType, made: SpriteType, facing: Ways) -> Ways {
+    fn given(&self, maker: SpriteType, made: SpriteType, facing: Directions) -> Directions {
         let model = self.flood.model;
         let born = model.born(made);
         let traits = &model.info(maker).traits;
@@ -47,20 +47,20 @@ impl Events<'_> {
                     born
                 }
             }
-            _ if traits.spawn_orientation != Direction::NONE => Ways::of(traits.spawn_orientation),
-            _ if born.meets(Ways::UNSET) => facing,
+            _ if traits.spawn_orientation != Direction::NONE => Directions::of(traits.spawn_orientation),
+            _ if born.meets(Directions::UNSET) => facing,
             _ => born,
         }
     }
 
     /// Returns the cells where the sprites made by a type appear, with the maker's orientation at that moment.
-    fn muzzles(&self, maker: SpriteType) -> Vec<(Cells, Ways)> {
+    fn spawn_cells(&self, maker: SpriteType) -> Vec<(Cells, Directions)> {
         use SpriteClass as C;
         let (board, model) = (self.board(), self.flood.model);
         let own = model.of_type(maker);
         let Some(class) = model.info(maker).class else { return Vec::new() };
-        let grown = if own.loose { model.rules.reach.max(1) } else { 0 };
-        let around = |distance: i32| vec![(board.around(self.touch(maker), distance), Ways::ALL)];
+        let grown = if own.off_grid { model.rules.reach.max(1) } else { 0 };
+        let around = |distance: i32| vec![(board.around(self.touch(maker), distance), Directions::ALL)];
         match class {
             // These avatars shoot only if they do not move; the others have moved before they shoot.
             C::ShootAvatar | C::ShootOnlyAvatar if !model.info(maker).traits.continuous => {
@@ -75,21 +75,22 @@ impl Events<'_> {
             C::AimedAvatar | C::SpaceshipAvatar => around(1 + grown),
             C::WizardAvatar => around(2 + grown),
             C::OngoingTurningAvatar => vec![(self.rest(maker).clone(), own.facing)],
-            C::Spreader => self.ahead(self.touch(maker), Ways::FOUR, grown),
+            C::Spreader => self.ahead(self.touch(maker), Directions::FOUR, grown),
             _ => vec![(self.touch(maker).clone(), own.facing)],
         }
     }
 
     /// Returns the cells one body length ahead, for each of these directions.
-    fn ahead(&self, from: &Cells, facing: Ways, grown: i32) -> Vec<(Cells, Ways)> {
+    fn ahead(&self, from: &Cells, facing: Directions, grown: i32) -> Vec<(Cells, Directions)> {
         let board = self.board();
-        if facing.meets(Ways::ASKEW) {
-            return vec![(board.around(from, 1 + grown), Ways::ALL)];
+        if facing.meets(Directions::ASKEW) {
+            return vec![(board.around(from, 1 + grown), Directions::ALL)];
         }
         // A maker whose size differs from that of a cell shoots a little further, or less far.
         let more = if self.flood.model.scales { grown } else { 0 };
-        let shifted = |step: (i32, i32)| (board.around(&board.beside(from, step), more), Ways::of_step(step));
-        let unset = facing.meets(Ways::UNSET).then(|| (board.around(from, more), Ways::UNSET));
+        let shifted =
+            |step: (i32, i32)| (board.around(&board.beside(from, step), more), Directions::of_step(step));
+        let unset = facing.meets(Directions::UNSET).then(|| (board.around(from, more), Directions::UNSET));
         facing.steps().map(shifted).chain(unset).collect()
     }
 }

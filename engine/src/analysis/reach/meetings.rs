@@ -1,7 +1,7 @@
 //! The possible meetings, one pair of types at a time, in the order of a tick.
 
-use super::super::encounter::{Deed, Encounter, Provided, Side};
-use super::super::prospect::Prospect;
+use super::super::encounter::{EffectSummary, Encounter, Precondition, Side};
+use super::super::futures::PossibleFutures;
 use crate::game::{Rules, SpriteType};
 use crate::ontology::effects::Effect;
 use smallvec::SmallVec;
@@ -32,7 +32,7 @@ pub(super) enum With {
     Sprite(SpriteType),
     Edge,
     /// No partner: the effect is timed.
-    Nobody,
+    NoPartner,
 }
 
 /// An effect that can run on sprites of one type.
@@ -43,8 +43,8 @@ pub(super) struct Meeting<'a> {
     pub(super) with: With,
     pub(super) effect: u16,
     pub(super) order: Order,
-    pub(super) provided: Provided,
-    deeds: &'a [Deed],
+    pub(super) precondition: Precondition,
+    effects: &'a [EffectSummary],
     /// The number of times that it runs in a tick, on the same two sprites.
     pub(super) times: u16,
     /// Nothing prevents it when the two overlap.
@@ -55,14 +55,14 @@ pub(super) struct Meeting<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
     pub(super) stype: SpriteType,
-    pub(super) whose: Whose,
+    pub(super) scope: RemovalScope,
     /// It applies to avatars, too: those that are only killed stay where they are.
     pub(super) for_good: bool,
 }
 
 /// The sprites that a meeting can remove, relative to its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Whose {
+pub(super) enum RemovalScope {
     First,
     Second,
     /// Anywhere.
@@ -73,24 +73,28 @@ impl Meeting<'_> {
     /// Returns the sprites that it can remove.
     pub(super) fn ends(&self, rules: &Rules) -> SmallVec<[End; 4]> {
         let mut ends = SmallVec::new();
-        let mut end = |stype: Option<SpriteType>, whose: Whose, for_good: bool| {
-            ends.extend(stype.map(|stype| End { stype, whose, for_good }));
+        let mut end = |stype: Option<SpriteType>, scope: RemovalScope, for_good: bool| {
+            ends.extend(stype.map(|stype| End { stype, scope, for_good }));
         };
         // Only resources are collected.
-        let collects = self.deeds.contains(&Deed::Collect);
+        let collects = self.effects.contains(&EffectSummary::Collect);
         let first = self.one.filter(|one| !collects || rules.types[one.index()].traits.is_resource);
-        for deed in self.deeds {
-            match deed {
+        for effect in self.effects {
+            match effect {
                 // Without an exit, the sprite dies.
-                Deed::Kill(Side::First) | Deed::Teleport => end(first, Whose::First, false),
-                Deed::Kill(Side::Second) => end(self.two(), Whose::Second, true),
-                Deed::Become(_) | Deed::BecomeAny(_) => end(first, Whose::First, true),
-                Deed::KillAll(stype) => end(Some(*stype), Whose::All, false),
-                Deed::BecomeAll(from, _) => end(Some(*from), Whose::All, true),
-                Deed::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
-                    end(first, Whose::First, false);
+                EffectSummary::Kill(Side::First) | EffectSummary::Teleport => {
+                    end(first, RemovalScope::First, false)
+                }
+                EffectSummary::Kill(Side::Second) => end(self.two(), RemovalScope::Second, true),
+                EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
+                    end(first, RemovalScope::First, true)
+                }
+                EffectSummary::KillAll(stype) => end(Some(*stype), RemovalScope::All, false),
+                EffectSummary::BecomeAll(from, _) => end(Some(*from), RemovalScope::All, true),
+                EffectSummary::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
+                    end(first, RemovalScope::First, false);
                     let family = of.map_or(&[][..], |of| &*rules.types[of.index()].tree);
-                    family.iter().for_each(|&stype| end(Some(stype), Whose::All, false));
+                    family.iter().for_each(|&stype| end(Some(stype), RemovalScope::All, false));
                 }
                 _ => {}
             }
@@ -101,7 +105,7 @@ impl Meeting<'_> {
     pub(super) fn two(&self) -> Option<SpriteType> {
         match self.with {
             With::Sprite(two) => Some(two),
-            With::Edge | With::Nobody => None,
+            With::Edge | With::NoPartner => None,
         }
     }
 
@@ -110,18 +114,18 @@ impl Meeting<'_> {
     }
 }
 
-/// Returns everything that can run in a prospect; None if that is too much. `clockwork`: the timed effects.
+/// Returns everything that can run in the possible futures; None if that is too much. `timed_effects`: the timed effects.
 pub(super) fn meetings<'a>(
     rules: &Rules,
-    prospect: &Prospect<'a>,
-    clockwork: &'a [(Option<SpriteType>, SmallVec<[Deed; 2]>)],
+    futures: &PossibleFutures<'a>,
+    timed_effects: &'a [(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)],
 ) -> Option<Vec<Meeting<'a>>> {
-    let there = |written: SpriteType| {
+    let exists = |written: SpriteType| {
         let tree = rules.types[written.index()].tree.iter().copied();
-        tree.filter(|stype| prospect.there[stype.index()])
+        tree.filter(|stype| futures.exists[stype.index()])
     };
-    let live = prospect.encounters().iter().enumerate().filter(|(at, _)| prospect.live[*at]);
-    let timed = rules.timed.iter().zip(clockwork).zip(&prospect.timed).filter(|(_, live)| **live);
+    let live = futures.encounters().iter().enumerate().filter(|(at, _)| futures.live[*at]);
+    let timed = rules.timed.iter().zip(timed_effects).zip(&futures.timed).filter(|(_, live)| **live);
     let shield = |effect: u16| match rules.effects[usize::from(effect)].effect {
         Effect::ShieldFrom { stype, keyword } => Some((stype, keyword)),
         _ => None,
@@ -134,27 +138,27 @@ pub(super) fn meetings<'a>(
         *repeats.entry((pass.first, Some(pass.second), pass.effect)).or_default() += 1;
     }
     let mut meetings = Vec::new();
-    for ((timed, (_, deeds)), _) in timed {
+    for ((timed, (_, effects)), _) in timed {
         let meeting = |one: Option<SpriteType>| Meeting {
             one,
-            with: With::Nobody,
+            with: With::NoPartner,
             effect: timed.effect,
             order: Order::CLOCK,
-            provided: Provided::Always,
-            deeds,
+            precondition: Precondition::Always,
+            effects,
             times: 1,
             certain: false,
         };
         match timed.target {
             None => meetings.push(meeting(None)),
-            Some(target) => meetings.extend(there(target).map(|one| meeting(Some(one)))),
+            Some(target) => meetings.extend(exists(target).map(|one| meeting(Some(one)))),
         }
         if meetings.len() > MAX_MEETINGS {
             return None;
         }
     }
     for (number, encounter) in live {
-        let Encounter { first, second, effect, provided, ref deeds, .. } = *encounter;
+        let Encounter { first, second, effect, precondition, ref effects, .. } = *encounter;
         let info = &rules.effects[usize::from(effect)];
         let batches = matches!(info.effect, Effect::WallBounce | Effect::WallReverse);
         if info.in_batch && !batches {
@@ -164,12 +168,20 @@ pub(super) fn meetings<'a>(
         let certain = second.is_none_or(|second| !shields.contains(&(second, encounter.keyword)));
         let order = if second.is_none() { Order::EDGE } else { Order::pass(number) };
         let times = repeats.get(&(first, second, effect)).copied().unwrap_or(1);
-        for one in there(first) {
-            let meeting =
-                |with: With| Meeting { one: Some(one), with, effect, order, provided, deeds, times, certain };
+        for one in exists(first) {
+            let meeting = |with: With| Meeting {
+                one: Some(one),
+                with,
+                effect,
+                order,
+                precondition,
+                effects,
+                times,
+                certain,
+            };
             match second {
                 None => meetings.push(meeting(With::Edge)),
-                Some(second) => meetings.extend(there(second).map(|two| meeting(With::Sprite(two)))),
+                Some(second) => meetings.extend(exists(second).map(|two| meeting(With::Sprite(two)))),
             }
             if meetings.len() > MAX_MEETINGS {
                 return None;

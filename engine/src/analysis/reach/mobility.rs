@@ -1,6 +1,6 @@
 //! The movement of sprites of a type by themselves.
 
-use super::cells::Ways;
+use super::cells::Directions;
 use super::meetings::{Meeting, With};
 use super::model::Model;
 use crate::game::SpriteType;
@@ -17,11 +17,11 @@ const MAX_STRIDE: f64 = 4.0;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mobility {
     /// The directions in which its own update can move it.
-    pub(super) ways: Ways,
+    pub(super) directions: Directions,
     /// The orientations that it can have.
-    pub(super) facing: Ways,
+    pub(super) facing: Directions,
     /// The directions in which it can have moved since its last update, for any reason.
-    pub(super) moved: Ways,
+    pub(super) moved: Directions,
     /// The largest speed that it can have, in the units of its physics.
     pub(super) top: f64,
     /// Its speed can be negative.
@@ -33,13 +33,13 @@ pub(super) struct Mobility {
     /// It may get anywhere that is not barred.
     pub(super) boundless: bool,
     /// It may stand between cells, or be larger or smaller than one.
-    pub(super) loose: bool,
+    pub(super) off_grid: bool,
     /// Nothing ever moves it.
     pub(super) fixed: bool,
     /// Some effect moves it directly to a position, so that it may be moved again in the same tick.
     pub(super) placed: bool,
     /// Some effect can move it to any distance.
-    pub(super) thrown: bool,
+    pub(super) moved_any_distance: bool,
     /// It does not move in its first update.
     pub(super) waits: bool,
     /// It always faces the direction in which it has moved.
@@ -61,7 +61,7 @@ impl Mobility {
 
     /// Returns `true` if it moves in the direction that it faces, along the grid, until something turns it.
     pub(super) fn is_steady(&self) -> bool {
-        self.goes_ahead && !self.turns && !self.boundless && !self.ways.meets(Ways::ASKEW)
+        self.goes_ahead && !self.turns && !self.boundless && !self.directions.meets(Directions::ASKEW)
     }
 }
 
@@ -75,19 +75,19 @@ impl Model<'_> {
         let own = self.born(stype);
         let facing = match class {
             // These turn by angles, or lose a component of their orientation when they jump.
-            C::AimedAvatar | C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Ways::ALL,
-            C::Walker | C::WalkerJumper => Ways::ALL,
-            C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar => own.with(Ways::FOUR),
+            C::AimedAvatar | C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Directions::ALL,
+            C::Walker | C::WalkerJumper => Directions::ALL,
+            C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar => own.with(Directions::FOUR),
             _ => own,
         };
         let walks = class.is_a(C::RandomNPC) || class.is_a(C::Walker) || class == C::RandomBomber;
         let active = class.is_avatar() || walks;
         Mobility {
             facing,
-            moved: Ways::UNSET,
+            moved: Directions::UNSET,
             top: traits.speed.abs().max(if class.is_a(C::Walker) { traits.max_speed.abs() } else { 0.0 }),
             backwards: traits.speed < 0.0,
-            loose: self.is_odd(stype) || traits.speed.fract() != 0.0,
+            off_grid: self.is_scaled(stype) || traits.speed.fract() != 0.0,
             waits: !active && traits.is_first_tick,
             // Passive movement follows the sprite's orientation, and some avatars face the direction of their last
             // move.
@@ -101,11 +101,11 @@ impl Model<'_> {
     }
 
     /// Returns the directions that a new sprite of the type can have, if nothing else determines them.
-    pub(super) fn born(&self, stype: SpriteType) -> Ways {
+    pub(super) fn born(&self, stype: SpriteType) -> Directions {
         let info = self.info(stype);
         let draws =
             info.class == Some(SpriteClass::RandomMissile) && info.traits.orientation == Direction::NIL;
-        if draws { Ways::FOUR } else { Ways::of(info.traits.orientation) }
+        if draws { Directions::FOUR } else { Directions::of(info.traits.orientation) }
     }
 
     /// Computes the directions and distances that a type's own update moves its sprites.
@@ -122,42 +122,42 @@ impl Model<'_> {
         let passive = if class.is_avatar() { always || traits.off_grid } else { always || drifts };
         let passive = passive && (class.is_avatar() || !is_idle(class, info));
         let steered = match class {
-            C::HorizontalAvatar | C::FlakAvatar => Ways::LEFT.with(Ways::RIGHT),
-            C::VerticalAvatar => Ways::UP.with(Ways::DOWN),
-            C::NullAvatar | C::ShootOnlyAvatar => Ways::NONE,
-            C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar => Ways::ANY,
-            C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Ways::ANY,
-            _ if always => Ways::NONE,
-            class if class.is_avatar() => Ways::FOUR,
-            class if class.is_a(C::RandomNPC) || class == C::RandomBomber => Ways::FOUR,
-            C::Walker | C::WalkerJumper => Ways::ANY,
-            _ => Ways::NONE,
+            C::HorizontalAvatar | C::FlakAvatar => Directions::LEFT.with(Directions::RIGHT),
+            C::VerticalAvatar => Directions::UP.with(Directions::DOWN),
+            C::NullAvatar | C::ShootOnlyAvatar => Directions::NONE,
+            C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar => Directions::ANY,
+            C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Directions::ANY,
+            _ if always => Directions::NONE,
+            class if class.is_avatar() => Directions::FOUR,
+            class if class.is_a(C::RandomNPC) || class == C::RandomBomber => Directions::FOUR,
+            C::Walker | C::WalkerJumper => Directions::ANY,
+            _ => Directions::NONE,
         };
         // Parents are never updated; the player's avatar always is.
         let updated = info.order.is_some() || class.is_avatar();
-        let (passive, steered) = (passive && updated, if updated { steered } else { Ways::NONE });
-        let accelerates = traits.continuous && (steered != Ways::NONE || self.forced[stype.index()]);
-        let walks = steered != Ways::NONE && !traits.stationary;
-        let mut ways = Ways::NONE;
+        let (passive, steered) = (passive && updated, if updated { steered } else { Directions::NONE });
+        let accelerates = traits.continuous && (steered != Directions::NONE || self.forced[stype.index()]);
+        let walks = steered != Directions::NONE && !traits.stationary;
+        let mut directions = Directions::NONE;
         if traits.continuous {
             if accelerates {
-                own.facing = Ways::ALL;
+                own.facing = Directions::ALL;
                 let limit = traits.max_speed.abs();
                 own.top = if traits.max_speed == -1.0 { f64::INFINITY } else { own.top.max(limit) };
                 if !(0.0..=2.0).contains(&traits.friction) {
                     own.top = f64::INFINITY;
                 }
             }
-            if passive || steered != Ways::NONE {
-                ways = if accelerates { Ways::ANY } else { own.facing };
+            if passive || steered != Directions::NONE {
+                directions = if accelerates { Directions::ANY } else { own.facing };
             }
-            own.loose |= ways != Ways::NONE;
+            own.off_grid |= directions != Directions::NONE;
         } else {
             if passive && oriented {
-                ways = ways.with(own.facing);
+                directions = directions.with(own.facing);
             }
             if walks {
-                ways = ways.with(steered);
+                directions = directions.with(steered);
                 if traits.rotate_in_place {
                     own.facing = own.facing.with(steered);
                 }
@@ -168,36 +168,36 @@ impl Model<'_> {
         }
         // A passive speed of −1 means 1.
         if own.backwards {
-            ways = ways.with(ways.mirrored());
+            directions = directions.with(directions.mirrored());
         }
-        ways = ways.without(Ways::UNSET);
-        own.loose |= ways.meets(Ways::ASKEW);
+        directions = directions.without(Directions::UNSET);
+        own.off_grid |= directions.meets(Directions::ASKEW);
         // On the grid these treat forces as directions of any length.
         let jumps = matches!(class, C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar) || walker;
         let leaps = jumps && !traits.continuous && walks;
         let hop = if jumps { 5.0 / self.block } else { 0.0 };
         let distance = if traits.continuous { own.top / self.block + hop } else { own.top };
         if own.top == 0.0 && !walks {
-            ways = Ways::NONE;
+            directions = Directions::NONE;
         }
-        own.ways = ways;
-        own.moved = own.moved.with(ways);
-        if ways == Ways::NONE {
+        own.directions = directions;
+        own.moved = own.moved.with(directions);
+        if directions == Directions::NONE {
             self.mobility[stype.index()] = own;
             return;
         }
         let (stride, leap) = self.stride(distance);
         let own = &mut own;
         (own.stride, own.leap) = (stride, leap);
-        let askew = ways.meets(Ways::ASKEW) && distance > MAX_STRIDE;
-        own.boundless |= leaps || askew || self.is_wild(distance);
+        let askew = directions.meets(Directions::ASKEW) && distance > MAX_STRIDE;
+        own.boundless |= leaps || askew || self.is_out_of_range(distance);
         self.mobility[stype.index()] = *own;
     }
 }
 
 /// Returns `true` if a push goes in the direction of the pusher's move: not if it can face another way.
 pub(super) fn pushes_straight(pusher: &Mobility) -> bool {
-    !pusher.placed && (pusher.facing == Ways::UNSET || pusher.straight)
+    !pusher.placed && (pusher.facing == Directions::UNSET || pusher.straight)
 }
 
 /// Returns `true` for avatars that face the direction of their last move.
@@ -214,7 +214,7 @@ fn is_driven(class: SpriteClass) -> bool {
 
 /// Returns `true` if an effect at the edge, or with a partner, stops every sprite of the type, whatever it holds.
 pub(super) fn is_stop(meeting: &Meeting<'_>, effect: &Effect) -> bool {
-    let partner = !matches!(meeting.with, With::Nobody);
+    let partner = !matches!(meeting.with, With::NoPartner);
     partner
         && matches!(
             effect,

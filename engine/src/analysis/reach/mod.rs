@@ -45,15 +45,15 @@ mod tally;
 
 use super::Analysis;
 use super::attain::Attainable;
-use super::encounter::clockwork;
-use super::prospect::{Prospect, Start};
+use super::encounter::timed_effects;
+use super::futures::{PossibleFutures, Start};
 use crate::Seed;
 use crate::game::SpriteType;
 use crate::level::Level;
 use crate::limits::MAX_SPRITES;
 use cells::{Board, Cells};
 use chain::Chains;
-pub use chain::{Apart, Chain, Closed, Lack, Obstacle, Shortage, Source};
+pub use chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
 use events::{Events, Placed};
 use flood::Flood;
 use model::Model;
@@ -72,7 +72,7 @@ pub struct Reach {
     /// By type: at some moment of a tick.
     touch: Vec<Cells>,
     avatars: Vec<SpriteType>,
-    hindrances: Vec<Hindrance>,
+    impossible_goals: Vec<ImpossibleGoal>,
     can_win: bool,
     can_lose: bool,
     coarse: bool,
@@ -80,7 +80,7 @@ pub struct Reach {
 
 /// A termination that can never hold in a level, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Hindrance {
+pub struct ImpossibleGoal {
     /// Index into [`Analysis::goals`].
     pub goal: usize,
     /// The reason.
@@ -91,7 +91,7 @@ pub struct Hindrance {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// These sprites, each with the cell that the level places it in, can never be removed, and are too many.
-    Stay(Vec<(SpriteType, usize)>),
+    Permanent(Vec<(SpriteType, usize)>),
     /// There can never be more sprites of its types than this number.
     AtMost(i64),
 }
@@ -131,8 +131,8 @@ impl Reach {
 
     /// The terminations that are proved never to hold in this level, given the cells that its sprites can reach; in
     /// order. (Some hold in no level, for other reasons: see [`Goal::attainable`](super::Goal::attainable).)
-    pub fn hindrances(&self) -> &[Hindrance] {
-        &self.hindrances
+    pub fn impossible_goals(&self) -> &[ImpossibleGoal] {
+        &self.impossible_goals
     }
 
     /// Returns `false` only if it is proved that this level cannot be won.
@@ -169,22 +169,22 @@ impl Analysis {
     /// second, the answer is [coarse](Reach::is_coarse).
     pub fn reach(&self, level: &Level) -> Reach {
         let (placed, board) = self.placed(level);
-        let prospect = self.prospect_of(&placed);
-        let reached = self.settled(&prospect, level, &placed, board, |events| self.reached(&events));
-        reached.unwrap_or_else(|| self.everything(&prospect, board))
+        let futures = self.prospect_of(&placed);
+        let reached = self.settled(&futures, level, &placed, board, |events| self.reached(&events));
+        reached.unwrap_or_else(|| self.everything(&futures, board))
     }
 
     /// Returns the reasons why winning terminations can never hold in a level: a chain of causes for each winning one
-    /// of [`Reach::hindrances`]; none if the [`Reach`] is coarse. Cost: that of [`Analysis::reach`], and O(interactions
+    /// of [`Reach::impossible_goals`]; none if the [`Reach`] is coarse. Cost: that of [`Analysis::reach`], and O(interactions
     /// × cells) for each link.
     pub fn causes(&self, level: &Level) -> Vec<Chain> {
         let (placed, board) = self.placed(level);
-        let prospect = self.prospect_of(&placed);
-        let chains = self.settled(&prospect, level, &placed, board, |events| {
-            let hindrances = self.reached(&events).hindrances.into_iter();
+        let futures = self.prospect_of(&placed);
+        let chains = self.settled(&futures, level, &placed, board, |events| {
+            let impossible_goals = self.reached(&events).impossible_goals.into_iter();
             let mut chains = Chains::of(self, events);
-            let wins = hindrances.filter(|hindrance| self.goals[hindrance.goal].win);
-            wins.map(|Hindrance { goal, cause }| chains.chain(goal, cause)).collect()
+            let wins = impossible_goals.filter(|impossible_goal| self.goals[impossible_goal.goal].win);
+            wins.map(|ImpossibleGoal { goal, cause }| chains.chain(goal, cause)).collect()
         });
         chains.unwrap_or_default()
     }
@@ -205,18 +205,18 @@ impl Analysis {
         (placed, board)
     }
 
-    fn prospect_of(&self, placed: &Placed) -> Prospect<'_> {
+    fn prospect_of(&self, placed: &Placed) -> PossibleFutures<'_> {
         let rules = &*self.game.0;
-        let there = self.game.sprite_types().filter(|stype| !placed[stype.index()].is_empty()).collect();
+        let existing = self.game.sprite_types().filter(|stype| !placed[stype.index()].is_empty()).collect();
         let held = Some(vec![false; rules.types.len()]);
-        let start = Start { there, planned: Start::planned(rules), held, ..Start::default() };
-        Prospect::of(rules, &self.facts, &self.encounters, start)
+        let start = Start { existing, scheduled: Start::scheduled(rules), held, ..Start::default() };
+        PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }
 
     /// Runs the fixed point to the end and reads an answer off; none if it exceeds the work budget.
     fn settled<T>(
         &self,
-        prospect: &Prospect<'_>,
+        futures: &PossibleFutures<'_>,
         level: &Level,
         placed: &Placed,
         board: Board,
@@ -230,9 +230,9 @@ impl Analysis {
         }
         // The cells of a level have the same size for every seed.
         let block = self.game.start(level, Seed::from_text("reach")).block();
-        let clockwork = clockwork(rules);
-        let meetings = meetings::meetings(rules, prospect, &clockwork)?;
-        let model = Model::of(rules, prospect, &meetings, board, block)?;
+        let timed_effects = timed_effects(rules);
+        let meetings = meetings::meetings(rules, futures, &timed_effects)?;
+        let model = Model::of(rules, futures, &meetings, board, block)?;
         let mut flood = Flood::of(&model);
         for stype in self.game.sprite_types().filter(|stype| rules.types[stype.index()].class.is_some()) {
             for &(cell, _) in &placed[stype.index()] {
@@ -245,19 +245,21 @@ impl Analysis {
 
     fn reached(&self, events: &Events<'_>) -> Reach {
         let flood = &events.flood;
-        let (ended, made) = (&flood.ended, &flood.made);
-        let tally = Tally { rules: &self.game.0, model: flood.model, placed: events.placed(), ended, made };
-        let hindrance =
-            |goal: usize| Some(Hindrance { goal, cause: tally.hinders(&self.goals[goal].condition)? });
-        let hindrances: Vec<Hindrance> = (0..self.goals.len()).filter_map(hindrance).collect();
+        let (removable, made) = (&flood.removable, &flood.made);
+        let tally =
+            Tally { rules: &self.game.0, model: flood.model, placed: events.placed(), removable, made };
+        let impossible_goal =
+            |goal: usize| Some(ImpossibleGoal { goal, cause: tally.hinders(&self.goals[goal].condition)? });
+        let impossible_goals: Vec<ImpossibleGoal> =
+            (0..self.goals.len()).filter_map(impossible_goal).collect();
         let cells = |of: fn(&flood::Region) -> &Cells| flood.regions.iter().map(of).cloned().collect();
         let (rest, touch) = (cells(|region| &region.rest), cells(|region| &region.touch));
-        self.answer(flood.board, (rest, touch), hindrances, false)
+        self.answer(flood.board, (rest, touch), impossible_goals, false)
     }
 
-    fn everything(&self, prospect: &Prospect<'_>, board: Board) -> Reach {
-        let all = |&there: &bool| if there { Cells::all(board) } else { Cells::default() };
-        let rest: Vec<Cells> = prospect.there.iter().map(all).collect();
+    fn everything(&self, futures: &PossibleFutures<'_>, board: Board) -> Reach {
+        let all = |&exists: &bool| if exists { Cells::all(board) } else { Cells::default() };
+        let rest: Vec<Cells> = futures.exists.iter().map(all).collect();
         let touch = rest.clone();
         self.answer(board, (rest, touch), Vec::new(), true)
     }
@@ -266,17 +268,18 @@ impl Analysis {
         &self,
         board: Board,
         (rest, touch): (Vec<Cells>, Vec<Cells>),
-        hindrances: Vec<Hindrance>,
+        impossible_goals: Vec<ImpossibleGoal>,
         coarse: bool,
     ) -> Reach {
         let avatars = self.avatars.iter().map(|avatar| avatar.stype).collect();
-        let hindered = |goal: usize| hindrances.iter().any(|hindrance| hindrance.goal == goal);
+        let hindered =
+            |goal: usize| impossible_goals.iter().any(|impossible_goal| impossible_goal.goal == goal);
         let can_end = |win: bool| {
             // A level may start with a termination that already holds.
             self.can_end(win, |at, goal| goal.attainable != Attainable::Never && !hindered(at))
         };
         let (can_win, can_lose) = (can_end(true), can_end(false));
-        Reach { board, rest, touch, avatars, hindrances, can_win, can_lose, coarse }
+        Reach { board, rest, touch, avatars, impossible_goals, can_win, can_lose, coarse }
     }
 }
 

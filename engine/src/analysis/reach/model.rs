@@ -1,7 +1,7 @@
 //! The movement of sprites of all types: a fixed point over the rules, before any level is examined cell by cell.
 
-use super::super::prospect::Prospect;
-use super::cells::{Board, Ways};
+use super::super::futures::PossibleFutures;
+use super::cells::{Board, Directions};
 use super::meetings::Meeting;
 use super::mobility::{Mobility, pushes_straight};
 use crate::game::{Rules, SpriteType, TypeInfo};
@@ -17,7 +17,7 @@ pub(super) struct Model<'a> {
     pub(super) rules: &'a Rules,
     pub(super) board: Board,
     pub(super) block: f64,
-    pub(super) there: &'a [bool],
+    pub(super) exists: &'a [bool],
     /// By type: such sprites can appear during play.
     pub(super) made: &'a [bool],
     pub(super) meetings: &'a [Meeting<'a>],
@@ -44,13 +44,13 @@ impl<'a> Model<'a> {
     /// Builds the model; None if the sizes of sprites are extreme.
     pub(super) fn of(
         rules: &'a Rules,
-        prospect: &'a Prospect<'_>,
+        futures: &'a PossibleFutures<'_>,
         meetings: &'a [Meeting<'a>],
         board: Board,
         block: i32,
     ) -> Option<Model<'a>> {
         let block = f64::from(block);
-        let present = || rules.types.iter().zip(&prospect.there).filter(|(_, there)| **there);
+        let present = || rules.types.iter().zip(&futures.exists).filter(|(_, exists)| **exists);
         let factors =
             || present().flat_map(|(info, _)| [info.traits.width_factor, info.traits.height_factor]);
         // Sizes are whole pixels: a sprite may be a little smaller than its factor says.
@@ -58,7 +58,7 @@ impl<'a> Model<'a> {
         if !factors().all(|factor| factor * block >= 1.0 && factor <= 64.0) {
             return None;
         }
-        let mut makes: Vec<_> = (0..rules.types.len()).map(|at| prospect.makes(at)).collect();
+        let mut makes: Vec<_> = (0..rules.types.len()).map(|at| futures.makes(at)).collect();
         let spawns = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let exits = |info: &TypeInfo| {
             // A spawner leads to the type that it makes, whichever that is in this tick.
@@ -82,12 +82,12 @@ impl<'a> Model<'a> {
             rules,
             board,
             block,
-            there: &prospect.there,
-            made: &prospect.made,
+            exists: &futures.exists,
+            made: &futures.made,
             meetings,
             makes,
             exits,
-            unlimited: (0u16..).take(none.len()).map(|at| prospect.is_unlimited(SpriteType(at))).collect(),
+            unlimited: (0u16..).take(none.len()).map(|at| futures.is_unlimited(SpriteType(at))).collect(),
             mobility: vec![Mobility::default(); rules.types.len()],
             smallest,
             pushed_far: vec![0; none.len()],
@@ -107,13 +107,13 @@ impl<'a> Model<'a> {
     }
 
     pub(super) fn types(&self) -> impl Iterator<Item = SpriteType> + use<'a> {
-        let there = self.there;
-        (0..there.len()).filter(|&at| there[at]).map(|at| SpriteType(at as u16))
+        let exists = self.exists;
+        (0..exists.len()).filter(|&at| exists[at]).map(|at| SpriteType(at as u16))
     }
 
     /// The distance in cells that one of two sprites sharing a cell can extend around it.
     pub(super) fn spread(&self, stype: SpriteType) -> i32 {
-        if self.of_type(stype).loose { self.rules.reach.max(1) } else { 0 }
+        if self.of_type(stype).off_grid { self.rules.reach.max(1) } else { 0 }
     }
 
     /// Runs the fixed point; returns `true` if it converged within the limit.
@@ -138,7 +138,7 @@ impl<'a> Model<'a> {
         while !settled && steps < MAX_STEPS {
             let before: Vec<_> = self.states().collect();
             for &stype in &types {
-                self.hand_on(stype);
+                self.pass_orientation(stype);
                 self.move_by_itself(stype);
             }
             for meeting in self.meetings {
@@ -151,8 +151,8 @@ impl<'a> Model<'a> {
             let mobility = &mut self.mobility[stype.index()];
             mobility.fixed = !mobility.boundless
                 && !mobility.placed
-                && mobility.moved.without(Ways::UNSET) == Ways::NONE
-                && mobility.ways == Ways::NONE;
+                && mobility.moved.without(Directions::UNSET) == Directions::NONE
+                && mobility.directions == Directions::NONE;
         }
         for meeting in self.meetings {
             self.note_push(meeting);
@@ -174,12 +174,12 @@ impl<'a> Model<'a> {
         self.pushed_far[stype.index()]
     }
 
-    fn states(&self) -> impl Iterator<Item = (Ways, Ways, [bool; 3])> + use<'_> {
-        self.mobility.iter().map(|own| (own.facing, own.moved, [own.loose, own.placed, own.goes_back]))
+    fn states(&self) -> impl Iterator<Item = (Directions, Directions, [bool; 3])> + use<'_> {
+        self.mobility.iter().map(|own| (own.facing, own.moved, [own.off_grid, own.placed, own.goes_back]))
     }
 
     /// Returns `true` if a distance per tick is too large for pixel coordinates, or NaN.
-    pub(super) fn is_wild(&self, distance: f64) -> bool {
+    pub(super) fn is_out_of_range(&self, distance: f64) -> bool {
         distance.is_nan() || distance * self.block >= 1e6
     }
 
@@ -200,7 +200,7 @@ impl<'a> Model<'a> {
 
     /// Returns `true` if sprites of the type are larger or smaller than a cell. The first one of its type has a
     /// different size until it moves, so it may seem to have come from elsewhere.
-    pub(super) fn is_odd(&self, stype: SpriteType) -> bool {
+    pub(super) fn is_scaled(&self, stype: SpriteType) -> bool {
         let traits = &self.info(stype).traits;
         traits.width_factor != 1.0 || traits.height_factor != 1.0
     }
@@ -209,18 +209,18 @@ impl<'a> Model<'a> {
     /// it: beside a sprite that was there from the start and does not move.
     pub(super) fn stops_in_order(&self, one: SpriteType, two: SpriteType) -> bool {
         let (own, partner) = (self.of_type(one), self.of_type(two));
-        let stands = partner.fixed && !partner.loose && !self.made[two.index()];
-        stands && !self.is_odd(one) && !own.comes_from_far()
+        let stands = partner.fixed && !partner.off_grid && !self.made[two.index()];
+        stands && !self.is_scaled(one) && !own.comes_from_far()
     }
 
     /// Returns `true` if, as far as is known so far, sprites of a type never move.
     pub(super) fn is_fixed_now(&self, mobility: &Mobility) -> bool {
-        !mobility.placed && mobility.moved.without(Ways::UNSET) == Ways::NONE
+        !mobility.placed && mobility.moved.without(Directions::UNSET) == Directions::NONE
     }
 
     /// Returns the directions in which a sprite pushes others.
-    pub(super) fn pushed(&self, pusher: &Mobility) -> Ways {
-        let moved = pusher.moved.without(Ways::UNSET);
+    pub(super) fn pushed(&self, pusher: &Mobility) -> Directions {
+        let moved = pusher.moved.without(Directions::UNSET);
         let both = !pushes_straight(pusher) || pusher.backwards;
         if both { moved.with(moved.mirrored()) } else { moved }
     }

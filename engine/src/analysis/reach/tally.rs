@@ -1,6 +1,6 @@
 //! The smallest and largest numbers of sprites in a level, and their consequences for its terminations.
 
-use super::super::attain::is_mortal;
+use super::super::attain::disappears_by_itself;
 use super::super::goal::Condition;
 use super::Cause;
 use super::cells::Cells;
@@ -14,7 +14,7 @@ pub(super) struct Tally<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) placed: &'a Placed,
     /// By type: cells where one can be removed.
-    pub(super) ended: &'a [Cells],
+    pub(super) removable: &'a [Cells],
     /// By type: some can appear during play.
     pub(super) made: &'a [bool],
 }
@@ -25,7 +25,7 @@ impl Tally<'_> {
         let types = condition.types();
         let stay = |limit: i32| {
             let stay: Vec<_> = types.iter().flat_map(|&stype| self.staying(stype)).collect();
-            (stay.len() as i64 > i64::from(limit)).then_some(Cause::Stay(stay))
+            (stay.len() as i64 > i64::from(limit)).then_some(Cause::Permanent(stay))
         };
         let few = |limit: i32| {
             let most: Option<i64> = types.iter().map(|&stype| self.most(stype)).sum();
@@ -42,13 +42,17 @@ impl Tally<'_> {
     /// Returns the sprites of the type that nothing ever removes, with the cells in which the level places them.
     fn staying(&self, stype: SpriteType) -> Vec<(SpriteType, usize)> {
         let info = &self.rules.types[stype.index()];
-        let ended = &self.ended[stype.index()];
+        let removable = &self.removable[stype.index()];
         let single = info.path.iter().any(|&stype| self.rules.types[stype.index()].singleton);
         let fixed = self.model.of_type(stype).fixed;
-        if single || self.is_surplus(stype) || is_mortal(self.rules, stype) || !(fixed || ended.is_empty()) {
+        if single
+            || self.is_surplus(stype)
+            || disappears_by_itself(self.rules, stype)
+            || !(fixed || removable.is_empty())
+        {
             return Vec::new();
         }
-        let stays = self.placed[stype.index()].iter().filter(|(cell, _)| !ended.contains(*cell));
+        let stays = self.placed[stype.index()].iter().filter(|(cell, _)| !removable.contains(*cell));
         let sprites = stays.flat_map(|&(cell, count)| std::iter::repeat_n((stype, cell), count as usize));
         sprites.map(|(stype, cell)| (stype, self.model.board.on_level(cell))).collect()
     }

@@ -18,7 +18,7 @@ fn check(rules: &str, terminations: &str, expect: &[Attainable], ends: (bool, bo
 }
 
 #[test]
-fn what_the_rules_can_bring_about() {
+fn attainable_terminations() {
     use Attainable::{AtOnce, FromStart, InPlay, Never};
     check(RULES, "SpriteCounter stype=gem win=True", &[InPlay], (true, false));
     // Nothing removes a brick, and nothing kills the hero.
@@ -66,7 +66,7 @@ fn resources_are_given_taken_and_asked_for() {
 }
 
 #[test]
-fn how_much_is_missing() {
+fn distances_from_goals() {
     let ends = "MultiSpriteCounter stype1=gem stype2=ice limit=1 win=True\nSpriteCounterMore stype=snow limit=4 win=True\n\
                 Timeout limit=30 win=False";
     let analysis = Analysis::of(&game(SPRITES, MAPPING, RULES, ends));

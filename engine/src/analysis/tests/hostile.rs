@@ -25,12 +25,12 @@ fn family(class: &str) -> (String, String) {
 fn everything_does_everything_to_everything() {
     for (class, hero) in [("MovingAvatar", "t7"), ("Passive", "hero"), ("Resource", "hero")] {
         let (sprites, mapping) = family(class);
-        let deeds = ["changeResource resource=t7", "spawn stype=t9", "bounceForward", "killAll stype=t3"];
+        let effects = ["changeResource resource=t7", "spawn stype=t9", "bounceForward", "killAll stype=t3"];
         let mut rules = String::new();
         for number in 0..2_000 {
             let (one, two) =
                 [("root", "root"), ("root", hero), (hero, "root"), ("t5", "root")][number / 5 % 4];
-            writeln!(rules, "{one} {two} t1 t2 t3 t4 t5 > {}", deeds[number % deeds.len()]).unwrap();
+            writeln!(rules, "{one} {two} t1 t2 t3 t4 t5 > {}", effects[number % effects.len()]).unwrap();
         }
         let analysis = Analysis::of(&game(&sprites, &mapping, &rules, "SpriteCounter stype=root win=True"));
         assert!(analysis.encounters().len() > 10_000, "{}", analysis.encounters().len());

@@ -100,7 +100,7 @@ fn goals_have_a_sign() {
 }
 
 #[test]
-fn touches_say_what_contact_means() {
+fn touches_summarise_contacts() {
     let analysis = vault();
     let touch =
         |avatar: &str, other: &str| analysis.touch(named(&analysis, avatar), named(&analysis, other)).clone();

@@ -23,7 +23,7 @@ fn fair() -> Analysis {
 #[test]
 fn chance_from_here() {
     let analysis = fair();
-    assert!(analysis.chance_decides() && !analysis.is_deterministic());
+    assert!(analysis.is_stochastic() && !analysis.is_deterministic());
     for (level, certain) in [
         ("A..\n", true),
         ("Ab.\n", false),
@@ -60,12 +60,12 @@ fn a_draw_without_a_choice_is_no_chance() {
             "Timeout limit=9 win=True",
         ))
     };
-    assert!(!analysis("1").chance_decides() && !analysis("1").is_deterministic());
-    assert!(analysis("0.5").chance_decides());
+    assert!(!analysis("1").is_stochastic() && !analysis("1").is_deterministic());
+    assert!(analysis("0.5").is_stochastic());
 }
 
 #[test]
-fn what_is_not_shown() {
+fn unseen_sprites_and_observability() {
     let analysis = fair();
     // The mist is irrelevant, the lair is not.
     assert_eq!(names(&analysis, analysis.unseen()), "trap lair");

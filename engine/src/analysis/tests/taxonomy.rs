@@ -92,7 +92,7 @@ fn genres() {
 }
 
 #[test]
-fn what_makes_time_pass() {
+fn time_is_real_if_anything_happens_by_itself() {
     let (rules, ends) =
         ("gem hero > killSprite", "SpriteCounter stype=gem win=True\nTimeout limit=99 win=False");
     let with = |sprite: &str, rule: &str, expect: &str| {

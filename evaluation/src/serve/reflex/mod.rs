@@ -49,8 +49,8 @@ pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Result<Action, Unanswerab
 
 /// Collects all sentences of a guide about the rules.
 fn sentences(guide: Guide) -> Vec<String> {
-    let Guide { controls, winning, losing, sprites, groups, clockwork, meetings, .. } = guide;
-    [controls, winning, losing, sprites, groups, clockwork, meetings].into_iter().flatten().collect()
+    let Guide { controls, winning, losing, sprites, groups, timed_effects, meetings, .. } = guide;
+    [controls, winning, losing, sprites, groups, timed_effects, meetings].into_iter().flatten().collect()
 }
 
 struct Reflex<'a> {

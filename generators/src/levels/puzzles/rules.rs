@@ -45,7 +45,7 @@ impl Rules {
 
 fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     let avatar = analysis.start_avatar().ok_or("no avatar can be placed")?;
-    if avatar.steering != Steering::FourWay || !analysis.steps_by_cells(avatar.stype) {
+    if avatar.steering != Steering::FourWay || !analysis.moves_by_whole_cells(avatar.stype) {
         return Err("its avatar does not go from cell to cell in four ways");
     }
     if !analysis.is_deterministic() || !analysis.is_turn_based() {

@@ -87,7 +87,7 @@ fn deterministic_states_have_one_future() {
             return;
         }
         certain += 1;
-        turned += u32::from(analysis.chance_decides());
+        turned += u32::from(analysis.is_stochastic());
         let seed = Seed::from_text(name).child("futures", certain);
         let (mut one, mut two) = (state.fork(seed.child("one", 0)), state.fork(seed.child("two", 0)));
         for _ in 0..12 {
@@ -96,7 +96,7 @@ fn deterministic_states_have_one_future() {
             assert_eq!(game.records(&one), game.records(&two), "{name} tick {}", one.tick());
             assert_eq!(one.score(), two.score(), "{name}");
         }
-        if !analysis.chance_decides() && game.is_deterministic() {
+        if !analysis.is_stochastic() && game.is_deterministic() {
             assert_eq!(one.search_key(game), two.search_key(game), "{name}");
         }
     });
@@ -194,7 +194,7 @@ fn the_goals_of_the_corpus_are_in_reach() {
         let analysis = Analysis::of(&game);
         for level in &levels {
             let reach = analysis.reach(level);
-            assert!(!reach.is_coarse() && reach.can_win(), "{name}: {:?}\n{level}", reach.hindrances());
+            assert!(!reach.is_coarse() && reach.can_win(), "{name}: {:?}\n{level}", reach.impossible_goals());
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Chains of causes: the missing requirements of rules, and their places.
 
 use super::*;
-use crate::analysis::{Apart, Lack, Shortage};
+use crate::analysis::{Missing, Shortage, Unreachable};
 
 const SPRITES: &str =
     "wall > Immovable\nlamp > Resource limit=5\ndoor > Immovable\ngem > Door\nhero > MovingAvatar";
@@ -16,23 +16,24 @@ fn check(rules: &str, level: &str, expect: &str) {
     assert!(!analysis.reach(&level).can_win());
     let chains = analysis.causes(&level);
     assert_eq!(chains.len(), 1, "{chains:?}");
-    let told: Vec<String> = chains[0].obstacles.iter().map(|found| obstacle(&analysis, found)).collect();
-    assert_eq!(told.join("; "), expect);
+    let found: Vec<String> = chains[0].obstacles.iter().map(|found| obstacle(&analysis, found)).collect();
+    assert_eq!(found.join("; "), expect);
 }
 
-fn obstacle(analysis: &Analysis, Obstacle { target, line, lack }: &Obstacle) -> String {
+fn obstacle(analysis: &Analysis, Obstacle { target, line, missing }: &Obstacle) -> String {
     let name = |stype: SpriteType| analysis.game().name(stype).to_owned();
-    let lack = match lack {
-        Lack::Absent(stype) => format!("no {}", name(*stype)),
-        Lack::Unmade(stype, why) => {
+    let missing = match missing {
+        Missing::Absent(stype) => format!("no {}", name(*stype)),
+        Missing::Unmade(stype, why) => {
             let why: Vec<String> = why.iter().map(|found| obstacle(analysis, found)).collect();
             format!("no {} yet ({})", name(*stype), why.join("; "))
         }
-        Lack::Resource(Shortage { resource, needed, capacity, most, rules, sources }) => {
+        Missing::Resource(Shortage { resource, needed, capacity, most, rules, sources }) => {
             let sources: Vec<String> = sources
                 .iter()
                 .map(|source| {
-                    let got = source.apart.as_ref().map_or("got".to_owned(), |found| apart(analysis, found));
+                    let got =
+                        source.unreachable.as_ref().map_or("got".to_owned(), |found| apart(analysis, found));
                     format!("{} at {} {got}", name(source.stype), source.cell)
                 })
                 .collect();
@@ -40,23 +41,23 @@ fn obstacle(analysis: &Analysis, Obstacle { target, line, lack }: &Obstacle) -> 
             let of = format!("{needed} {} of {most}{capacity}", name(*resource));
             format!("{of} by {rules:?} from {sources:?}")
         }
-        Lack::Apart(found) => apart(analysis, found),
-        Lack::HeldUp(who, by) => format!("{} held up by {by}", name(*who)),
-        Lack::Nowhere(..) => "nowhere together".to_owned(),
+        Missing::Unreachable(found) => apart(analysis, found),
+        Missing::Blocked(stype, by) => format!("{} blocked by {by}", name(*stype)),
+        Missing::Nowhere(..) => "nowhere together".to_owned(),
     };
-    format!("{} by {line:?}: {lack}", name(*target))
+    format!("{} by {line:?}: {missing}", name(*target))
 }
 
-fn apart(analysis: &Analysis, Apart { who, cell, closed }: &Apart) -> String {
+fn apart(analysis: &Analysis, Unreachable { stype, cell, blockers }: &Unreachable) -> String {
     let name = |stype: SpriteType| analysis.game().name(stype).to_owned();
-    let closed: Vec<String> = closed
+    let blockers: Vec<String> = blockers
         .iter()
-        .map(|closed| {
-            let why: Vec<String> = closed.obstacles.iter().map(|found| obstacle(analysis, found)).collect();
-            format!("{} at {} ({})", name(closed.stype), closed.cell, why.join("; "))
+        .map(|blocker| {
+            let why: Vec<String> = blocker.obstacles.iter().map(|found| obstacle(analysis, found)).collect();
+            format!("{} at {} ({})", name(blocker.stype), blocker.cell, why.join("; "))
         })
         .collect();
-    format!("{} not at {cell}, behind {closed:?}", name(*who))
+    format!("{} not at {cell}, behind {blockers:?}", name(*stype))
 }
 
 const TOLL: &str = "lamp hero > collectResource\ngem hero > killIfOtherHasMore resource=lamp limit=2";
@@ -90,8 +91,8 @@ fn a_door_in_the_way() {
 }
 
 #[test]
-fn rules_that_come_too_late_or_need_what_is_not_there() {
-    check("hero gem > stepBack\ngem hero > killSprite", "hg", "gem by Some(2): hero held up by 1");
+fn rules_that_come_too_late_or_lack_a_requirement() {
+    check("hero gem > stepBack\ngem hero > killSprite", "hg", "gem by Some(2): hero blocked by 1");
     check("gem door > killSprite", "hg", "gem by Some(1): no door");
     // The hero turns doors into lamps, but cannot get to one.
     let unmade = "gem by Some(1): no lamp yet (lamp by Some(2): hero not at 10, behind [])";

@@ -15,8 +15,8 @@ fn check(sprites: &str, rules: &str, open: &str, closed: &str) {
     let closed = reach(&analysis, closed);
     assert!(!closed.can_win(), "{}", picture(&analysis, &closed, "hero"));
     let gem = named(&analysis, "gem");
-    let [Hindrance { goal: 0, cause: Cause::Stay(gems) }] = &closed.hindrances()[..1] else {
-        panic!("{:?}", closed.hindrances());
+    let [ImpossibleGoal { goal: 0, cause: Cause::Permanent(gems) }] = &closed.impossible_goals()[..1] else {
+        panic!("{:?}", closed.impossible_goals());
     };
     assert!(gems.iter().all(|(stype, cell)| *stype == gem && closed.can_be(gem, *cell)), "{gems:?}");
 }
@@ -96,7 +96,7 @@ fn through_portals() {
 }
 
 #[test]
-fn by_what_is_made() {
+fn goals_reached_by_made_sprites() {
     let sprites = "hero > NullAvatar\nnest > SpawnPoint stype=drop\ndrop > Missile orientation=DOWN";
     let rules = "drop wall > killSprite\ndrop EOS > killSprite\ngem drop > killSprite";
     check(sprites, rules, "hn \n   \n g ", "hn \n   \n  g");

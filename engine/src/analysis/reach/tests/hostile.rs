@@ -79,7 +79,7 @@ fn everything_does_everything_to_everything() {
             let names: Vec<String> = names.iter().map(|number| format!("t{number}")).collect();
             writeln!(mapping, "{symbol} > {}", names.join(" ")).unwrap();
         }
-        let deeds = [
+        let effects = [
             "bounceForward",
             "spawn stype=t9",
             "transformTo stype=t7",
@@ -97,7 +97,7 @@ fn everything_does_everything_to_everything() {
             let one = format!("t{}", number * 7 % 480);
             let others: Vec<String> =
                 (1..6).map(|other| format!("t{}", (number + other * 31) % 480)).collect();
-            writeln!(rules, "{one} {} > {}", others.join(" "), deeds[number % deeds.len()]).unwrap();
+            writeln!(rules, "{one} {} > {}", others.join(" "), effects[number % effects.len()]).unwrap();
         }
         let row: String = ('!'..='~').filter(|symbol| !"#A".contains(*symbol)).take(60).collect();
         assert!(is_coarse(&sprites, &mapping, &rules, &vast(&format!("A{row}"), ' ')));

@@ -132,7 +132,7 @@ fn missiles_turn_wrap_and_end() {
 }
 
 #[test]
-fn shots_spawns_and_what_they_turn_into() {
+fn shots_spawns_and_their_transformations() {
     let sprites = "hero > ShootAvatar stype=arrow\narrow > Missile\nnest > SpawnPoint stype=egg\n\
                    egg > Passive\nduck > Missile orientation=DOWN";
     let rules = "hero wall EOS > stepBack\nhero EOS > stepBack\narrow wall > killSprite\narrow EOS > killSprite\n\
@@ -292,7 +292,11 @@ fn goals_out_of_reach() {
     let mapping = "h > hero\ng > gem\nf > fly\nw > wall";
     let analysis = Analysis::of(&game(&format!("{sprites}\nwall > Immovable"), mapping, rules, ends));
     let goals = |level: &str| -> Vec<usize> {
-        reach(&analysis, level).hindrances().iter().map(|hindrance| hindrance.goal).collect()
+        reach(&analysis, level)
+            .impossible_goals()
+            .iter()
+            .map(|impossible_goal| impossible_goal.goal)
+            .collect()
     };
     assert_eq!(goals("h g g f"), [2]);
     assert_eq!(goals("h gwg f"), [0, 1, 2]);
@@ -312,7 +316,7 @@ fn too_much_gets_a_coarse_answer() {
         Analysis::of(&game(&sprites, &mapping, "root root > killBoth", "SpriteCounter stype=root win=True"));
     let level = analysis.game().level("h   \n   r").unwrap();
     let reach = analysis.reach(&level);
-    assert!(reach.is_coarse() && reach.hindrances().is_empty());
+    assert!(reach.is_coarse() && reach.impossible_goals().is_empty());
     assert_eq!(picture(&analysis, &reach, "t7"), "####\n####");
     assert_eq!(picture(&analysis, &reach, "wall"), "....\n....", "what cannot come about is nowhere");
 }

@@ -1,6 +1,6 @@
 //! The ways in which a game can be won: by the player's own actions, or by those of others.
 
-use super::encounter::{Deed, Encounter, Side};
+use super::encounter::{EffectSummary, Encounter, Side};
 use super::facts::Motion;
 use super::goal::Condition;
 use super::lock::{Fate, Sink};
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// A way in which a win can be achieved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Means {
+pub enum WinMethod {
     /// The avatar touches an exit.
     Exit,
     /// The avatar touches sprites lying around.
@@ -32,7 +32,7 @@ pub enum Means {
 }
 
 /// For each type, the ways in which its sprites can be removed or made.
-pub(super) struct Ways<'a> {
+pub(super) struct WinMethods<'a> {
     analysis: &'a Analysis,
     /// By type: a shot removes it, or turns it into something harmless.
     shot: Vec<bool>,
@@ -45,25 +45,25 @@ pub(super) struct Ways<'a> {
     /// By type: it is removed by meeting something.
     met: Vec<bool>,
     /// By type: the ways in which the player can make one.
-    made: Vec<BTreeSet<Means>>,
+    made: Vec<BTreeSet<WinMethod>>,
 }
 
 impl Analysis {
-    /// Returns the ways to win that play can achieve, in the order of [`Means`]; empty if there are none. Cost: O(types
+    /// Returns the ways to win that play can achieve, in the order of [`WinMethod`]; empty if there are none. Cost: O(types
     /// × avatars + interactions × relatives).
-    pub fn means(&self) -> Vec<Means> {
-        Ways::of(self).means().into_iter().collect()
+    pub fn win_methods(&self) -> Vec<WinMethod> {
+        WinMethods::of(self).methods().into_iter().collect()
     }
 }
 
-impl Ways<'_> {
+impl WinMethods<'_> {
     /// Computes the ways. Cost: O(types × avatars + interactions × relatives).
-    pub(super) fn of(analysis: &Analysis) -> Ways<'_> {
+    pub(super) fn of(analysis: &Analysis) -> WinMethods<'_> {
         let none = vec![false; analysis.facts.len()];
         let shots = projectiles(analysis);
         let flies = |shot: &SpriteType| analysis.facts(*shot).motion != Motion::Still;
         let flying: BTreeSet<SpriteType> = shots.iter().copied().filter(flies).collect();
-        let mut ways = Ways {
+        let mut methods = WinMethods {
             analysis,
             shot: shot_down(analysis, &shots),
             flown: shot_down(analysis, &flying),
@@ -73,22 +73,22 @@ impl Ways<'_> {
             made: vec![BTreeSet::new(); analysis.facts.len()],
         };
         for (at, touch) in analysis.touches.iter().flat_map(|row| row.iter().enumerate()) {
-            touch.opens.iter().for_each(|stype| ways.opened[stype.index()] = true);
-            let means = match analysis.roles[at] {
-                Role::Exit => Means::Exit,
-                _ if analysis.facts[at].motion != Motion::Still => Means::Catch,
-                _ => Means::Take,
+            touch.opens.iter().for_each(|stype| methods.opened[stype.index()] = true);
+            let method = match analysis.roles[at] {
+                Role::Exit => WinMethod::Exit,
+                _ if analysis.facts[at].motion != Motion::Still => WinMethod::Catch,
+                _ => WinMethod::Take,
             };
             for stype in touch.makes.iter().chain(&touch.changes) {
-                ways.made[stype.index()].insert(means);
+                methods.made[stype.index()].insert(method);
             }
         }
         for pushable in &analysis.pushables {
             for Sink { partner, fate, fills, .. } in &pushable.sinks {
-                ways.pushed[partner.index()] |= *fills;
-                ways.pushed[pushable.stype.index()] |= *fate != Fate::Stays;
+                methods.pushed[partner.index()] |= *fills;
+                methods.pushed[pushable.stype.index()] |= *fate != Fate::Stays;
                 if let Fate::Becomes(to) = fate {
-                    ways.made[to.index()].insert(Means::Push);
+                    methods.made[to.index()].insert(WinMethod::Push);
                 }
             }
         }
@@ -97,53 +97,53 @@ impl Ways<'_> {
             for (side, written) in [(Side::First, Some(encounter.first)), (Side::Second, encounter.second)] {
                 if let (Some(written), true) = (written, ends(side) && encounter.second.is_some()) {
                     let tree = &analysis.game.0.types[written.index()].tree;
-                    tree.iter().for_each(|stype| ways.met[stype.index()] = true);
+                    tree.iter().for_each(|stype| methods.met[stype.index()] = true);
                 }
             }
         }
-        ways
+        methods
     }
 
     /// Returns the ways to win that play can achieve.
-    pub(super) fn means(&self) -> BTreeSet<Means> {
-        let mut means = BTreeSet::new();
+    pub(super) fn methods(&self) -> BTreeSet<WinMethod> {
+        let mut methods = BTreeSet::new();
         let goals = self.analysis.goals.iter();
         for goal in goals.filter(|goal| goal.win && goal.attainable == Attainable::InPlay) {
             let types = goal.condition.types().iter();
             let types = types.filter(|stype| self.analysis.facts(**stype).possible);
             match goal.condition {
-                Condition::Tick(_) => means.extend([Means::Wait]),
+                Condition::Tick(_) => methods.extend([WinMethod::Wait]),
                 Condition::AtMost(..) | Condition::Exactly(_, 0) => {
-                    types.for_each(|&stype| means.extend(self.means_to_end(stype)));
+                    types.for_each(|&stype| methods.extend(self.methods_to_remove(stype)));
                 }
                 Condition::AtLeast(..) | Condition::Exactly(..) => {
-                    types.for_each(|stype| means.extend(&self.made[stype.index()]));
+                    types.for_each(|stype| methods.extend(&self.made[stype.index()]));
                 }
             }
         }
-        means
+        methods
     }
 
-    fn means_to_end(&self, stype: SpriteType) -> BTreeSet<Means> {
+    fn methods_to_remove(&self, stype: SpriteType) -> BTreeSet<WinMethod> {
         let at = stype.index();
-        let mut means = BTreeSet::new();
+        let mut methods = BTreeSet::new();
         let moves = self.analysis.facts[at].motion != Motion::Still;
         if self.opened[at] || self.analysis.touches.iter().any(|row| row[at].ends_other()) {
-            means.insert(match self.analysis.role(stype) {
-                Role::Exit => Means::Exit,
-                _ if moves => Means::Catch,
-                _ if self.is_like_an_exit(stype) => Means::Exit,
-                _ => Means::Take,
+            methods.insert(match self.analysis.role(stype) {
+                Role::Exit => WinMethod::Exit,
+                _ if moves => WinMethod::Catch,
+                _ if self.is_like_an_exit(stype) => WinMethod::Exit,
+                _ => WinMethod::Take,
             });
         }
         if self.shot[at] {
-            means.insert(if moves || self.flown[at] { Means::Shoot } else { Means::Tool });
+            methods.insert(if moves || self.flown[at] { WinMethod::Shoot } else { WinMethod::Tool });
         }
-        means.extend(self.pushed[at].then_some(Means::Push));
-        if means.is_empty() && self.met[at] {
-            means.insert(Means::Others);
+        methods.extend(self.pushed[at].then_some(WinMethod::Push));
+        if methods.is_empty() && self.met[at] {
+            methods.insert(WinMethod::Others);
         }
-        means
+        methods
     }
 
     /// Returns `true` if a still type that wins by touch is a destination rather than one of many items to take.
@@ -205,7 +205,7 @@ fn shot_down(analysis: &Analysis, shots: &BTreeSet<SpriteType>) -> Vec<bool> {
     let fires: Vec<bool> = analysis.game.sprite_types().map(fires).collect();
     let tame = |encounter: &Encounter| {
         let hostile = |to: &SpriteType| is_hostile(analysis.role(*to));
-        !encounter.does(|deed| matches!(deed, Deed::Become(to) if hostile(to)))
+        !encounter.does(|effect| matches!(effect, EffectSummary::Become(to) if hostile(to)))
     };
     let mut down = vec![false; types.len()];
     for encounter in &analysis.encounters {

@@ -1,4 +1,4 @@
-//! Foresight: sprites that a step skips, because their movement is predicted, are where they would be without it.
+//! Shortcuts of a step: sprites that a step skips, because their movement is predicted, are where they would be without it.
 
 use engine::{Action, Game, Level, Limit, Outcome, Sampler, Seed, State};
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use tests::any_game::any_game;
 use tests::choices::Choices;
 use tests::{games, public_games, workspace_root};
 
-/// Plays random actions twice, with foresight and without; the two must not differ in anything.
+/// Plays random actions twice, with shortcuts and without; the two must not differ in anything.
 fn play(name: &str, game: &Game, level: &Level, ticks: usize) {
     let mut sampler = Seed::from_text(name).child("actions", 0).sampler();
     play_actions(name, game, level, (0..ticks).map(|_| *sampler.choose(&Action::ALL)));
@@ -53,12 +53,12 @@ fn play_all(folder: &Path, ticks: usize) {
 }
 
 #[test]
-fn foresight_changes_nothing_in_the_corpus() {
+fn shortcuts_change_nothing_in_the_corpus() {
     play_all(&workspace_root().join("corpora"), 500);
 }
 
 #[test]
-fn foresight_changes_nothing_in_public_games() {
+fn shortcuts_change_nothing_in_public_games() {
     let Some(folder) = public_games() else { return };
     play_all(&folder, 400);
 }
@@ -67,7 +67,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
 
     #[test]
-    fn foresight_changes_nothing_in_any_game(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn shortcuts_change_nothing_in_any_game(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let any = any_game(&mut Choices::new(&bytes));
         if let Ok(game) = Game::from_source_as_reference(&any.source)
             && let Ok(level) = game.level(&any.level)
@@ -154,7 +154,7 @@ fn crowded_house(sampler: &mut Sampler) -> (String, String) {
 }
 
 #[test]
-fn foresight_changes_nothing_for_who_walks_into_walls() {
+fn shortcuts_change_nothing_for_walks_into_walls() {
     let mut sampler = Seed::from_text("walls").sampler();
     let mut played = 0;
     for _ in 0..12_000 {
@@ -171,7 +171,7 @@ fn foresight_changes_nothing_for_who_walks_into_walls() {
 
 /// An effect moves the avatar against a wall after the rule that puts it back has run: no rule runs again.
 #[test]
-fn only_own_steps_are_foreseen_to_be_put_back() {
+fn only_own_steps_are_deferred() {
     let source = "\
 BasicGame square_size=10
     SpriteSet
@@ -200,7 +200,7 @@ BasicGame square_size=10
 
 /// The avatar and a cat walk into the same wall, and meet there before they are put back.
 #[test]
-fn two_may_meet_in_a_wall() {
+fn two_sprites_can_meet_in_a_wall() {
     let source = "\
 BasicGame square_size=10
     SpriteSet
@@ -227,7 +227,7 @@ BasicGame square_size=10
 /// The rule that puts the dart back costs nothing, but the one before it, in which the dart is the second, is worth a
 /// point.
 #[test]
-fn what_is_worth_points_goes_on() {
+fn steps_that_score_are_not_skipped() {
     let source = "\
 BasicGame square_size=10
     SpriteSet
@@ -252,7 +252,7 @@ BasicGame square_size=10
 
 /// A kite off the board moves onto it, where a rule puts it back: it is on the board when the rules of the edge run.
 #[test]
-fn off_the_board_nothing_rests() {
+fn sprites_off_the_board_do_not_sleep() {
     let source = "\
 BasicGame square_size=10
     SpriteSet
@@ -276,7 +276,7 @@ BasicGame square_size=10
 
 /// A door takes one arrow to the other for a moment, and both are put back to their places, until the door is gone.
 #[test]
-fn what_was_in_the_way_for_a_moment_is_no_ground_to_rest_on() {
+fn sprites_do_not_sleep_on_briefly_blocked_cells() {
     let source = "\
 BasicGame square_size=10
     SpriteSet
@@ -305,7 +305,7 @@ BasicGame square_size=10
 /// A type that spreads into its own kind stops the tick in the middle of the updates: flying sprites that are not yet
 /// updated stay in place.
 #[test]
-fn a_stop_in_the_middle_of_the_updates_finds_all_where_they_are() {
+fn a_stop_amid_the_updates_finds_all_sprites_in_place() {
     let source = "\
 BasicGame
     SpriteSet

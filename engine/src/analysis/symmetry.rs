@@ -1,9 +1,9 @@
 //! Sprites of one type that the rules cannot tell apart, by identity or by orientation.
 
 use super::Analysis;
-use super::encounter::{Deed, Encounter};
+use super::abstraction::changes_afar;
+use super::encounter::{EffectSummary, Encounter};
 use super::facts::Motion;
-use super::keying::changes_afar;
 use crate::game::{EffectInfo, Rules, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
@@ -13,18 +13,18 @@ impl Analysis {
     ///
     /// Each sprite's update concerns that sprite alone, nothing looks for the nearest one, and every rule that involves
     /// the type gives the same result whichever sprite it processes first.
-    pub(super) fn alike(&self) -> Vec<bool> {
+    pub(super) fn interchangeable(&self) -> Vec<bool> {
         let rules = &*self.game.0;
         let types = rules.types.len();
         if rules.reads_score || rules.reads_counters {
             return vec![false; types];
         }
-        let mut alike: Vec<bool> = rules.types.iter().map(is_by_itself).collect();
+        let mut interchangeable: Vec<bool> = rules.types.iter().map(is_by_itself).collect();
         for (info, facts) in rules.types.iter().zip(&self.facts) {
             for named in info.traits.stypes.iter().filter(|named| !facts.makes.contains(named)) {
                 let Some(named) = rules.types.get(named.index()) else { continue };
                 for stype in &named.tree {
-                    alike[stype.index()] = false;
+                    interchangeable[stype.index()] = false;
                 }
             }
         }
@@ -33,21 +33,21 @@ impl Analysis {
                 continue;
             };
             for stype in &target.tree {
-                alike[stype.index()] = false;
+                interchangeable[stype.index()] = false;
             }
         }
         for encounter in &self.encounters {
             let info = &rules.effects[usize::from(encounter.effect)];
             let family = |written: SpriteType| &rules.types[written.index()];
             let (first, second) = (family(encounter.first), encounter.second.map(family));
-            for (at, alike) in alike.iter_mut().enumerate() {
+            for (at, interchangeable) in interchangeable.iter_mut().enumerate() {
                 let stype = SpriteType(at as u16);
                 let is_first = first.in_tree(stype);
                 let is_second = second.is_some_and(|second| second.in_tree(stype));
-                *alike &= match (is_first, is_second) {
+                *interchangeable &= match (is_first, is_second) {
                     (false, false) => !is_special(encounter, rules, stype),
-                    (true, false) => is_for_each(rules, encounter, info),
-                    (false, true) => is_once(rules, encounter, info),
+                    (true, false) => is_local_to_first(rules, encounter, info),
+                    (false, true) => is_partner_independent(rules, encounter, info),
                     (true, true) => is_undo(info),
                 };
             }
@@ -56,24 +56,24 @@ impl Analysis {
         loop {
             let mut changed = false;
             for encounter in &self.encounters {
-                for deed in &encounter.deeds {
-                    let Deed::Become(to) = deed else { continue };
-                    if alike[to.index()] {
+                for effect in &encounter.effects {
+                    let EffectSummary::Become(to) = effect else { continue };
+                    if interchangeable[to.index()] {
                         continue;
                     }
                     for stype in &rules.types[encounter.first.index()].tree {
-                        changed |= std::mem::take(&mut alike[stype.index()]);
+                        changed |= std::mem::take(&mut interchangeable[stype.index()]);
                     }
                 }
             }
             if !changed {
-                return alike;
+                return interchangeable;
             }
         }
     }
 
     /// By type: nothing reads the orientation of such a sprite, as long as the sprite is not oriented.
-    pub(super) fn faceless(&self) -> Vec<bool> {
+    pub(super) fn orientation_irrelevant(&self) -> Vec<bool> {
         use SpriteClass as C;
         let rules = &*self.game.0;
         let plain = |info: &TypeInfo| {
@@ -84,20 +84,20 @@ impl Analysis {
                 && !info.ground_aware
         };
         let by_itself = rules.types.iter().zip(&self.facts);
-        let mut faceless: Vec<bool> =
+        let mut orientation_irrelevant: Vec<bool> =
             by_itself.map(|(info, facts)| plain(info) && facts.motion == Motion::Still).collect();
         for encounter in &self.encounters {
             let effect = &rules.effects[usize::from(encounter.effect)].effect;
             let first = &rules.types[encounter.first.index()];
             let second = encounter.second.map(|second| &rules.types[second.index()]);
-            for (faceless, at) in faceless.iter_mut().zip(0u16..) {
+            for (orientation_irrelevant, at) in orientation_irrelevant.iter_mut().zip(0u16..) {
                 let stype = SpriteType(at);
-                *faceless &= !first.in_tree(stype) || is_blind_to_first(effect);
-                *faceless &=
+                *orientation_irrelevant &= !first.in_tree(stype) || is_blind_to_first(effect);
+                *orientation_irrelevant &=
                     !second.is_some_and(|second| second.in_tree(stype)) || is_blind_to_second(effect);
             }
         }
-        faceless
+        orientation_irrelevant
     }
 }
 
@@ -155,9 +155,12 @@ fn is_by_itself(info: &TypeInfo) -> bool {
 /// matter.
 fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
-    let afar = |deed: &Deed| match deed {
-        Deed::KillAll(_) | Deed::Become(_) | Deed::Make(_) | Deed::BecomeAny(_) => false,
-        deed => changes_afar(deed, info, stype),
+    let afar = |effect: &EffectSummary| match effect {
+        EffectSummary::KillAll(_)
+        | EffectSummary::Become(_)
+        | EffectSummary::Make(_)
+        | EffectSummary::BecomeAny(_) => false,
+        effect => changes_afar(effect, info, stype),
     };
     encounter.does(afar)
 }
@@ -168,7 +171,7 @@ fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
 }
 
 /// Returns `true` if the effect on the first sprite depends on it and its partner alone, and changes nothing else.
-fn is_for_each(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
+fn is_local_to_first(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let own = match info.effect {
         Effect::KillSprite
         | Effect::KillIfHasLess { .. }
@@ -188,7 +191,7 @@ fn is_for_each(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool 
 }
 
 /// Returns `true` if the effect on the first sprite is the same whichever partner comes first.
-fn is_once(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
+fn is_partner_independent(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let once = match info.effect {
         // The first sprite is gone and meets no other partner.
         Effect::KillSprite | Effect::TransformTo { kill_second: false, force_orientation: false, .. } => true,

@@ -1,7 +1,7 @@
 //! Possible futures: a fixed point over the existing sprites, the sprites that they make, and the effects of their
 //! collisions.
 
-use super::encounter::{Deed, Encounter, Provided, Side, clockwork};
+use super::encounter::{EffectSummary, Encounter, Precondition, Side, timed_effects};
 use super::facts::Facts;
 use crate::game::{Rules, SpriteType};
 use crate::ontology::class::SpriteClass;
@@ -10,12 +10,12 @@ use crate::ontology::effects::Effect;
 /// An over-approximation of the sprites, resources and interactions that are possible from some start: any two types
 /// that can exist at all can meet.
 #[derive(Clone, Debug)]
-pub(super) struct Prospect<'a> {
+pub(super) struct PossibleFutures<'a> {
     rules: &'a Rules,
     facts: &'a [Facts],
     encounters: &'a [Encounter],
     /// By type: such sprites can exist.
-    pub(super) there: Vec<bool>,
+    pub(super) exists: Vec<bool>,
     /// By type: such sprites can appear from now on.
     pub(super) made: Vec<bool>,
     /// By type: some sprite can hold one as a resource. None: any amount can be held.
@@ -25,20 +25,20 @@ pub(super) struct Prospect<'a> {
     /// By number of the timed effect: it is scheduled, or can be.
     pub(super) timed: Vec<bool>,
     /// By type: it or a relative can exist, so that rules on it apply.
-    alive: Vec<bool>,
+    applicable: Vec<bool>,
     /// By type: as a resource, it can be held beyond its limit.
     unlimited: Vec<bool>,
 }
 
-/// The starting point of a prospect.
+/// The starting point of the possible futures.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Start {
     /// Types that have sprites.
-    pub(super) there: Vec<SpriteType>,
+    pub(super) existing: Vec<SpriteType>,
     /// Types that existing sprites make, in addition to those that their types make.
     pub(super) making: Vec<SpriteType>,
     /// Timed effects that are scheduled.
-    pub(super) planned: Vec<u16>,
+    pub(super) scheduled: Vec<u16>,
     /// By type: some sprite holds one as a resource. None: any amount can be held.
     pub(super) held: Option<Vec<bool>>,
 }
@@ -46,58 +46,58 @@ pub(super) struct Start {
 impl Start {
     /// Returns everything that levels can place, at the start of an episode, with no resources held.
     pub(super) fn of_any_level(rules: &Rules) -> Start {
-        let there = rules.mapping.iter().flatten().copied().collect();
+        let existing = rules.mapping.iter().flatten().copied().collect();
         let held = Some(vec![false; rules.types.len()]);
-        Start { there, making: Vec::new(), planned: Start::planned(rules), held }
+        Start { existing, making: Vec::new(), scheduled: Start::scheduled(rules), held }
     }
 
     /// Returns the timed effects that are scheduled when an episode starts.
-    pub(super) fn planned(rules: &Rules) -> Vec<u16> {
+    pub(super) fn scheduled(rules: &Rules) -> Vec<u16> {
         let timed = (0u16..).zip(&rules.timed);
         timed.filter(|(_, timed)| timed.first_due.is_some()).map(|(number, _)| number).collect()
     }
 }
 
-impl<'a> Prospect<'a> {
-    /// Computes a prospect. Cost: O(rounds × interactions), with at most one round for each type that is added.
+impl<'a> PossibleFutures<'a> {
+    /// Computes the possible futures. Cost: O(rounds × interactions), with at most one round for each type that is added.
     pub(super) fn of(
         rules: &'a Rules,
         facts: &'a [Facts],
         encounters: &'a [Encounter],
-        Start { there, making, planned, held }: Start,
-    ) -> Prospect<'a> {
+        Start { existing, making, scheduled, held }: Start,
+    ) -> PossibleFutures<'a> {
         let none = vec![false; rules.types.len()];
-        let mut prospect = Prospect {
+        let mut futures = PossibleFutures {
             rules,
             facts,
             encounters,
-            there: none.clone(),
+            exists: none.clone(),
             made: none.clone(),
             held,
             live: vec![false; encounters.len()],
             timed: vec![false; rules.timed.len()],
-            alive: none,
+            applicable: none,
             unlimited: unlimited(rules),
         };
-        there.into_iter().for_each(|stype| prospect.add(stype));
+        existing.into_iter().for_each(|stype| futures.add(stype));
         for stype in making {
-            prospect.make(stype);
+            futures.make(stype);
         }
-        planned.into_iter().for_each(|timed| prospect.timed[usize::from(timed)] = true);
-        let clockwork = clockwork(rules);
-        while prospect.round(&clockwork) {}
-        prospect
+        scheduled.into_iter().for_each(|timed| futures.timed[usize::from(timed)] = true);
+        let timed_effects = timed_effects(rules);
+        while futures.round(&timed_effects) {}
+        futures
     }
 
     /// Returns `true` if the rules written for a type can apply to some sprite.
-    pub(super) fn is_alive(&self, written: SpriteType) -> bool {
-        self.alive[written.index()]
+    pub(super) fn can_apply(&self, written: SpriteType) -> bool {
+        self.applicable[written.index()]
     }
 
     fn add(&mut self, stype: SpriteType) {
         let info = &self.rules.types[stype.index()];
-        if info.class.is_some() && !std::mem::replace(&mut self.there[stype.index()], true) {
-            info.tree.iter().for_each(|relative| self.alive[relative.index()] = true);
+        if info.class.is_some() && !std::mem::replace(&mut self.exists[stype.index()], true) {
+            info.tree.iter().for_each(|relative| self.applicable[relative.index()] = true);
         }
     }
 
@@ -111,10 +111,13 @@ impl<'a> Prospect<'a> {
     }
 
     /// Performs one pass over everything; returns `true` if it added anything.
-    fn round(&mut self, clockwork: &[(Option<SpriteType>, smallvec::SmallVec<[Deed; 2]>)]) -> bool {
+    fn round(
+        &mut self,
+        timed_effects: &[(Option<SpriteType>, smallvec::SmallVec<[EffectSummary; 2]>)],
+    ) -> bool {
         let mut new = false;
         let facts = self.facts;
-        for (at, fact) in facts.iter().enumerate().filter(|(at, _)| self.there[*at]).collect::<Vec<_>>() {
+        for (at, fact) in facts.iter().enumerate().filter(|(at, _)| self.exists[*at]).collect::<Vec<_>>() {
             for (kind, &stype) in fact.makes.iter().enumerate() {
                 new |= self.can_make(at, kind) && self.make(stype);
             }
@@ -122,21 +125,21 @@ impl<'a> Prospect<'a> {
         }
         for (at, encounter) in self.encounters.iter().enumerate() {
             if !self.live[at] {
-                let meets = encounter.second.is_none_or(|second| self.is_alive(second));
-                if !meets || !self.is_alive(encounter.first) || !self.can_happen(encounter.provided) {
+                let meets = encounter.second.is_none_or(|second| self.can_apply(second));
+                if !meets || !self.can_apply(encounter.first) || !self.can_happen(encounter.precondition) {
                     continue;
                 }
                 self.live[at] = true;
                 new = true;
             }
-            new |= self.happen(Some(encounter.first), &encounter.deeds);
+            new |= self.apply(Some(encounter.first), &encounter.effects);
             if let Effect::AddTimer { timed } = self.rules.effects[usize::from(encounter.effect)].effect {
                 new |= !std::mem::replace(&mut self.timed[usize::from(timed)], true);
             }
         }
-        for (timed, (target, deeds)) in clockwork.iter().enumerate() {
-            if self.timed[timed] && target.is_none_or(|target| self.is_alive(target)) {
-                new |= self.happen(*target, deeds);
+        for (timed, (target, effects)) in timed_effects.iter().enumerate() {
+            if self.timed[timed] && target.is_none_or(|target| self.can_apply(target)) {
+                new |= self.apply(*target, effects);
                 let effect = self.rules.timed[timed].effect;
                 if let Effect::AddTimer { timed } = self.rules.effects[usize::from(effect)].effect {
                     new |= !std::mem::replace(&mut self.timed[usize::from(timed)], true);
@@ -146,19 +149,19 @@ impl<'a> Prospect<'a> {
         new
     }
 
-    fn happen(&mut self, first: Option<SpriteType>, deeds: &[Deed]) -> bool {
+    fn apply(&mut self, first: Option<SpriteType>, effects: &[EffectSummary]) -> bool {
         let mut new = false;
-        for deed in deeds {
-            match deed {
-                Deed::Become(to) | Deed::Make(to) => new |= self.make(*to),
-                Deed::BecomeAll(from, to) if self.there[from.index()] => new |= self.make(*to),
-                Deed::BecomeAny(options) => options.iter().for_each(|to| new |= self.make(*to)),
-                Deed::Clone | Deed::Collect => {
+        for effect in effects {
+            match effect {
+                EffectSummary::Become(to) | EffectSummary::Make(to) => new |= self.make(*to),
+                EffectSummary::BecomeAll(from, to) if self.exists[from.index()] => new |= self.make(*to),
+                EffectSummary::BecomeAny(options) => options.iter().for_each(|to| new |= self.make(*to)),
+                EffectSummary::Clone | EffectSummary::Collect => {
                     let rules = self.rules;
                     let tree = first.map_or(&[][..], |first| &rules.types[first.index()].tree);
-                    for &stype in tree.iter().filter(|stype| self.there[stype.index()]).collect::<Vec<_>>() {
-                        new |= match deed {
-                            Deed::Clone => self.make(stype),
+                    for &stype in tree.iter().filter(|stype| self.exists[stype.index()]).collect::<Vec<_>>() {
+                        new |= match effect {
+                            EffectSummary::Clone => self.make(stype),
                             _ => {
                                 let traits = &rules.types[stype.index()].traits;
                                 traits.is_resource && traits.value > 0 && self.hold(traits.resource, 1)
@@ -166,7 +169,7 @@ impl<'a> Prospect<'a> {
                         };
                     }
                 }
-                Deed::Change { resource, by, .. } if *by > 0 => new |= self.hold(*resource, *by),
+                EffectSummary::Change { resource, by, .. } if *by > 0 => new |= self.hold(*resource, *by),
                 _ => {}
             }
         }
@@ -191,12 +194,12 @@ impl<'a> Prospect<'a> {
     }
 
     /// Returns `true` if the condition of an interaction can ever hold.
-    fn can_happen(&self, provided: Provided) -> bool {
-        match (&self.held, provided) {
-            (Some(held), Provided::Holds(_, resource, amount)) => {
+    fn can_happen(&self, precondition: Precondition) -> bool {
+        match (&self.held, precondition) {
+            (Some(held), Precondition::Holds(_, resource, amount)) => {
                 amount <= 0 || (held[resource.index()] && self.is_within(resource, amount))
             }
-            (Some(_), Provided::Chance(prob)) => prob > 0.0,
+            (Some(_), Precondition::Chance(prob)) => prob > 0.0,
             _ => true,
         }
     }
@@ -234,14 +237,14 @@ impl<'a> Prospect<'a> {
         made.chain(self.leaves_walls(maker).then_some((SpriteType(0), None))).collect()
     }
 
-    /// The interactions that [`Prospect::live`] refers to.
+    /// The interactions that [`PossibleFutures::live`] refers to.
     pub(super) fn encounters(&self) -> &'a [Encounter] {
         self.encounters
     }
 
     /// Returns `true` if some sprite can ever hold this amount of a resource.
     pub(super) fn can_hold(&self, resource: SpriteType, amount: i32) -> bool {
-        self.can_happen(Provided::Holds(Side::First, resource, amount))
+        self.can_happen(Precondition::Holds(Side::First, resource, amount))
     }
 }
 

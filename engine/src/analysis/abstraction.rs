@@ -1,9 +1,9 @@
 //! Parts of the state that a search need not distinguish among the successors of one state.
 
 use super::Analysis;
-use super::encounter::{Deed, Encounter, Side, clockwork};
+use super::encounter::{EffectSummary, Encounter, Side, timed_effects};
 use super::facts::Motion;
-use super::prospect::Prospect;
+use super::futures::PossibleFutures;
 use crate::game::{SpriteType, TypeInfo};
 use crate::hash::SearchKey;
 use crate::ontology::avatars::BLOCK_PAUSE;
@@ -18,21 +18,21 @@ use crate::state::State;
 /// - the order of sprites of one type, and their orientation, if the rules cannot distinguish them;
 /// - the random state, if it decides nothing from here on;
 /// - the phases of spawners that can no longer be made;
-/// - the tick, if only a losing Timeout reads it: see [`Keying::earlier_is_better`].
+/// - the tick, if only a losing Timeout reads it: see [`StateAbstraction::earlier_is_better`].
 #[derive(Clone, Debug)]
-pub struct Keying {
+pub struct StateAbstraction {
     pub(crate) tick: bool,
     pub(crate) chance: bool,
     pub(crate) clocks: Vec<i32>,
     pub(crate) wizard_ticks: Vec<i32>,
     /// By type.
     pub(crate) constant: Vec<bool>,
-    pub(crate) alike: Vec<bool>,
-    pub(crate) faceless: Vec<bool>,
+    pub(crate) interchangeable: Vec<bool>,
+    pub(crate) orientation_irrelevant: Vec<bool>,
     earlier_is_better: bool,
 }
 
-impl Keying {
+impl StateAbstraction {
     /// Returns `true` if the tick is left out although the game is lost at some tick. Of two states with one key, the
     /// earlier one can then win whatever the later one can win. A search that visits states in the order of their
     /// ticks, such as breadth-first search, loses nothing by dropping the second.
@@ -51,7 +51,7 @@ impl Keying {
     }
 
     /// Returns the key of a successor of the root state. For two successors, equal keys mean equal keys and outcomes
-    /// after the same actions (losses by Timeout apart, if [`Keying::earlier_is_better`]). Cost: O(sprites of types
+    /// after the same actions (losses by Timeout apart, if [`StateAbstraction::earlier_is_better`]). Cost: O(sprites of types
     /// that can change).
     pub fn key(&self, analysis: &Analysis, state: &State) -> SearchKey {
         state.key_left_out(&analysis.game.0, self)
@@ -65,11 +65,11 @@ impl Keying {
 
 impl Analysis {
     /// Returns the state abstraction for a search from this state. Cost: O(types × interactions).
-    pub fn keying(&self, state: &State) -> Keying {
+    pub fn abstraction(&self, state: &State) -> StateAbstraction {
         let rules = &*self.game.0;
-        let prospect = self.prospect(state);
+        let futures = self.futures(state);
         let made = |wanted: fn(SpriteClass) -> bool| {
-            let types = rules.types.iter().zip(&prospect.made);
+            let types = rules.types.iter().zip(&futures.made);
             let types = types.filter(move |(info, made)| **made && info.class.is_some_and(wanted));
             types.map(|(info, _)| &info.traits)
         };
@@ -83,24 +83,24 @@ impl Analysis {
         let by_timeout = |end: &&Termination| matches!(end.condition, Condition::Timeout { .. });
         let mut timeouts = rules.terminations.iter().filter(by_timeout);
         let lose = timeouts.all(|end| end.decided_by == Decision::Line && !end.win);
-        let constant = self.constant(&prospect);
-        Keying {
+        let constant = self.constant(&futures);
+        StateAbstraction {
             tick: rules.reads_tick && !lose,
             chance: !state.is_over() && !self.is_deterministic_from(state),
             clocks: clocks.collect(),
             wizard_ticks,
-            alike: self.alike(),
-            faceless: self.faceless(),
+            interchangeable: self.interchangeable(),
+            orientation_irrelevant: self.orientation_irrelevant(),
             constant,
             earlier_is_better: rules.reads_tick && lose,
         }
     }
 
     /// By type: no sprite of it is ever changed, made or removed by anything that can still happen.
-    fn constant(&self, prospect: &Prospect<'_>) -> Vec<bool> {
+    fn constant(&self, futures: &PossibleFutures<'_>) -> Vec<bool> {
         let rules = &*self.game.0;
         let mut constant: Vec<bool> =
-            self.game.sprite_types().map(|stype| self.is_inert(stype, prospect)).collect();
+            self.game.sprite_types().map(|stype| self.is_inert(stype, futures)).collect();
         let mut spoil = |changes: &dyn Fn(&TypeInfo, SpriteType) -> bool| {
             for ((at, info), constant) in (0u16..).zip(&rules.types).zip(&mut constant) {
                 *constant &= !changes(info, SpriteType(at));
@@ -112,20 +112,20 @@ impl Analysis {
                 spoil(&|info, _| info.in_tree(second) && changes_second(encounter));
             }
         }
-        let planned = clockwork(rules);
-        let planned = planned.iter().map(|(target, deeds)| (*target, deeds.as_slice()));
-        let met = self.encounters.iter().map(|encounter| (None, encounter.deeds.as_slice()));
-        for (target, deeds) in planned.chain(met) {
+        let scheduled = timed_effects(rules);
+        let scheduled = scheduled.iter().map(|(target, effects)| (*target, effects.as_slice()));
+        let met = self.encounters.iter().map(|encounter| (None, encounter.effects.as_slice()));
+        for (target, effects) in scheduled.chain(met) {
             spoil(&|info, _| target.is_some_and(|target| info.in_tree(target)));
-            for deed in deeds {
-                spoil(&|info, stype| changes_afar(deed, info, stype));
+            for effect in effects {
+                spoil(&|info, stype| changes_afar(effect, info, stype));
             }
         }
         constant
     }
 
     /// Returns `true` if sprites of the type do nothing by themselves.
-    fn is_inert(&self, stype: SpriteType, prospect: &Prospect<'_>) -> bool {
+    fn is_inert(&self, stype: SpriteType, futures: &PossibleFutures<'_>) -> bool {
         use SpriteClass as C;
         let (facts, info) = (self.facts(stype), &self.game.0.types[stype.index()]);
         let plain = matches!(info.class, Some(C::Immovable | C::Passive | C::Door | C::Resource));
@@ -133,40 +133,47 @@ impl Analysis {
             && facts.motion == Motion::Still
             && facts.makes.is_empty()
             && !facts.fleeting
-            && !prospect.made[stype.index()]
+            && !futures.made[stype.index()]
             && !info.traits.continuous
             && !info.ground_aware
     }
 }
 
 fn changes_first(encounter: &Encounter) -> bool {
-    let harmless = |deed: &Deed| {
+    let harmless = |effect: &EffectSummary| {
         matches!(
-            deed,
-            Deed::Make(_)
-                | Deed::KillAll(_)
-                | Deed::BecomeAll(..)
-                | Deed::Shield { .. }
-                | Deed::Kill(Side::Second)
-                | Deed::Undo(_)
+            effect,
+            EffectSummary::Make(_)
+                | EffectSummary::KillAll(_)
+                | EffectSummary::BecomeAll(..)
+                | EffectSummary::Shield { .. }
+                | EffectSummary::Kill(Side::Second)
+                | EffectSummary::Undo(_)
         )
     };
-    !encounter.deeds.iter().all(harmless)
+    !encounter.effects.iter().all(harmless)
 }
 
 fn changes_second(encounter: &Encounter) -> bool {
-    encounter.does(|deed| {
-        matches!(deed, Deed::Kill(Side::Second) | Deed::Collect | Deed::Change { who: Side::Second, .. })
+    encounter.does(|effect| {
+        matches!(
+            effect,
+            EffectSummary::Kill(Side::Second)
+                | EffectSummary::Collect
+                | EffectSummary::Change { side: Side::Second, .. }
+        )
     })
 }
 
 /// Returns `true` if the effect concerns sprites of the type wherever they are.
-pub(super) fn changes_afar(deed: &Deed, info: &TypeInfo, stype: SpriteType) -> bool {
-    match deed {
-        Deed::KillAll(of) | Deed::Speed(Some(of)) | Deed::Health { of: Some(of), .. } => info.in_tree(*of),
-        Deed::BecomeAll(of, to) => info.in_tree(*of) || *to == stype,
-        Deed::Become(to) | Deed::Make(to) => *to == stype,
-        Deed::BecomeAny(options) => options.contains(&stype),
+pub(super) fn changes_afar(effect: &EffectSummary, info: &TypeInfo, stype: SpriteType) -> bool {
+    match effect {
+        EffectSummary::KillAll(of)
+        | EffectSummary::Speed(Some(of))
+        | EffectSummary::Health { of: Some(of), .. } => info.in_tree(*of),
+        EffectSummary::BecomeAll(of, to) => info.in_tree(*of) || *to == stype,
+        EffectSummary::Become(to) | EffectSummary::Make(to) => *to == stype,
+        EffectSummary::BecomeAny(options) => options.contains(&stype),
         _ => false,
     }
 }
