@@ -15,7 +15,7 @@ const REASONING: [&str; 4] = ["think", "thinking", "thought", "reasoning"];
 const LAST_LINES: usize = 5;
 
 /// The number of bytes of a line that are examined.
-const LOOKED_AT: usize = 400;
+const MAX_SCANNED: usize = 400;
 
 /// The maximum number of occurrences of the word "action" to examine, from the end.
 const DECISIONS: usize = 100;
@@ -165,14 +165,14 @@ static NUMBER_LINE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?im)^[ \t]*Action:[ \t]*([0-9]+)[ \t]*\r?$"));
 
 /// The word "action" and a sign, the characters allowed in between, and the first word or number after it.
-static SIGNED: LazyLock<Regex> = LazyLock::new(|| {
+static MARKED_WITH_SIGN: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?P<open>^|\n[ \t*#>`-]{0,8})?(?-u:\b)action(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}[:=][ \t*`"'<(\[{]{0,8}(?P<word>[a-z_]+|[0-9]+(?-u:\b))"#,
     )
 });
 
 /// The word "action" directly followed by an action or a number.
-static UNSIGNED: LazyLock<Regex> = LazyLock::new(|| {
+static MARKED_BY_WORD: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?-u:\b)action[*`]{0,3}[ \t]{1,4}[*`"'<(\[{]{0,4}(?P<word>action_[a-z]+|up|left|down|right|use|nil|[0-9]+)(?-u:\b)"#,
     )
@@ -190,7 +190,7 @@ static ALONE: LazyLock<Regex> = LazyLock::new(|| {
 });
 
 /// A direction in the words of a player about to go there, and the words that may negate it.
-static SAID: LazyLock<Regex> = LazyLock::new(|| {
+static STATED: LazyLock<Regex> = LazyLock::new(|| {
     let verbs = "go|going|move|moving|step|walk|turn|head|press|choose|select|play|try|shoot|face|push";
     let between = "to|the|towards|toward|one|step|cell|action|key|arrow|straight";
     pattern(&format!(
@@ -215,9 +215,9 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
 
 /// Returns the last choice marked by the word "action", its stage, and the position up to which the text has been read.
 fn marked<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage, usize)> {
-    let places: Vec<usize> = SIGNED.find_iter(said).map(|found| found.start()).collect();
+    let places: Vec<usize> = MARKED_WITH_SIGN.find_iter(said).map(|found| found.start()).collect();
     let signed = places.iter().rev().take(DECISIONS).find_map(|&place| {
-        let found = SIGNED.captures_at(said, place)?;
+        let found = MARKED_WITH_SIGN.captures_at(said, place)?;
         let word = found.name("word")?;
         let quoted = found.name("quote").is_some_and(|quote| !quote.is_empty());
         let stage = if quoted { Stage::Json } else { Stage::Marker };
@@ -232,7 +232,7 @@ fn marked<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage, us
         }
     });
     signed.or_else(|| {
-        let found = UNSIGNED.captures_iter(said).last()?.name("word")?;
+        let found = MARKED_BY_WORD.captures_iter(said).last()?.name("word")?;
         Some((named(found.as_str(), listed), Stage::Marker, found.end()))
     })
 }
@@ -242,9 +242,9 @@ pub(crate) fn boundary(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
-/// Returns the rest of the line from `from`, cut to [`LOOKED_AT`] bytes.
+/// Returns the rest of the line from `from`, cut to [`MAX_SCANNED`] bytes.
 fn rest_of_line(text: &str, from: usize) -> &str {
-    let near = &text[from..boundary(text, from + LOOKED_AT)];
+    let near = &text[from..boundary(text, from + MAX_SCANNED)];
     near.lines().next().unwrap_or_default()
 }
 
@@ -257,7 +257,7 @@ fn only_action(line: &str) -> Option<Action> {
 
 /// Returns an action that the last lines name without the word "action".
 fn words(said: &str) -> Option<Action> {
-    let start = boundary(said, said.len().saturating_sub(LOOKED_AT * LAST_LINES));
+    let start = boundary(said, said.len().saturating_sub(MAX_SCANNED * LAST_LINES));
     let tail = &said[start..];
     let lines = tail.match_indices('\n').rev().filter(|(at, _)| {
         let line = tail[at + 1..].lines().next();
@@ -272,7 +272,7 @@ fn words(said: &str) -> Option<Action> {
         let word = found.get(1).or(found.get(2))?;
         Some((word.start(), action_of(word.as_str())?))
     });
-    let spoken = SAID.captures_iter(tail).filter_map(|found| {
+    let spoken = STATED.captures_iter(tail).filter_map(|found| {
         let word = found.name("word")?;
         let meant = found.name("not").is_none() && found.name("now").is_none();
         meant.then_some((word.start(), action_of(word.as_str())?))
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn the_vectors_of_the_reference() {
+    fn reference_vectors_are_read() {
         check("Action: ACTION_LEFT", "left marker");
         check("ACTION_LEFT", "left reference");
         check("Action:<2>", "left marker");
@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn the_format() {
+    fn strict_answers_are_read() {
         check("ACTION: left", "left strict");
         check("The lantern is right of me.\n\nACTION: right\n", "right strict");
         check("action:USE", "use strict");
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_chosen_now_is_invalid() {
+    fn unavailable_actions_are_invalid() {
         let offered = [Nil, Left];
         let reading = read("I could go left.\nACTION: use", Format::Word, &LISTED, &offered);
         assert_eq!(reading, Reading::Invalid { why: "`use` cannot be chosen now".to_owned() });

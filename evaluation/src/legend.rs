@@ -23,7 +23,7 @@ pub struct LegendOptions {
 
 /// The role of a sprite type for a reader of boards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum EntryRole {
     /// The player.
     Avatar,
     /// A type that blocks the way for good.
@@ -42,7 +42,7 @@ pub struct Entry {
     /// Its character; [`EMPTY`] for floors.
     pub symbol: char,
     /// Its role.
-    pub standing: Standing,
+    pub role: EntryRole,
 }
 
 /// The table of one game. Only the states of the avatar, or floors, can share a character.
@@ -64,13 +64,13 @@ impl Legend {
         let is_avatar = |stype| analysis.avatars().iter().any(|avatar| avatar.stype == stype);
         types.sort_by_key(|&stype| (!is_avatar(stype), stype));
         let entry = |&stype: &SpriteType| {
-            let standing = match looks.look(stype).glyph {
-                _ if is_avatar(stype) => Standing::Avatar,
-                Glyph::Wall => Standing::Wall,
-                _ if symbols.symbol(stype) == EMPTY => Standing::Floor,
-                _ => Standing::Thing,
+            let role = match looks.look(stype).glyph {
+                _ if is_avatar(stype) => EntryRole::Avatar,
+                Glyph::Wall => EntryRole::Wall,
+                _ if symbols.symbol(stype) == EMPTY => EntryRole::Floor,
+                _ => EntryRole::Thing,
             };
-            Entry { name: game.name(stype).to_owned(), symbol: symbols.symbol(stype), standing }
+            Entry { name: game.name(stype).to_owned(), symbol: symbols.symbol(stype), role }
         };
         let mut entries: Vec<Entry> = types.iter().map(entry).collect();
         if !options.tracking {
@@ -99,24 +99,24 @@ impl Legend {
     }
 
     /// Returns `true` for a name that is shown: a visible type other than a floor.
-    pub(crate) fn tells(&self, name: &str) -> bool {
-        self.entry(name).is_some_and(|entry| entry.standing != Standing::Floor)
+    pub(crate) fn is_shown(&self, name: &str) -> bool {
+        self.entry(name).is_some_and(|entry| entry.role != EntryRole::Floor)
     }
 
     /// Returns a line for each character: the character, a space, the names.
     pub fn lines(&self) -> Vec<String> {
-        let names = |standing: Standing| {
-            let all = self.entries.iter().filter(move |entry| entry.standing == standing);
+        let names = |role: EntryRole| {
+            let all = self.entries.iter().filter(move |entry| entry.role == role);
             all.map(|entry| entry.name.as_str()).collect::<Vec<_>>()
         };
-        let mut lines = match names(Standing::Floor)[..] {
+        let mut lines = match names(EntryRole::Floor)[..] {
             [] => vec![format!("{EMPTY} nothing")],
             ref floors => vec![format!("{EMPTY} nothing or {}", floors.join(" or "))],
         };
-        let avatars = names(Standing::Avatar);
+        let avatars = names(EntryRole::Avatar);
         let mut before = None;
-        for entry in self.entries.iter().filter(|entry| entry.standing != Standing::Floor) {
-            let united = entry.standing == Standing::Avatar && self.is_united();
+        for entry in self.entries.iter().filter(|entry| entry.role != EntryRole::Floor) {
+            let united = entry.role == EntryRole::Avatar && self.is_united();
             if before.replace(entry.symbol) == Some(entry.symbol) {
                 continue;
             }
@@ -130,7 +130,7 @@ impl Legend {
 
     /// Returns `true` if all states of the avatar share a character.
     fn is_united(&self) -> bool {
-        let mut avatars = self.entries.iter().filter(|entry| entry.standing == Standing::Avatar);
+        let mut avatars = self.entries.iter().filter(|entry| entry.role == EntryRole::Avatar);
         let first = avatars.next().map(|entry| entry.symbol);
         avatars.all(|entry| Some(entry.symbol) == first)
     }
@@ -138,10 +138,10 @@ impl Legend {
 
 /// Gives all states of the avatar the character [`AVATAR`]. The type that had it takes over a freed character.
 fn unite_avatars(entries: &mut [Entry]) {
-    let is_avatar = |entry: &&Entry| entry.standing == Standing::Avatar;
+    let is_avatar = |entry: &&Entry| entry.role == EntryRole::Avatar;
     let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };
     for entry in entries.iter_mut() {
-        if entry.standing == Standing::Avatar {
+        if entry.role == EntryRole::Avatar {
             entry.symbol = AVATAR;
         } else if entry.symbol == AVATAR {
             entry.symbol = free;

@@ -35,7 +35,7 @@ impl Mask {
         let names: BTreeMap<String, String> =
             own.into_iter().zip(numbers).map(|(name, number)| (name, format!("t{number}"))).collect();
         let mut masked = description.renamed(&names);
-        undress(&mut masked);
+        strip_cosmetics(&mut masked);
         let game = Game::compile(&masked).map_err(|problems| {
             EvaluationError::Malformed(format!("the names of the game cannot be masked: {problems}"))
         })?;
@@ -62,7 +62,7 @@ impl Mask {
 }
 
 /// Removes everything that is not part of the rules.
-fn undress(description: &mut Description) {
+fn strip_cosmetics(description: &mut Description) {
     fn sprites(lines: &mut [SpriteLine]) {
         for line in lines {
             line.trivia = Trivia::default();

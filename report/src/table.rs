@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_no_markup() {
+    fn markup_in_names_is_escaped() {
         let check = |name: &str, expect: &str| assert_eq!(in_markdown(name), expect);
         check("<script>alert(1)</script>", "&lt;script&gt;alert(1)&lt;/script&gt;");
         check("![x](javascript:y)", "!\\[x\\](javascript:y)");
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_no_formulas() {
+    fn formulas_in_names_are_escaped() {
         let mut table = Table::new("a-table", "", "", &["player", "difference"]);
         for name in ["=1+1", "+1", "-2+3", "@sum", "\tx", "a=1", "–"] {
             table.push(vec![TableCell::text(name), TableCell::number(-0.5, 1)]);
@@ -342,7 +342,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "other columns")]
-    fn rows_fit() {
+    fn rows_of_another_length_panic() {
         table().push(vec![]);
     }
 }

@@ -106,7 +106,7 @@ impl Panel {
             rows.push(Label { name: "shortest win".to_owned(), note: "proved".to_owned() });
         }
         let most = values.iter().flatten().flatten().copied().fold(0.0, f64::max);
-        let scale = if shown.is_share() { [0.0, 1.0] } else { [0.0, most.max(1.0)] };
+        let scale = if shown.is_fraction() { [0.0, 1.0] } else { [0.0, most.max(1.0)] };
         let show: fn(f64) -> String = match shown {
             Measure::WinRate => |value| format!("{:.0}", 100.0 * value),
             Measure::Steps => |value| format!("{value:.0}"),

@@ -75,7 +75,7 @@ fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
                 "win_rate_by_game": row.by_game,
                 "choices": row.choices,
                 "spending": row.spending,
-                "broken_off": row.broken_off,
+                "broken_off": row.aborted,
             })
         })
         .collect();

@@ -2,7 +2,7 @@
 //! misbehaves, is killed and resumed.
 
 use crate::arcade::{arcade, files, run, text};
-use crate::server::{Act, Asked, Server};
+use crate::server::{ReceivedRequest, Response, Server};
 use engine::Digest;
 use evaluation::log::{Event, ReplyClass, read, without_times};
 use evaluation::player::Validity;
@@ -13,12 +13,12 @@ use std::process::Stdio;
 use std::time::Duration;
 
 /// A deterministic model: the same prompt gives the same answer, sometimes an unusable one.
-fn answer(_: usize, asked: &Asked) -> Act {
+fn answer(_: usize, asked: &ReceivedRequest) -> Response {
     let messages = &asked.json()["messages"];
     let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 6;
     let words =
         ["ACTION: left", "ACTION: right", "ACTION: use", "I cannot say.", "I cannot see.", "I cannot."];
-    Act::completion(words[usize::from(draw)])
+    Response::completion(words[usize::from(draw)])
 }
 
 /// Returns the logs of a results folder, without times.
@@ -132,7 +132,7 @@ fn what_a_model_says_is_recorded_and_counted() {
 /// requested again.
 #[test]
 fn killed_evaluations_lose_nothing() {
-    let slow = |number: usize, asked: &Asked| {
+    let slow = |number: usize, asked: &ReceivedRequest| {
         std::thread::sleep(Duration::from_millis(3));
         answer(number, asked)
     };
@@ -156,9 +156,9 @@ fn killed_evaluations_lose_nothing() {
             .stdout(Stdio::null())
             .stderr(Stdio::null());
         let mut child = command.spawn().unwrap();
-        let answered = server.asked().len();
+        let answered = server.received().len();
         // The moment depends on progress, so that slow machines are killed in the same places.
-        while server.asked().len() < answered + 1 + kill % 7 && child.try_wait().unwrap().is_none() {
+        while server.received().len() < answered + 1 + kill % 7 && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }
         std::thread::sleep(Duration::from_millis(kill as u64 % 5));
@@ -169,19 +169,19 @@ fn killed_evaluations_lose_nothing() {
     assert_eq!(logs(&broken.join("results")), logs(&whole.join("results")));
     assert_eq!(done["spent"], spent);
     // Only the requests in progress at a kill were repeated.
-    let (asked, needed) = (server.asked().len(), undisturbed.asked().len());
+    let (asked, needed) = (server.received().len(), undisturbed.received().len());
     assert!(asked <= needed + 2 * kills, "{asked} requests for {needed} answers");
 }
 
 /// Server failures are not the model's fault: the episode stays open, no step is lost, and --resume goes on.
 #[test]
 fn failing_servers_leave_episodes_open() {
-    let bad: [fn() -> Act; 5] = [
-        || Act::reply(429, "slow down"),
-        || Act::reply(500, "oops"),
-        || Act::Cut(Vec::new()),
-        || Act::reply(200, ""),
-        || Act::reply(200, "<html>not now</html>"),
+    let bad: [fn() -> Response; 5] = [
+        || Response::reply(429, "slow down"),
+        || Response::reply(500, "oops"),
+        || Response::Cut(Vec::new()),
+        || Response::reply(200, ""),
+        || Response::reply(200, "<html>not now</html>"),
     ];
     for (kind, act) in bad.into_iter().enumerate() {
         let home = tempfile::tempdir().unwrap();
@@ -223,14 +223,14 @@ fn caps_hold_and_can_be_raised() {
     let url = server.base_url();
     let capped = json(&run(home.path(), &asking(&url, &["--max-requests", "7"]), 1));
     assert_eq!(capped["spent"]["requests"], 7);
-    assert_eq!(server.asked().len(), 7);
+    assert_eq!(server.received().len(), 7);
     // All counts of them agree, even if several episodes reach the cap at once.
     assert_eq!(capped["tally"]["halted"], "the next request would exceed --max-requests 7");
     let told = json(&run(home.path(), &["--json", "report", "results", "--out", "capped"], 0));
     let player = &told["players"][0];
     assert_eq!((&player["spending"]["requests"], &player["spending"]["replies"]), (&7.into(), &7.into()));
     let done = json(&run(home.path(), &asking(&url, &["--max-requests", "1000", "--resume"]), 0));
-    assert_eq!(done["spent"]["requests"], server.asked().len());
+    assert_eq!(done["spent"]["requests"], server.received().len());
     assert_eq!(done["tally"]["open"], 0);
 }
 
@@ -249,7 +249,7 @@ fn dry_runs_ask_nothing_and_say_what_it_would_take() {
     assert_eq!((&forecast["output_tokens"], &forecast["max_output_tokens"]), (&2400.into(), &96_000.into()));
     let said = text(&run(home.path(), &bounded[1..], 0).stdout);
     assert!(said.contains("assuming answers of 100 tokens; at most 0.10 M"), "{said}");
-    assert!(server.asked().is_empty() && !home.path().join("results").exists());
+    assert!(server.received().is_empty() && !home.path().join("results").exists());
 }
 
 #[test]
@@ -360,7 +360,7 @@ fn edited_logs_are_not_certified() {
 fn counts_of_tokens_that_cannot_be_are_not_believed() {
     let body = r#"{"choices":[{"message":{"content":"ACTION: left"},"finish_reason":"stop"}],
         "usage":{"prompt_tokens":18446744073709551615,"completion_tokens":18446744073709551615}}"#;
-    let server = Server::start(move |_, _| Act::reply(200, body));
+    let server = Server::start(move |_, _| Response::reply(200, body));
     let home = tempfile::tempdir().unwrap();
     let played = json(&run(home.path(), &asking(&server.base_url(), &["--max-tokens", "1000000"]), 0));
     assert!(played["spent"]["tokens"].as_u64().unwrap() < 1_000_000, "{played}");

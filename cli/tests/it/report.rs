@@ -6,7 +6,7 @@ use engine::Action;
 use evaluation::client::{Finish, Role, Usage};
 use evaluation::log::{Reply, ReplyClass};
 use evaluation::player::Contestant;
-use evaluation::run::{FORMAT, Left, Progress, Task};
+use evaluation::run::{FORMAT, PlayResult, Progress, Task};
 use evaluation::{
     Agent, Choice, Entrant, Evaluation, Event, Halt, Journal, Settings, Subject, SubjectFacts, Turn, Validity,
 };
@@ -77,7 +77,7 @@ impl Agent for Talker {
 struct Silent;
 
 impl Progress for Silent {
-    fn episode(&self, _: &Task<'_>, _: &Left) {}
+    fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
 /// Records results of [`Talker`] on a game, two runs of each level.
@@ -331,12 +331,12 @@ fn logs_are_compared_with_what_follows() {
     for (results, words) in [
         ("status", &["line 14: ", "the game is over, which it is not"][..]),
         ("limit", &["line 14: ", "12 of 13 were taken"]),
-        ("run", &["line 1: ", "the log is of run 1, but 0 was asked for"]),
-        ("invalid", &["line 2: ", "step 0 is recorded as invalid, but something was done"]),
-        ("score", &["line 4: ", "step 2 leads to score 0, the log says 1"]),
+        ("run", &["line 1: ", "the log is of run 1, but 0 was requested"]),
+        ("invalid", &["line 2: ", "step 0 is recorded as invalid, but it has an action"]),
+        ("score", &["line 4: ", "step 2 leads to score 0, but the log records 1"]),
         ("after", &["line 14: ", "a step after the end"]),
         ("fewer", &["run1.jsonl", "no such episode in evaluation.json"]),
-        ("valid", &["recorded as valid, but the last answer is recorded otherwise"]),
+        ("valid", &["recorded as valid, but the last answer contradicts it"]),
     ] {
         let message = text(&run(home.path(), &["report", results, "--out", "report"], 2).stderr);
         for part in words {
@@ -379,7 +379,7 @@ fn an_episode_without_an_end_is_not_passed_over() {
     let cut = summary(home.path(), "cut");
     assert_eq!((&cut["episodes"], &cut["ended"]), (&4.into(), &3.into()));
     assert_eq!(cut["players"][0]["broken_off"]["interrupted"], 1);
-    assert!(cut["notes"].to_string().contains("1 of 4 episodes were broken off"), "{}", cut["notes"]);
+    assert!(cut["notes"].to_string().contains("1 of 4 episodes were aborted"), "{}", cut["notes"]);
     let page = fs::read_to_string(home.path().join("report/report.md")).unwrap();
     assert!(page.contains("Left out of every number: 1 interrupted and not finished"), "{page}");
 }

@@ -73,14 +73,17 @@ fn an_agent_of_somebody_else_plays_and_is_taken_up_again() {
     let player = "cmd:sh agent.sh";
     let failed = run(folder.path(), &evaluate(player, &[]), 3);
     let message = text(&failed.stderr);
-    assert!(message.contains("has left at step 3 (exit status: 7); its last words: tired"), "{message}");
+    assert!(
+        message.contains("exited at step 3 (exit status: 7); the end of its standard error: tired"),
+        "{message}"
+    );
     run(folder.path(), &evaluate(player, &["--resume"]), 0);
     let log = log(&folder.path().join("results"));
     let steps = log.iter().filter(|event| event["event"] == "step");
     let actions: Vec<&Value> = steps.map(|event| &event["action"]).collect();
     assert_eq!(actions, vec!["left"; 6]);
     let malformed = run(folder.path(), &evaluate("cmd:sh 'agent.sh", &["--resume"]), 2);
-    assert!(text(&malformed.stderr).contains("is no command line"), "{}", text(&malformed.stderr));
+    assert!(text(&malformed.stderr).contains("is not a command line"), "{}", text(&malformed.stderr));
 }
 
 /// Answers three times, then waits for a file `go`; it has child processes, one of which leaves the group and the

@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_put_is_there() {
+    fn stored_replies_are_returned() {
         let folder = tempfile::tempdir().unwrap();
         let cache = Cache::open(&folder.path().join("new/cache")).unwrap();
         let key = Digest::of(b"key");
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_corrupt_is_not_there_and_written_anew() {
+    fn corrupt_entries_are_ignored_and_rewritten() {
         let folder = tempfile::tempdir().unwrap();
         let cache = Cache::open(folder.path()).unwrap();
         let key = Digest::of(b"key");

@@ -67,7 +67,7 @@ impl Caps {
 
     /// Charges the amounts that the log of an episode records from earlier runs of the program. Answers from the cache cost
     /// nothing.
-    pub fn charge_past(&self, events: &[Event]) {
+    pub fn charge_logged(&self, events: &[Event]) {
         let mut prompt = 0;
         for event in events {
             match event {
@@ -89,17 +89,17 @@ impl Caps {
     pub(super) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
         let usage = Usage { input_tokens: Some(prompt), output_tokens: Some(0), ..Usage::default() };
         let cost = self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default();
-        let share = Spent { requests: 1, tokens: prompt, cost };
+        let amount = Spent { requests: 1, tokens: prompt, cost };
         let mut ledger = self.ledger();
-        let reserved = ledger.reserved.plus(share);
-        if let Some(problem) = self.limits.forbid(&ledger.spent.plus(reserved)) {
+        let reserved = ledger.reserved.plus(amount);
+        if let Some(problem) = self.limits.exceeded(&ledger.spent.plus(reserved)) {
             // The message does not tell the amount spent, because requests in flight are still to be paid; the final report
             // tells it.
             return Err(format!("the next request would exceed {problem}"));
         }
         ledger.reserved = reserved;
         drop(ledger);
-        Ok(Reservation { caps: self, share, prompt })
+        Ok(Reservation { caps: self, amount, prompt })
     }
 
     fn charge(&self, usage: &Usage, prompt: u64, text: &str, reasoning: Option<&str>) -> Spent {
@@ -109,10 +109,10 @@ impl Caps {
             output_tokens: usage.output_tokens.or_else(|| Some(counted())),
             ..*usage
         };
-        let told = [usage.input_tokens, usage.output_tokens];
+        let counts = [usage.input_tokens, usage.output_tokens];
         Spent {
             requests: 1,
-            tokens: told.into_iter().flatten().fold(0, u64::saturating_add),
+            tokens: counts.into_iter().flatten().fold(0, u64::saturating_add),
             cost: self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default(),
         }
     }
@@ -124,7 +124,7 @@ impl Caps {
 
 impl Limits {
     /// Returns the limit that these amounts would exceed, in words.
-    fn forbid(&self, spent: &Spent) -> Option<String> {
+    fn exceeded(&self, spent: &Spent) -> Option<String> {
         if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
             return Some(format!("--max-cost {limit}"));
         }
@@ -136,9 +136,9 @@ impl Limits {
     }
 
     /// Returns the limit that a whole evaluation would exceed by its estimate, in words, for a dry run.
-    pub fn forbid_estimate(&self, estimate: &Estimate) -> Option<String> {
+    pub fn exceeded_by_estimate(&self, estimate: &Estimate) -> Option<String> {
         let tokens = estimate.input_tokens.saturating_add(estimate.output_tokens);
-        self.forbid(&Spent { requests: estimate.requests, tokens, cost: estimate.cost.unwrap_or_default() })
+        self.exceeded(&Spent { requests: estimate.requests, tokens, cost: estimate.cost.unwrap_or_default() })
     }
 }
 
@@ -165,7 +165,7 @@ impl Spent {
 #[must_use]
 pub(super) struct Reservation<'a> {
     caps: &'a Caps,
-    share: Spent,
+    amount: Spent,
     prompt: u64,
 }
 
@@ -174,9 +174,9 @@ impl Reservation<'_> {
     pub(super) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
         let charge = self.caps.charge(usage, self.prompt, text, reasoning);
         // In one step, so that the request is never counted both as in flight and as paid.
-        let share = std::mem::take(&mut self.share);
+        let amount = std::mem::take(&mut self.amount);
         let mut ledger = self.caps.ledger();
-        ledger.reserved = ledger.reserved.minus(share);
+        ledger.reserved = ledger.reserved.minus(amount);
         ledger.spent = ledger.spent.plus(charge);
     }
 }
@@ -184,7 +184,7 @@ impl Reservation<'_> {
 impl Drop for Reservation<'_> {
     fn drop(&mut self) {
         let mut ledger = self.caps.ledger();
-        ledger.reserved = ledger.reserved.minus(self.share);
+        ledger.reserved = ledger.reserved.minus(self.amount);
     }
 }
 
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn each_limit_forbids() {
+    fn each_limit_rejects_a_request() {
         let check = |limits: Limits, words: &str| {
             let caps = Caps::new(limits, Some(price()));
             caps.reserve(100).unwrap().settle(&usage(100, 10), "", None);
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn requests_under_way_count_until_they_fail() {
+    fn requests_in_flight_count_until_they_fail() {
         let caps = Caps::new(Limits { requests: Some(1), ..Limits::default() }, None);
         let reservation = caps.reserve(5).unwrap();
         assert!(caps.reserve(5).is_err());
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_reply_does_not_say_is_counted() {
+    fn missing_usage_is_estimated() {
         let caps = Caps::new(Limits::default(), Some(price()));
         caps.reserve(50).unwrap().settle(&Usage::default(), "Action: up, I say", None);
         let spent = caps.spent();
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn the_past_is_charged_as_it_was() {
+    fn logged_requests_are_charged_once() {
         let reply = |cached| {
             Event::Reply(Reply {
                 step: 0,
@@ -261,7 +261,7 @@ mod tests {
         let first = Caps::new(Limits::default(), Some(price()));
         first.reserve(90).unwrap().settle(&usage(100, 10), "up", None);
         let again = Caps::new(Limits::default(), Some(price()));
-        again.charge_past(&[request(), reply(false), request(), reply(true), request()]);
+        again.charge_logged(&[request(), reply(false), request(), reply(true), request()]);
         assert_eq!(again.spent(), first.spent());
     }
 

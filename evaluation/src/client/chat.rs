@@ -117,12 +117,12 @@ pub struct Usage {
 }
 
 /// The largest plausible token count of one request; no context window comes near it.
-const MOST_TOKENS: u64 = 1 << 40;
+const MAX_PLAUSIBLE_TOKENS: u64 = 1 << 40;
 
 impl Usage {
     /// Removes implausible counts, which are then replaced by our own.
     pub(super) fn plausible(self) -> Usage {
-        let plausible = |count: Option<u64>| count.filter(|&tokens| tokens <= MOST_TOKENS);
+        let plausible = |count: Option<u64>| count.filter(|&tokens| tokens <= MAX_PLAUSIBLE_TOKENS);
         Usage {
             input_tokens: plausible(self.input_tokens),
             cached_input_tokens: plausible(self.cached_input_tokens),

@@ -131,7 +131,7 @@ pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     if options.limits.cost.is_some() && price.is_none() {
         let (provider, model) = (spec.provider.name(), &spec.model);
         let problem = format!(
-            "--max-cost needs a price, and none is known for `{model}`; give one with --prices FILE \
+            "--max-cost needs a price, but none is known for `{model}`; give one with --prices FILE \
              (provider = \"{provider}\", name = \"{model}\"), or use --max-tokens"
         );
         return Err(EvaluationError::Malformed(problem));
@@ -202,7 +202,7 @@ fn key(
     let usual = spec.provider.key_variable();
     let wanted = |variable: &str| {
         let key = Key::read(variable, environment)?;
-        let problem = format!("{} wants a key, and {variable} is not set; export it first", spec.server.host);
+        let problem = format!("{} requires a key, but {variable} is not set; export it", spec.server.host);
         key.map(Some).ok_or(EvaluationError::Malformed(problem))
     };
     match &options.key_variable {
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn which_key_goes_where() {
+    fn keys_are_sent_to_their_provider_only() {
         let variable = |name: &str| Some(name.to_owned());
         assert_eq!(sent("openai:m", None, None), variable("OPENAI_API_KEY"));
         assert_eq!(sent("anthropic:m", None, None), variable("ANTHROPIC_API_KEY"));
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_missing_is_named() {
+    fn missing_settings_are_named() {
         let nothing = |_: &str| None;
         assert!(problem(&ModelOptions::new("openai:m"), &nothing).contains("OPENAI_API_KEY is not set"));
         let named = ModelOptions { key_variable: Some("MINE".to_owned()), ..ModelOptions::new("gemini:m") };
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_say_what_is_sent() {
+    fn settings_record_the_decoding_sent() {
         let mut options = ModelOptions::new("anthropic:claude-sonnet-4-5-20250929");
         let found = settings(&options).unwrap();
         assert_eq!(found.decoding.max_output_tokens, Some(8192));

@@ -10,7 +10,7 @@ use std::time::{Duration, SystemTime};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fault {
     /// Another try may succeed.
-    Passing {
+    Transient {
         /// The HTTP status, if there was a reply.
         status: Option<u16>,
         /// The error message.
@@ -28,22 +28,22 @@ pub(super) enum Fault {
 }
 
 /// The number of characters kept of a server's message.
-const WORDS: usize = 300;
+const MAX_MESSAGE: usize = 300;
 
 /// Classifies a reply received at `date`.
-pub(super) fn judge(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<Answer, Fault> {
+pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<Answer, Fault> {
     let status = reply.status;
-    let passing = |message: String, wait| Fault::Passing { status: Some(status), message, wait };
+    let transient = |message: String, wait| Fault::Transient { status: Some(status), message, wait };
     if (200..300).contains(&status) {
         return provider.answer(&reply.body).map_err(|problem| match body_kind(&reply.body) {
-            Some(kind) => passing(kind.to_owned(), None),
-            None => passing(shorten(&problem), None),
+            Some(kind) => transient(kind.to_owned(), None),
+            None => transient(shorten(&problem), None),
         });
     }
-    let complaint = Complaint::read(&reply.body);
-    if complaint.declines() {
+    let error_body = ErrorBody::read(&reply.body);
+    if error_body.is_refusal() {
         return Ok(Answer {
-            text: shorten(&complaint.message),
+            text: shorten(&error_body.message),
             reasoning: None,
             finish: Finish::Refusal,
             usage: Usage::default(),
@@ -53,12 +53,12 @@ pub(super) fn judge(provider: Provider, reply: &HttpReply, date: SystemTime) -> 
     let words = match (body_kind(&reply.body), &reply.location) {
         (_, Some(target)) if (300..400).contains(&status) => format!("it redirects to {}", shorten(target)),
         (Some(kind), _) => kind.to_owned(),
-        (None, _) => shorten(&complaint.message),
+        (None, _) => shorten(&error_body.message),
     };
-    let may_pass = matches!(status, 408 | 409 | 425 | 429 | 500..600);
-    if may_pass && complaint.code != "insufficient_quota" {
+    let is_transient = matches!(status, 408 | 409 | 425 | 429 | 500..600);
+    if is_transient && error_body.code != "insufficient_quota" {
         let asked = reply.retry_after.as_deref().and_then(|value| retry_after(value, date));
-        return Err(passing(words, asked.or(complaint.wait)));
+        return Err(transient(words, asked.or(error_body.wait)));
     }
     Err(Fault::Final { status, message: words })
 }
@@ -73,27 +73,27 @@ fn body_kind(body: &str) -> Option<&'static str> {
 }
 
 /// The maximum wait that is parsed, a year.
-const LONGEST: Duration = Duration::from_secs(365 * 24 * 60 * 60);
+const MAX_RETRY_AFTER: Duration = Duration::from_secs(365 * 24 * 60 * 60);
 
-/// Reads the wait in a `Retry-After` header: seconds, with any number of digits, or a date; at most [`LONGEST`].
+/// Reads the wait in a `Retry-After` header: seconds, with any number of digits, or a date; at most [`MAX_RETRY_AFTER`].
 fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     let value = value.trim();
     if !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
-        return Some(value.parse().map_or(LONGEST, Duration::from_secs).min(LONGEST));
+        return Some(value.parse().map_or(MAX_RETRY_AFTER, Duration::from_secs).min(MAX_RETRY_AFTER));
     }
     let until = httpdate::parse_http_date(value).ok()?;
-    Some(until.duration_since(date).unwrap_or_default().min(LONGEST))
+    Some(until.duration_since(date).unwrap_or_default().min(MAX_RETRY_AFTER))
 }
 
 /// The content of an error body, in any of the shapes that servers use.
-struct Complaint {
+struct ErrorBody {
     message: String,
     code: String,
     wait: Option<Duration>,
 }
 
-impl Complaint {
-    fn read(body: &str) -> Complaint {
+impl ErrorBody {
+    fn read(body: &str) -> ErrorBody {
         let parsed: Value = serde_json::from_str(body).unwrap_or_default();
         // Some servers wrap it in a list.
         let parsed = parsed.get(0).unwrap_or(&parsed);
@@ -104,7 +104,7 @@ impl Complaint {
         let code = text(error.get("code")).or_else(|| text(error.get("type")));
         let details = error.get("details").and_then(Value::as_array);
         let delay = details.and_then(|all| all.iter().find_map(|detail| detail.get("retryDelay")?.as_str()));
-        Complaint {
+        ErrorBody {
             message: message.unwrap_or_else(|| body.to_owned()),
             code: code.unwrap_or_default(),
             wait: delay.and_then(seconds),
@@ -112,7 +112,7 @@ impl Complaint {
     }
 
     /// Returns `true` if the provider's content filter rejected the request.
-    fn declines(&self) -> bool {
+    fn is_refusal(&self) -> bool {
         match self.code.as_str() {
             "content_filter" | "content_policy_violation" => true,
             "invalid_prompt" => self.message.contains("policy"),
@@ -121,17 +121,21 @@ impl Complaint {
     }
 }
 
-/// Reads a duration in Gemini's format: `34.07s`; at most [`LONGEST`].
+/// Reads a duration in Gemini's format: `34.07s`; at most [`MAX_RETRY_AFTER`].
 fn seconds(text: &str) -> Option<Duration> {
     let seconds: f64 = text.strip_suffix('s')?.parse().ok().filter(|seconds: &f64| !seconds.is_nan())?;
-    Duration::try_from_secs_f64(seconds.min(LONGEST.as_secs_f64())).ok()
+    Duration::try_from_secs_f64(seconds.min(MAX_RETRY_AFTER.as_secs_f64())).ok()
 }
 
 /// Shortens a text and puts it on one line, without control characters.
 pub(super) fn shorten(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
     let line = plain.split_whitespace().collect::<Vec<_>>().join(" ");
-    if line.chars().count() <= WORDS { line } else { line.chars().take(WORDS).chain(['…']).collect() }
+    if line.chars().count() <= MAX_MESSAGE {
+        line
+    } else {
+        line.chars().take(MAX_MESSAGE).chain(['…']).collect()
+    }
 }
 
 #[cfg(test)]
@@ -143,25 +147,25 @@ mod tests {
         HttpReply { status, retry_after: None, location: None, body: body.to_owned() }
     }
 
-    fn judged(status: u16, body: &str) -> Result<Answer, Fault> {
-        judge(Provider::Compatible, &reply(status, body), SystemTime::UNIX_EPOCH)
+    fn classified(status: u16, body: &str) -> Result<Answer, Fault> {
+        classify(Provider::Compatible, &reply(status, body), SystemTime::UNIX_EPOCH)
     }
 
     #[test]
     fn statuses() {
         for status in [408, 409, 425, 429, 500, 502, 503, 504, 529] {
-            let fault = judged(status, "{\"error\":{\"message\":\"later\"}}").unwrap_err();
-            let expect = Fault::Passing { status: Some(status), message: "later".to_owned(), wait: None };
+            let fault = classified(status, "{\"error\":{\"message\":\"later\"}}").unwrap_err();
+            let expect = Fault::Transient { status: Some(status), message: "later".to_owned(), wait: None };
             assert_eq!(fault, expect);
         }
         for status in [400, 401, 402, 403, 404, 413, 422] {
-            let fault = judged(status, "{\"error\":{\"message\":\"no\"}}").unwrap_err();
+            let fault = classified(status, "{\"error\":{\"message\":\"no\"}}").unwrap_err();
             assert_eq!(fault, Fault::Final { status, message: "no".to_owned() });
         }
     }
 
     #[test]
-    fn complaints_of_all_shapes() {
+    fn error_bodies_of_all_shapes() {
         for (body, words) in [
             ("{\"error\":{\"message\":\"one\",\"type\":\"x\"}}", "one"),
             ("{\"error\":\"two\"}", "two"),
@@ -172,28 +176,28 @@ mod tests {
             ("", "an empty body"),
             ("<!doctype html><title>no</title>", "a page of HTML"),
         ] {
-            assert_eq!(judged(400, body), Err(Fault::Final { status: 400, message: words.to_owned() }));
+            assert_eq!(classified(400, body), Err(Fault::Final { status: 400, message: words.to_owned() }));
         }
-        let Err(Fault::Final { message, .. }) = judged(400, &"x".repeat(5000)) else { panic!() };
-        assert_eq!(message.chars().count(), WORDS + 1);
+        let Err(Fault::Final { message, .. }) = classified(400, &"x".repeat(5000)) else { panic!() };
+        assert_eq!(message.chars().count(), MAX_MESSAGE + 1);
     }
 
     #[test]
-    fn an_account_without_money_is_final_and_a_filter_is_a_refusal() {
+    fn exhausted_quota_is_final_and_a_filter_is_a_refusal() {
         let quota = "{\"error\":{\"message\":\"pay\",\"code\":\"insufficient_quota\"}}";
-        assert_eq!(judged(429, quota), Err(Fault::Final { status: 429, message: "pay".to_owned() }));
+        assert_eq!(classified(429, quota), Err(Fault::Final { status: 429, message: "pay".to_owned() }));
         let filter = "{\"error\":{\"message\":\"filtered\",\"code\":\"content_filter\"}}";
-        let answer = judged(400, filter).unwrap();
+        let answer = classified(400, filter).unwrap();
         assert_eq!((answer.finish, answer.text.as_str()), (Finish::Refusal, "filtered"));
         let flagged = "{\"error\":{\"message\":\"against our usage policy\",\"code\":\"invalid_prompt\"}}";
-        assert_eq!(judged(400, flagged).unwrap().finish, Finish::Refusal);
+        assert_eq!(classified(400, flagged).unwrap().finish, Finish::Refusal);
     }
 
     #[test]
-    fn a_redirect_is_told() {
+    fn redirects_are_reported() {
         let mut moved = reply(308, "");
         moved.location = Some("https://example.org/v1".to_owned());
-        let fault = judge(Provider::Compatible, &moved, SystemTime::UNIX_EPOCH).unwrap_err();
+        let fault = classify(Provider::Compatible, &moved, SystemTime::UNIX_EPOCH).unwrap_err();
         assert_eq!(
             fault,
             Fault::Final { status: 308, message: "it redirects to https://example.org/v1".to_owned() }
@@ -201,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn waits_that_servers_ask_for() {
+    fn requested_waits_are_parsed() {
         let date = httpdate::parse_http_date("Tue, 01 Dec 2026 08:00:00 GMT").unwrap();
         let check = |value: &str, expect: Option<u64>| {
             assert_eq!(retry_after(value, date), expect.map(Duration::from_secs), "{value}");
@@ -213,25 +217,27 @@ mod tests {
         check("", None);
         // Numbers of more than 64 bits are also capped.
         for much in ["99999999999", "18446744073709551616", "99999999999999999999999999"] {
-            check(much, Some(LONGEST.as_secs()));
+            check(much, Some(MAX_RETRY_AFTER.as_secs()));
         }
-        assert_eq!(seconds("1e30s"), Some(LONGEST));
+        assert_eq!(seconds("1e30s"), Some(MAX_RETRY_AFTER));
         assert_eq!((seconds("-1s"), seconds("NaNs")), (None, None));
         check("-5", None);
         let body = "{\"error\":{\"code\":429,\"message\":\"later\",\"details\":[{\"@type\":\"a\"},{\"retryDelay\":\"34.5s\"}]}}";
-        let Err(Fault::Passing { wait, .. }) = judged(429, body) else { panic!() };
+        let Err(Fault::Transient { wait, .. }) = classified(429, body) else { panic!() };
         assert_eq!(wait, Some(Duration::from_millis(34_500)));
     }
 
     #[test]
-    fn bodies_that_are_no_replies_pass() {
+    fn malformed_bodies_are_transient() {
         for (body, words) in [
             ("", "an empty body"),
             (" \n", "an empty body"),
             ("<html>busy</html>", "a page of HTML"),
             ("{\"choices\": [", "not a reply"),
         ] {
-            let Err(Fault::Passing { status, message, .. }) = judged(200, body) else { panic!("{body}") };
+            let Err(Fault::Transient { status, message, .. }) = classified(200, body) else {
+                panic!("{body}")
+            };
             assert!(status == Some(200) && message.contains(words), "{message}");
         }
     }
@@ -239,20 +245,20 @@ mod tests {
     proptest! {
         /// For any body, the error message is short, on one line, and free of control characters.
         #[test]
-        fn any_words(status in 200u16..600, body in "\\PC*|[^a]*|\\{\"error\":\"[^\"]*\"\\}|\\{\"message\":.*") {
+        fn any_body_is_classified(status in 200u16..600, body in "\\PC*|[^a]*|\\{\"error\":\"[^\"]*\"\\}|\\{\"message\":.*") {
             for provider in [Provider::OpenAi, Provider::Anthropic, Provider::Gemini] {
-                let message = match judge(provider, &reply(status, &body), SystemTime::UNIX_EPOCH) {
+                let message = match classify(provider, &reply(status, &body), SystemTime::UNIX_EPOCH) {
                     Ok(answer) => answer.text,
-                    Err(Fault::Passing { message, .. } | Fault::Final { message, .. }) => message,
+                    Err(Fault::Transient { message, .. } | Fault::Final { message, .. }) => message,
                 };
-                prop_assert!(message.chars().count() <= WORDS + 1 && !message.contains(char::is_control));
+                prop_assert!(message.chars().count() <= MAX_MESSAGE + 1 && !message.contains(char::is_control));
             }
         }
     }
 
     /// A reply that is cut off at any byte is not an answer.
     #[test]
-    fn half_a_reply_is_none() {
+    fn truncated_replies_are_rejected() {
         for (provider, body) in [
             (Provider::Compatible, r#"{"choices":[{"message":{"content":"é up"},"finish_reason":"stop"}]}"#),
             (Provider::Anthropic, r#"{"content":[{"type":"text","text":"é up"}],"stop_reason":"end_turn"}"#),
@@ -261,11 +267,11 @@ mod tests {
                 r#"{"candidates":[{"content":{"parts":[{"text":"é up"}]},"finishReason":"STOP"}]}"#,
             ),
         ] {
-            let whole = judge(provider, &reply(200, body), SystemTime::UNIX_EPOCH).unwrap();
+            let whole = classify(provider, &reply(200, body), SystemTime::UNIX_EPOCH).unwrap();
             assert_eq!((whole.text.as_str(), whole.finish), ("é up", Finish::Stop));
             for (end, _) in body.char_indices() {
-                let half = judge(provider, &reply(200, &body[..end]), SystemTime::UNIX_EPOCH);
-                assert!(matches!(half, Err(Fault::Passing { status: Some(200), .. })), "{}", &body[..end]);
+                let half = classify(provider, &reply(200, &body[..end]), SystemTime::UNIX_EPOCH);
+                assert!(matches!(half, Err(Fault::Transient { status: Some(200), .. })), "{}", &body[..end]);
             }
         }
     }

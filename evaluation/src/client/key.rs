@@ -12,7 +12,7 @@ pub(super) struct Key {
 }
 
 /// The minimum length of a key to search answers for. A shorter one could be a word of an answer.
-const TELLING: usize = 16;
+const MIN_SEARCHED: usize = 16;
 
 /// The replacement for a key repeated by a server.
 const HIDDEN: &str = "[key]";
@@ -35,7 +35,9 @@ impl Key {
             return Ok(None);
         }
         if !secret.bytes().all(|byte| byte.is_ascii_graphic()) {
-            let problem = format!("the value of {variable} has characters that no key has; set it again");
+            let problem = format!(
+                "the value of {variable} contains characters that are invalid in a key; set it again"
+            );
             return Err(EvaluationError::Malformed(problem));
         }
         Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
@@ -55,14 +57,14 @@ impl Key {
     }
 
     /// Removes the key from an error message of a server.
-    pub(super) fn hide_in_words(&self, words: &str) -> String {
+    pub(super) fn hide_in_message(&self, words: &str) -> String {
         words.replace(&self.secret, HIDDEN)
     }
 
     /// Removes the key from an answer.
     pub(super) fn hide_in_answer(&self, text: String) -> String {
-        if self.secret.len() >= TELLING && text.contains(&self.secret) {
-            return self.hide_in_words(&text);
+        if self.secret.len() >= MIN_SEARCHED && text.contains(&self.secret) {
+            return self.hide_in_message(&text);
         }
         text
     }
@@ -83,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_key() {
+    fn invalid_keys_are_rejected() {
         assert!(read("").unwrap().is_none());
         assert!(read(" \n").unwrap().is_none());
         assert!(Key::read("OTHER", &|_| None).unwrap().is_none());
@@ -92,12 +94,12 @@ mod tests {
     }
 
     #[test]
-    fn it_is_not_shown() {
+    fn keys_are_not_shown() {
         let key = read("sk-zebra-0123456789\n").unwrap().unwrap();
         assert_eq!(format!("{key:?}"), "Key(SOME_API_KEY)");
         assert!(!format!("{:?}", key.header("Bearer ")).contains("zebra"));
         assert_eq!(key.header("Bearer ").to_str().unwrap(), "Bearer sk-zebra-0123456789");
-        assert_eq!(key.hide_in_words("no such key: sk-zebra-0123456789."), "no such key: [key].");
+        assert_eq!(key.hide_in_message("no such key: sk-zebra-0123456789."), "no such key: [key].");
         assert_eq!(key.hide_in_answer("{\"sk-zebra-0123456789\"}".to_owned()), "{\"[key]\"}");
         let short = read("up").unwrap().unwrap();
         assert_eq!(short.hide_in_answer("Action: up".to_owned()), "Action: up", "a word, not the key");

@@ -87,7 +87,7 @@ impl Pace {
     }
 
     /// Delays all requests by `time`, as the server asked.
-    pub(super) fn hold(&self, time: Duration) {
+    pub(super) fn delay_all(&self, time: Duration) {
         let until = self.clock.elapsed().saturating_add(time);
         let mut schedule = self.schedule();
         schedule.server = schedule.server.max(until);
@@ -121,9 +121,9 @@ mod tests {
 
     /// A clock that advances only in sleep.
     #[derive(Default)]
-    struct Dial(Mutex<Duration>);
+    struct FakeClock(Mutex<Duration>);
 
-    impl Clock for Dial {
+    impl Clock for FakeClock {
         fn elapsed(&self) -> Duration {
             *self.0.lock().unwrap()
         }
@@ -135,8 +135,8 @@ mod tests {
         }
     }
 
-    fn pace(requests: Option<u64>, tokens: Option<u64>) -> (Pace, Arc<Dial>) {
-        let clock = Arc::new(Dial::default());
+    fn pace(requests: Option<u64>, tokens: Option<u64>) -> (Pace, Arc<FakeClock>) {
+        let clock = Arc::new(FakeClock::default());
         let limit = |limit: Option<u64>| limit.and_then(NonZeroU64::new);
         (Pace::new(NonZeroUsize::MIN, limit(requests), limit(tokens), clock.clone()), clock)
     }
@@ -163,19 +163,19 @@ mod tests {
     }
 
     #[test]
-    fn the_server_holds_everybody_back() {
+    fn a_requested_wait_delays_all_requests() {
         let (pace, clock) = pace(None, None);
         pace.wait(1);
         assert_eq!(clock.elapsed(), Duration::ZERO);
-        pace.hold(Duration::from_secs(9));
-        pace.hold(Duration::from_secs(3));
+        pace.delay_all(Duration::from_secs(9));
+        pace.delay_all(Duration::from_secs(3));
         pace.wait(1);
         assert_eq!(clock.elapsed(), Duration::from_secs(9));
     }
 
     #[test]
-    fn never_more_at_once_than_allowed() {
-        let pace = Pace::new(NonZeroUsize::new(2).unwrap(), None, None, Arc::new(Dial::default()));
+    fn concurrency_is_bounded() {
+        let pace = Pace::new(NonZeroUsize::new(2).unwrap(), None, None, Arc::new(FakeClock::default()));
         let (inside, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
         std::thread::scope(|scope| {
             for _ in 0..6 {

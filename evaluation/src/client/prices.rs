@@ -14,20 +14,20 @@ use std::str::FromStr;
 pub struct Usd(u64);
 
 /// The number of units of [`Usd`] in a dollar.
-const PARTS: f64 = 1e12;
+const UNITS_PER_DOLLAR: f64 = 1e12;
 
 /// The largest amount accepted, in dollars; anything above must be a typing error.
-const MOST: f64 = 1e6;
+const MAX_DOLLARS: f64 = 1e6;
 
 impl Usd {
     /// Converts an amount in dollars; `None` if it is not between 0 and a million.
     pub fn from_dollars(dollars: f64) -> Option<Usd> {
-        (0.0..=MOST).contains(&dollars).then(|| Usd((dollars * PARTS).round() as u64))
+        (0.0..=MAX_DOLLARS).contains(&dollars).then(|| Usd((dollars * UNITS_PER_DOLLAR).round() as u64))
     }
 
     /// Returns the amount in dollars.
     pub fn dollars(self) -> f64 {
-        self.0 as f64 / PARTS
+        self.0 as f64 / UNITS_PER_DOLLAR
     }
 
     /// Adds an amount, saturating.
@@ -57,7 +57,7 @@ impl FromStr for Usd {
         let dollars = text.trim().trim_start_matches('$').parse().ok();
         dollars
             .and_then(Usd::from_dollars)
-            .ok_or_else(|| format!("`{text}` is no amount in dollars, such as `2.50`"))
+            .ok_or_else(|| format!("`{text}` is not an amount in dollars, such as `2.50`"))
     }
 }
 
@@ -95,7 +95,7 @@ impl Price {
 
 /// Returns the cost of tokens at a price per million.
 fn of(tokens: u64, price: f64) -> Usd {
-    Usd(tokens.saturating_mul((price * (PARTS / 1e6)).round() as u64))
+    Usd(tokens.saturating_mul((price * (UNITS_PER_DOLLAR / 1e6)).round() as u64))
 }
 
 /// Price tables in order of precedence.
@@ -136,7 +136,7 @@ impl Prices {
     pub fn with_file(path: &Path) -> Result<Prices, EvaluationError> {
         let text = std::fs::read_to_string(path).map_err(EvaluationError::io("read", path))?;
         let table = read(&text).map_err(|problem| {
-            EvaluationError::Malformed(format!("{}: not a table of prices: {problem}", path.display()))
+            EvaluationError::Malformed(format!("{}: not a price table: {problem}", path.display()))
         })?;
         let mut prices = Prices::embedded();
         prices.tables.insert(0, table);
@@ -163,8 +163,8 @@ fn read(text: &str) -> Result<Table, String> {
     let table: Table = toml::from_str(text).map_err(|error| error.to_string())?;
     for row in &table.model {
         let prices = [Some(row.input), row.cached_input, row.cache_write, Some(row.output)];
-        if !prices.iter().flatten().all(|price| (0.0..=MOST).contains(price)) {
-            return Err(format!("`{}` has a price that is no number of dollars", row.name));
+        if !prices.iter().flatten().all(|price| (0.0..=MAX_DOLLARS).contains(price)) {
+            return Err(format!("`{}` has a price that is not a valid number of dollars", row.name));
         }
     }
     Ok(table)
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn names_stand_for_their_versions_only() {
+    fn names_match_their_versions_only() {
         for (name, model, expect) in [
             ("gpt-5", "gpt-5", true),
             ("gpt-5", "gpt-5-2025-08-07", true),
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_comes_first() {
+    fn a_price_file_overrides_the_embedded_table() {
         let file = tempfile::NamedTempFile::new().unwrap();
         let row = |rest: &str| {
             format!("as_of = \"today\"\n[[model]]\nprovider = \"compatible\"\nname = \"qwen*\"\n{rest}")
@@ -235,7 +235,8 @@ mod tests {
         let price = prices.find(Provider::Compatible, "qwen3:32b").unwrap();
         assert_eq!((price.input, price.cached_input, price.as_of.as_str()), (1.0, 1.0, "today"));
         assert!(prices.find(Provider::OpenAi, "gpt-4o").is_some());
-        for (rest, words) in [("input = 1\n", "output"), ("input = -1\noutput = 1\n", "no number of dollars")]
+        for (rest, words) in
+            [("input = 1\n", "output"), ("input = -1\noutput = 1\n", "not a valid number of dollars")]
         {
             std::fs::write(file.path(), row(rest)).unwrap();
             let problem = Prices::with_file(file.path()).unwrap_err().to_string();

@@ -5,7 +5,7 @@ use super::caps::Caps;
 use super::chat::{ChatError, ChatErrorKind, ChatReply, ChatRequest, Failure, Model};
 use super::clock::Clock;
 use super::estimate::prompt_tokens;
-use super::fault::{Fault, judge, shorten};
+use super::fault::{Fault, classify, shorten};
 use super::key::Key;
 use super::pace::Pace;
 use super::provider::Answer;
@@ -32,10 +32,10 @@ pub(super) struct Remote {
 const FIRST_WAIT: Duration = Duration::from_secs(1);
 
 /// The maximum wait that we choose ourselves.
-const LONGEST_WAIT: Duration = Duration::from_secs(60);
+const MAX_WAIT: Duration = Duration::from_secs(60);
 
 /// The maximum wait that a server may ask for.
-const LONGEST_ASKED: Duration = Duration::from_secs(300);
+const MAX_SERVER_WAIT: Duration = Duration::from_secs(300);
 
 impl Model for Remote {
     fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError> {
@@ -47,13 +47,13 @@ impl Model for Remote {
             return Ok(ChatReply { cached: true, ..reply });
         }
         let _slot = self.pace.enter();
-        self.pay(request, &url, &body, entry)
+        self.request_with_retries(request, &url, &body, entry)
     }
 }
 
 impl Remote {
     /// Requests an answer that is not in the cache.
-    fn pay(
+    fn request_with_retries(
         &self,
         request: &ChatRequest,
         url: &str,
@@ -91,16 +91,16 @@ impl Remote {
                     failures.push(Failure { status: Some(status), message: message.clone(), waited_ms: 0 });
                     return Err(self.rejected(status, &message, failures));
                 }
-                Err(Fault::Passing { status, message, wait }) => (status, message, wait),
+                Err(Fault::Transient { status, message, wait }) => (status, message, wait),
             };
             let number = failures.len() as u32 + 1;
-            let too_long = asked.is_some_and(|time| time > LONGEST_ASKED);
+            let too_long = asked.is_some_and(|time| time > MAX_SERVER_WAIT);
             if number == self.tries.get() || too_long {
                 failures.push(Failure { status, message, waited_ms: 0 });
                 return Err(self.given_up(failures, asked.filter(|_| too_long)));
             }
             if let Some(time) = asked {
-                self.pace.hold(time);
+                self.pace.delay_all(time);
             }
             let wait = wait(number, asked, &mut jitter);
             failures.push(Failure { status, message, waited_ms: wait.as_millis() as u64 });
@@ -112,22 +112,22 @@ impl Remote {
         let headers = self.spec.provider.headers(self.key.as_ref());
         let outcome = self.wire.post(url, &headers, body);
         let hide = |words: String| match &self.key {
-            Some(key) => key.hide_in_words(&words),
+            Some(key) => key.hide_in_message(&words),
             None => words,
         };
         let mut reply = outcome.map_err(|(status, problem)| {
             let message = shorten(&hide(problem));
-            Fault::Passing { status, message, wait: None }
+            Fault::Transient { status, message, wait: None }
         })?;
         if let Some(key) = &self.key {
             let answers = (200..300).contains(&reply.status);
             reply.body =
-                if answers { key.hide_in_answer(reply.body) } else { key.hide_in_words(&reply.body) };
+                if answers { key.hide_in_answer(reply.body) } else { key.hide_in_message(&reply.body) };
         }
-        match judge(self.spec.provider, &reply, self.clock.date()) {
+        match classify(self.spec.provider, &reply, self.clock.date()) {
             Ok(answer) => Ok(self.without_key(answer)),
-            Err(Fault::Passing { status, message, wait }) => {
-                Err(Fault::Passing { status, message: hide(message), wait })
+            Err(Fault::Transient { status, message, wait }) => {
+                Err(Fault::Transient { status, message: hide(message), wait })
             }
             Err(Fault::Final { status, message }) => Err(Fault::Final { status, message: hide(message) }),
         }
@@ -149,16 +149,16 @@ impl Remote {
         let (host, model) = (&self.spec.server.host, &self.spec.model);
         let next = match (status, &self.key) {
             (401 | 403, Some(key)) => {
-                format!("; is the key in {} right, and meant for {host}?", key.variable())
+                format!("; check that the key in {} is valid for {host}", key.variable())
             }
-            (401 | 403, None) => "; if it wants a key, name its variable with --key-variable".to_owned(),
-            (404, _) if self.spec.server.own => format!("; is `{model}` the right name?"),
+            (401 | 403, None) => "; if it requires a key, name its variable with --key-variable".to_owned(),
+            (404, _) if self.spec.server.own => format!("; check the model name `{model}`"),
             (404, _) => {
-                format!("; is `{model}` the right name, and does the base URL end as it should (`/v1`)?")
+                format!("; check the model name `{model}` and the end of the base URL (usually `/v1`)")
             }
             _ => String::new(),
         };
-        let message = format!("{host} will not answer ({status}: {words}){next}");
+        let message = format!("{host} rejected the request ({status}: {words}){next}");
         ChatError { kind: ChatErrorKind::Rejected, message, failures }
     }
 
@@ -167,9 +167,10 @@ impl Remote {
         let last = failures.last().expect("there was a try");
         let status = last.status.map(|status| format!("{status}: ")).unwrap_or_default();
         let times = if failures.len() == 1 { "once".to_owned() } else { format!("{} times", failures.len()) };
-        let asked = asked.map(|time| format!(", and asks to wait {} s", time.as_secs())).unwrap_or_default();
+        let asked =
+            asked.map(|time| format!(", and requires a wait of {} s", time.as_secs())).unwrap_or_default();
         let message = format!(
-            "{host} failed {times}, at last with {status}{}{asked}; go on later with --resume",
+            "requests to {host} failed {times}, the last time with {status}{}{asked}; continue later with --resume",
             last.message
         );
         ChatError { kind: ChatErrorKind::Infrastructure, message, failures }
@@ -194,7 +195,7 @@ fn reply(answer: Answer, failures: Vec<Failure>, latency: Duration) -> ChatReply
 /// more.
 fn wait(number: u32, asked: Option<Duration>, jitter: &mut Sampler) -> Duration {
     let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
-    let own = doubled.min(LONGEST_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());
+    let own = doubled.min(MAX_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());
     let asked = asked.map_or(Duration::ZERO, |time| time + FIRST_WAIT.mul_f64(jitter.unit()));
     own.max(asked)
 }

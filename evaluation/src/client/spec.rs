@@ -80,7 +80,7 @@ fn unknown(id: &str) -> String {
     });
     let guess = guess.map(|guess| format!("; did you mean `{guess}`?")).unwrap_or_default();
     format!(
-        "`{id}` does not say where the model is served{guess}\n  give `openai:NAME`, `anthropic:NAME` or \
+        "`{id}` does not name the provider of the model{guess}\n  give `openai:NAME`, `anthropic:NAME` or \
          `gemini:NAME`, or the server's address: `--base-url http://localhost:8000/v1`"
     )
 }
@@ -99,15 +99,15 @@ impl Server {
             Some("http") => false,
             _ => return Err(malformed("does not begin with http:// or https://")),
         };
-        let authority = uri.authority().ok_or_else(|| malformed("names no host"))?;
+        let authority = uri.authority().ok_or_else(|| malformed("has no host"))?;
         if authority.as_str().contains('@') {
             return Err(malformed(
-                "holds a name or password, which belongs in a variable of the environment",
+                "contains a user name or password, which belongs in an environment variable",
             ));
         }
         let port = authority.as_str()[authority.host().len()..].strip_prefix(':');
         if port.is_some_and(|port| !matches!(port.parse::<u16>(), Ok(1..))) {
-            return Err(malformed("has a port that is no number from 1 to 65535"));
+            return Err(malformed("has a port that is not a number from 1 to 65535"));
         }
         if uri.query().is_some() {
             return Err(malformed("has a query"));
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_urls_are_told_without_their_passwords() {
+    fn bad_urls_are_reported_without_their_passwords() {
         for (url, words) in [
             ("localhost:8000", "http://"),
             ("ftp://example.org", "http://"),

@@ -75,7 +75,7 @@ impl Wire {
             return Err((Some(status), format!("a body of more than {} bytes", self.reply_limit)));
         }
         let body = String::from_utf8(bytes)
-            .map_err(|_| (Some(status), "a body that is no UTF-8 text".to_owned()))?;
+            .map_err(|_| (Some(status), "a body that is not UTF-8 text".to_owned()))?;
         Ok(HttpReply { status, retry_after, location, body })
     }
 
@@ -84,8 +84,8 @@ impl Wire {
             Error::Timeout(ureq::Timeout::Connect) => {
                 format!("no connection within {:?}", self.connect_timeout)
             }
-            Error::Timeout(_) => format!("no whole answer within {:?}", self.timeout),
-            Error::HostNotFound => "the host is not found".to_owned(),
+            Error::Timeout(_) => format!("no complete answer within {:?}", self.timeout),
+            Error::HostNotFound => "the host was not found".to_owned(),
             Error::Io(error) => format!("the connection failed: {error}"),
             other => format!("the exchange failed: {other}"),
         }

@@ -1,7 +1,7 @@
 //! The neighbourhood of the avatar in words: names and places of things, and the first thing in each direction.
 
 use super::scene::{Scene, places};
-use crate::legend::{Legend, Standing};
+use crate::legend::{EntryRole, Legend};
 use engine::Observation;
 
 /// The maximum number of things of one type listed by place, the nearest first.
@@ -23,7 +23,7 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
             lines.push(format!("where you are: {}", pile(below)));
         }
     }
-    let things = legend.entries().iter().filter(|entry| entry.standing == Standing::Thing);
+    let things = legend.entries().iter().filter(|entry| entry.role == EntryRole::Thing);
     lines.extend(things.filter_map(|entry| thing(&scene, &entry.name)));
     lines
 }

@@ -21,11 +21,11 @@ impl<'a> Scene<'a> {
     pub(crate) fn of(observation: &'a Observation, legend: &Legend) -> Scene<'a> {
         let avatar = observation.avatar.as_ref();
         let is_own = |name: &String| avatar.is_some_and(|avatar| avatar.name == *name);
-        let told = |names: &'a Vec<String>| {
-            let told = names.iter().filter(|name| !is_own(name) && legend.tells(name));
-            told.map(String::as_str).collect()
+        let shown = |names: &'a Vec<String>| {
+            let shown = names.iter().filter(|name| !is_own(name) && legend.is_shown(name));
+            shown.map(String::as_str).collect()
         };
-        let mut cells: Vec<Vec<&str>> = observation.cells.iter().map(told).collect();
+        let mut cells: Vec<Vec<&str>> = observation.cells.iter().map(shown).collect();
         let place = avatar.and_then(|avatar| {
             let (column, row) = (usize::try_from(avatar.column).ok()?, usize::try_from(avatar.row).ok()?);
             (column < observation.columns && row < observation.rows).then_some((column, row))

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 const MAX_LOG: u64 = 1 << 30;
 
 /// The suggested next step for a log that is damaged or was changed.
-pub(crate) const NEXT_MOVE: &str = "the log is damaged or was changed: get it again, or remove it and have the episode played again by `arcade evaluate` with --resume";
+pub(crate) const NEXT_STEP: &str = "the log is damaged or was changed: restore it, or remove it and play the episode again with `arcade evaluate --resume`";
 
 /// The open log of an episode. Every event has been written to the file when [`Journal::push`] returns.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ impl Journal {
         let (events, sound) = if path.exists() { read_prefix(path)? } else { (Vec::new(), 0) };
         let file = OpenOptions::new().create(true).append(true).open(path);
         let file = file.map_err(EvaluationError::io("open", path))?;
-        file.set_len(sound).map_err(EvaluationError::io("mend", path))?;
+        file.set_len(sound).map_err(EvaluationError::io("truncate", path))?;
         Ok(Journal { path: path.to_owned(), file: Some(file), events, step: (0, None) })
     }
 
@@ -83,7 +83,7 @@ impl Journal {
     }
 
     /// Returns an error about this log.
-    pub(crate) fn complaint(&self, what: &str) -> EvaluationError {
+    pub(crate) fn malformed(&self, what: &str) -> EvaluationError {
         EvaluationError::Malformed(format!("{}: {what}", self.path.display()))
     }
 }
@@ -109,7 +109,7 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
             // The parser sees only one line.
             let why = error.to_string().replace(" at line 1 column", " at column");
             EvaluationError::Malformed(format!(
-                "{path}: line {number} is not an event of an episode ({why}); {NEXT_MOVE}"
+                "{path}: line {number} is not an event of an episode ({why}); {NEXT_STEP}"
             ))
         })?;
         events.push(event);

@@ -4,5 +4,5 @@ mod event;
 mod journal;
 
 pub use event::{Event, Reply, ReplyClass, SCHEMA, Status, without_times};
-pub(crate) use journal::NEXT_MOVE;
+pub(crate) use journal::NEXT_STEP;
 pub use journal::{Journal, read};

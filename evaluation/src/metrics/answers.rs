@@ -16,7 +16,7 @@ impl<'a> Answers<'a> {
     /// Adds an answer that stands before the step of this number.
     pub(super) fn reply(&mut self, reply: &'a Reply, step: usize) -> Result<(), String> {
         if reply.step != step as u64 {
-            return Err(format!("an answer to step {} stands before step {step}", reply.step));
+            return Err(format!("there is an answer to step {} before step {step}", reply.step));
         }
         self.replies.push(reply);
         Ok(())
@@ -34,10 +34,10 @@ impl<'a> Answers<'a> {
         let wrong = |what: &str| Err(format!("step {step} is recorded as {}, but {what}", name(*validity)));
         let is_valid = *validity == Validity::Valid;
         if !is_valid && *action != Action::Nil {
-            return wrong("something was done");
+            return wrong("it has an action");
         }
         if !is_valid && calls.is_some() {
-            return wrong("a planner has chosen it");
+            return wrong("a planner chose its action");
         }
         let Some(last) = replies.last() else {
             return if is_model { wrong("the answer is missing") } else { Ok(()) };
@@ -46,8 +46,8 @@ impl<'a> Answers<'a> {
             // The log does not have the answer that could be read. If there was a second unreadable one, it is the last.
             let has_failed = replies.len() > 1;
             return match (is_valid, has_failed) {
-                (true, true) => wrong("no answer could be read"),
-                (false, false) => wrong("only one answer could not be read"),
+                (true, true) => wrong("no answer was usable"),
+                (false, false) => wrong("only one answer was unusable"),
                 _ => Ok(()),
             };
         }
@@ -61,7 +61,7 @@ impl<'a> Answers<'a> {
             (Validity::Invalid, ReplyClass::Invalid)
             | (Validity::Refused, ReplyClass::Refused)
             | (Validity::Truncated, ReplyClass::Truncated) => Ok(()),
-            _ => wrong("the last answer is recorded otherwise"),
+            _ => wrong("the last answer contradicts it"),
         }
     }
 }

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn its_faults_are_kept() {
+    fn faults_of_the_reference_are_kept() {
         // One step leaves no flag.
         check(&["a."], &[Right], &[1.0], &[]);
         // Doing nothing never counts, whatever its effect.
@@ -168,7 +168,7 @@ mod tests {
     /// The characters of the level mapping are used first, if the names are as written there; then the pool in
     /// order. Later contents get the characters that are left.
     #[test]
-    fn characters_hang_on_the_order_of_appearance() {
+    fn characters_depend_on_the_order_of_appearance() {
         let game = Game::from_source(
             "
 BasicGame

@@ -148,7 +148,7 @@ mod tests {
     use crate::log::Reply;
 
     #[test]
-    fn sums_of_tokens_stay_within_what_a_number_holds() {
+    fn sums_of_tokens_saturate() {
         let huge = Spending { replies: 1, input_tokens: Some(u64::MAX), ..Spending::default() };
         let mut all = huge;
         all.add(&huge);
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn requests_that_a_cap_forbade_were_not_sent() {
+    fn requests_rejected_by_a_cap_are_not_counted() {
         let ask = || Event::Request { step: 0, attempt: 0, messages: Vec::new(), tokens: 9 };
         let halt = |reason: &str| Event::Halt { reason: reason.to_owned(), message: String::new() };
         let reply = || {

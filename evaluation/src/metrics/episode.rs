@@ -90,8 +90,8 @@ impl EpisodeMetrics {
             steps: replayed.actions.len() as u64,
             max_steps: *max_steps,
             optimal_ticks: replayed.optimal_ticks,
-            meaningful: share(meaningful),
-            meaningful_as_code: share(meaningful_as_code),
+            meaningful: fraction(meaningful),
+            meaningful_as_code: fraction(meaningful_as_code),
             movement: Movement::of(meaningful, cells),
             choices: Choices::of(log),
             spending: Spending::of(log),
@@ -107,7 +107,7 @@ impl EpisodeMetrics {
 
     /// Returns `true` if the episode counts: it ended with the game or at the step limit.
     pub fn counts(&self) -> bool {
-        self.status.broken_off().is_none()
+        self.status.aborted().is_none()
     }
 
     /// Returns the steps of the proved shortest win divided by the steps of this one: 1 for an optimal win. `None` unless
@@ -118,7 +118,7 @@ impl EpisodeMetrics {
     }
 
     /// Returns the fraction of steps left unused: `1 − steps / limit`.
-    pub fn spared(&self) -> Option<f64> {
+    pub fn unused_steps(&self) -> Option<f64> {
         (self.max_steps > 0).then(|| 1.0 - self.steps as f64 / self.max_steps as f64)
     }
 }
@@ -139,7 +139,7 @@ impl EpisodeStatus {
     }
 
     /// Returns the reason why the episode does not count, if it does not.
-    pub fn broken_off(&self) -> Option<&str> {
+    pub fn aborted(&self) -> Option<&str> {
         match self {
             EpisodeStatus::Over | EpisodeStatus::StepLimit => None,
             EpisodeStatus::Halted(reason) => Some(reason),
@@ -149,6 +149,6 @@ impl EpisodeStatus {
 }
 
 /// Returns the fraction of flags that are `true`.
-fn share(flags: &[bool]) -> Option<f64> {
+fn fraction(flags: &[bool]) -> Option<f64> {
     (!flags.is_empty()).then(|| flags.iter().filter(|flag| **flag).count() as f64 / flags.len() as f64)
 }

@@ -109,7 +109,7 @@ mod tests {
 
     /// Fetching something and coming back has changed the state.
     #[test]
-    fn what_acts_is_never_cancelled() {
+    fn effects_on_the_game_are_never_cancelled() {
         check("aba", "am", "11");
         check("aba", "ma", "11");
         check("abba", "mam", "111");

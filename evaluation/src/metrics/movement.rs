@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_missing_is_missing() {
+    fn short_episodes_have_missing_rates() {
         assert_eq!(Movement::of(&[], &[None]), Movement::default());
         let standing = Movement::of(&[], &[Some((4, 4))]);
         assert_eq!((standing.unique_cells, standing.displacement), (Some(1), Some(0)));

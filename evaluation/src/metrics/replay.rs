@@ -1,7 +1,7 @@
 //! The replay of an episode from its log.
 
 use crate::error::EvaluationError;
-use crate::log::{Event, NEXT_MOVE, SCHEMA, Status};
+use crate::log::{Event, NEXT_STEP, SCHEMA, Status};
 use crate::metrics::answers::Answers;
 use crate::metrics::as_code::{AsCode, flags_as_code};
 use crate::metrics::meaningful::{Effect, meaningful};
@@ -40,7 +40,7 @@ pub struct Replayed {
 pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
     let Some(start @ Event::Start { max_steps, .. }) = log.first() else {
         return Err(EvaluationError::Malformed(format!(
-            "line 1 is not the start of an episode of {}; {NEXT_MOVE}",
+            "line 1 is not the start of an episode of {}; {NEXT_STEP}",
             subject.id
         )));
     };
@@ -61,12 +61,13 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
     let mut places = vec![seen.place()];
     let mut answers = Answers::default();
     for (event, line) in log.iter().zip(1..).skip(1) {
-        let complain = |what: String| EvaluationError::Malformed(format!("line {line}: {what}; {NEXT_MOVE}"));
+        let malformed =
+            |what: String| EvaluationError::Malformed(format!("line {line}: {what}; {NEXT_STEP}"));
         match event {
-            Event::Start { .. } => return Err(complain("an episode starts a second time".to_owned())),
+            Event::Start { .. } => return Err(malformed("there is a second start of an episode".to_owned())),
             Event::Step { action, .. } => {
                 if state.is_over() || replayed.actions.len() as u64 >= *max_steps {
-                    return Err(complain("there is a step after the end of the episode".to_owned()));
+                    return Err(malformed("there is a step after the end of the episode".to_owned()));
                 }
                 texts.push(code.text(&subject.game.observe(&state)));
                 let idle = (*action != Action::Nil).then(|| {
@@ -83,16 +84,16 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                 replayed.rewards.push(reward);
                 replayed.cells.push(cell(&subject.game, &state));
                 (replayed.outcome, replayed.score) = (state.outcome(), state.score());
-                compare(event, &state, &replayed).map_err(complain)?;
-                answers.step(event).map_err(complain)?;
+                compare(event, &state, &replayed).map_err(malformed)?;
+                answers.step(event).map_err(malformed)?;
             }
             Event::End { .. } => {
-                compare_end(event, &replayed, *max_steps).map_err(complain)?;
+                compare_end(event, &replayed, *max_steps).map_err(malformed)?;
                 if line < log.len() {
-                    return Err(complain("there are lines after the end of the episode".to_owned()));
+                    return Err(malformed("there are lines after the end of the episode".to_owned()));
                 }
             }
-            Event::Reply(reply) => answers.reply(reply, replayed.actions.len()).map_err(complain)?,
+            Event::Reply(reply) => answers.reply(reply, replayed.actions.len()).map_err(malformed)?,
             Event::Request { .. } | Event::Message { .. } | Event::Halt { .. } => answers.other(event),
         }
     }
@@ -114,7 +115,7 @@ fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, S
     }
     if *semantics != SEMANTICS {
         return Err(format!(
-            "it was played under semantics {semantics}, this version of arcade has {SEMANTICS}; read it with the version \
+            "it was played under semantics {semantics}, but this version of arcade has {SEMANTICS}; read it with the version \
              that wrote it"
         ));
     }
@@ -130,7 +131,7 @@ fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, S
     }
     let state = subject.game.start(&found.level, *seed);
     if state.state_hash() != *hash || cell(&subject.game, &state) != *avatar {
-        return Err(format!("line 1: the level begins in another state than recorded; {NEXT_MOVE}"));
+        return Err(format!("line 1: the initial state of the level differs from the log; {NEXT_STEP}"));
     }
     Ok((found, state))
 }
@@ -143,7 +144,7 @@ fn compare(event: &Event, state: &State, replayed: &Replayed) -> Result<(), Stri
         return Err(format!("step {number} is recorded as step {step}"));
     }
     let differs = |what: &str, found: String, recorded: String| {
-        Err(format!("step {step} leads to {what} {found}, the log says {recorded}"))
+        Err(format!("step {step} leads to {what} {found}, but the log records {recorded}"))
     };
     if state.state_hash() != *hash {
         return differs("state", state.state_hash().to_string(), hash.to_string());
@@ -170,19 +171,19 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
     let is_over = replayed.outcome != Outcome::Ongoing;
     if (replayed.outcome, replayed.score, taken) != (*outcome, *score, *steps) {
         return Err(format!(
-            "the episode is {} with score {} after {taken} steps, the log says {} with score {score} after {steps}",
+            "the episode is {} with score {} after {taken} steps, but the log records {} with score {score} after {steps}",
             in_words(replayed.outcome),
             replayed.score,
             in_words(*outcome),
         ));
     }
     match status {
-        Status::Over if !is_over => Err("the log says that the game is over, which it is not".to_owned()),
+        Status::Over if !is_over => Err("the log records that the game is over, but it is not".to_owned()),
         Status::StepLimit if is_over => {
-            Err("the log says that the limit of steps was met, but the game is over".to_owned())
+            Err("the log records that the step limit was reached, but the game is over".to_owned())
         }
         Status::StepLimit if taken < max_steps => Err(format!(
-            "the log says that the limit of steps was met, but {taken} of {max_steps} were taken"
+            "the log records that the step limit was reached, but only {taken} of {max_steps} steps were taken"
         )),
         _ => Ok(()),
     }

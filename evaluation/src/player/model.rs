@@ -76,12 +76,12 @@ impl ModelPlayer {
                     return Err(Halt::Log(format!("the log has no answer for step {}", turn.number)));
                 }
             };
-            let (class, action, why) = judged(&prompter, turn, &reply.text, reply.finish);
+            let (class, action, why) = classify(&prompter, turn, &reply.text, reply.finish);
             let again = action.is_none() && attempt < self.reasks;
             let complaint = again.then(|| prompter.complaint(&why));
             attempts.push(Attempt { answer: reply.text, complaint });
             if !again {
-                let validity = action.map_or_else(|| blame(class), |_| Validity::Valid);
+                let validity = action.map_or_else(|| validity_of(class), |_| Validity::Valid);
                 break (prompt.shown, Choice { action: action.unwrap_or(Action::Nil), validity });
             }
             attempt += 1;
@@ -118,7 +118,7 @@ impl ModelPlayer {
             ChatErrorKind::Rejected => Halt::Rejected(error.message),
         })?;
         let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
-        let (class, action, _) = judged(&self.prompter, turn, &text, finish);
+        let (class, action, _) = classify(&self.prompter, turn, &text, finish);
         let stage = match self.prompter.read(&text, turn) {
             Reading::Tolerant { stage, .. } if action.is_some() => Some(stage.name().to_owned()),
             _ => None,
@@ -174,15 +174,15 @@ impl Agent for ModelPlayer {
         let step = turn.number;
         match again == *choice {
             true => Ok(()),
-            false => {
-                Err(Halt::Log(format!("the answers of step {step} are now read otherwise than recorded")))
-            }
+            false => Err(Halt::Log(format!(
+                "the answers of step {step} are now read differently from the log; resume with the version of arcade that wrote it"
+            ))),
         }
     }
 }
 
 /// Returns the class of an answer, its action, and the reason as a clause about it if there is none.
-fn judged(
+fn classify(
     prompter: &Prompter,
     turn: &Turn<'_>,
     text: &str,
@@ -201,7 +201,7 @@ fn judged(
 }
 
 /// Returns the validity of a turn whose last answer has no action.
-fn blame(class: ReplyClass) -> Validity {
+fn validity_of(class: ReplyClass) -> Validity {
     match class {
         ReplyClass::Refused => Validity::Refused,
         ReplyClass::Truncated => Validity::Truncated,

@@ -5,7 +5,7 @@ use crate::tokens;
 use engine::Action;
 
 /// The number of bytes of an answer that later turns show, from its end.
-const REMEMBERED: usize = 2_000;
+const MAX_ANSWER: usize = 2_000;
 
 /// The replacement for an empty answer: providers refuse empty messages.
 const NO_ANSWER: &str = "(no answer)";
@@ -42,7 +42,7 @@ impl Past {
             None => attempts.push(Attempt { answer: NO_ANSWER.to_owned(), complaint: None }),
         }
         let shown_tokens = cost(&shown);
-        let tokens = shown_tokens + spoken(&attempts);
+        let tokens = shown_tokens + answer_tokens(&attempts);
         Past { shown, attempts, played, shown_tokens, tokens }
     }
 }
@@ -50,7 +50,7 @@ impl Past {
 /// Returns answers as conversations show them.
 pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     let kept = |attempt: &Attempt| Attempt {
-        answer: remembered(&attempt.answer),
+        answer: shortened(&attempt.answer),
         complaint: attempt.complaint.clone(),
     };
     attempts.iter().map(kept).collect()
@@ -62,18 +62,18 @@ pub(super) fn cost(text: &str) -> u64 {
 }
 
 /// Returns the tokens of answers and complaints.
-pub(super) fn spoken(attempts: &[Attempt]) -> u64 {
+pub(super) fn answer_tokens(attempts: &[Attempt]) -> u64 {
     let one = |attempt: &Attempt| cost(&attempt.answer) + attempt.complaint.as_deref().map_or(0, cost);
     attempts.iter().map(one).sum()
 }
 
 /// Returns an earlier answer as a conversation shows it.
-fn remembered(answer: &str) -> String {
+fn shortened(answer: &str) -> String {
     let said = answer::without_reasoning(answer).trim();
     if said.is_empty() {
         return NO_ANSWER.to_owned();
     }
-    let start = answer::boundary(said, said.len().saturating_sub(REMEMBERED));
+    let start = answer::boundary(said, said.len().saturating_sub(MAX_ANSWER));
     if start == 0 { said.to_owned() } else { format!("…{}", &said[start..]) }
 }
 

@@ -117,7 +117,7 @@ impl Prompter {
     pub fn new(subject: &Subject, settings: PromptSettings) -> Result<Prompter, EvaluationError> {
         let cell = settings.encodings.image_cell;
         if !(render::MIN_CELL..=40).contains(&cell) {
-            let message = format!("image_cell is {cell}; cells of pictures in prompts have 4 to 40 pixels");
+            let message = format!("`image_cell` is {cell}, but must be from 4 to 40 pixels");
             return Err(EvaluationError::Malformed(message));
         }
         let mask = if settings.masked_names { Some(Mask::of(&subject.game)?) } else { None };
@@ -198,7 +198,7 @@ impl Prompter {
         let attempts = history::kept(attempts);
         let past = if self.settings.mode == Mode::ZeroShot { &[] } else { past };
         let fixed = history::cost(&self.static_part);
-        let again = history::spoken(&attempts);
+        let again = history::answer_tokens(&attempts);
         let now = history::cost(&shown) + picture_tokens.unwrap_or(0) + again;
         let left_out = history::first_kept(past, fixed, now, self.settings.history_tokens);
         let mut messages = Vec::new();
@@ -209,11 +209,11 @@ impl Prompter {
         }
         for turn in &past[left_out..] {
             messages.push(message(Role::User, &turn.shown));
-            speak(&mut messages, &turn.attempts);
+            push_messages(&mut messages, &turn.attempts);
         }
         let text = if single { format!("{}\n\n{shown}", self.static_part) } else { shown.clone() };
         messages.push(ChatMessage { role: Role::User, text, image: picture.map(|picture| picture.png) });
-        speak(&mut messages, &attempts);
+        push_messages(&mut messages, &attempts);
         let before: u64 = past[left_out..].iter().map(|turn| turn.tokens).sum();
         let tokens = PromptTokens {
             fixed: self.static_tokens.clone(),
@@ -354,7 +354,7 @@ fn message(role: Role, text: &str) -> ChatMessage {
 }
 
 /// Appends answers and the complaints about them.
-fn speak(messages: &mut Vec<ChatMessage>, attempts: &[Attempt]) {
+fn push_messages(messages: &mut Vec<ChatMessage>, attempts: &[Attempt]) {
     for attempt in attempts {
         messages.push(message(Role::Assistant, &attempt.answer));
         messages.extend(attempt.complaint.as_ref().map(|complaint| message(Role::User, complaint)));

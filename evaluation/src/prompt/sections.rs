@@ -29,7 +29,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn between_the_headings() {
+    fn sections_are_split_at_headings() {
         let text = "Play.\n\n## Rules\nYou win.\n\nYou lose.\n\n## Board\nww\n w\n";
         assert_eq!(
             sections(text),

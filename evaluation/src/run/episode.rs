@@ -36,7 +36,7 @@ impl Task<'_> {
     pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, .. } = start else { return Ok(()) };
         let differs = |what: &str, found: &dyn Display, asked: &dyn Display| {
-            Err(format!("the log is of {what} {found}, but {asked} was asked for"))
+            Err(format!("the log is of {what} {found}, but {asked} was requested"))
         };
         if *game != self.subject.id {
             return differs("game", game, &self.subject.id);
@@ -52,7 +52,7 @@ impl Task<'_> {
         }
         match *seed == self.chance() {
             true => Ok(()),
-            false => Err("the log is of an episode with another `seed` than was asked for".to_owned()),
+            false => Err("the log is of an episode with another `seed` than requested".to_owned()),
         }
     }
 
@@ -64,7 +64,7 @@ impl Task<'_> {
 
 /// The final status of an episode in a run.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Left {
+pub enum PlayResult {
     /// The episode has ended.
     Ended(Outcome),
     /// The episode was aborted.
@@ -80,32 +80,32 @@ pub fn play(
     task: &Task<'_>,
     contestant: &mut Contestant,
     journal: &mut Journal,
-) -> Result<Left, EvaluationError> {
+) -> Result<PlayResult, EvaluationError> {
     if let Some(Event::End { outcome, .. }) = journal.events().last() {
-        return Ok(Left::Ended(*outcome));
+        return Ok(PlayResult::Ended(*outcome));
     }
     if matches!(contestant, Contestant::Planner { .. }) && !journal.events().is_empty() {
         journal.clear()?;
     }
     let mut play = Playing::start(task, contestant);
     match journal.events().first() {
-        None => journal.push(play.started())?,
-        Some(first) if *first == play.started() => {}
-        Some(_) => return Err(journal.complaint("this log is of another episode; start in another folder")),
+        None => journal.push(play.start_event())?,
+        Some(first) if *first == play.start_event() => {}
+        Some(_) => return Err(journal.malformed("this is the log of another episode; use another folder")),
     }
-    if let Some(halt) = play.take_up(journal)? {
-        return Ok(Left::Halted(halt));
+    if let Some(halt) = play.replay_log(journal)? {
+        return Ok(PlayResult::Halted(halt));
     }
     while !play.is_over() {
         if let Err(halt) = play.decide(journal)? {
-            return Ok(Left::Halted(halt));
+            return Ok(PlayResult::Halted(halt));
         }
     }
     play.finish();
     let outcome = play.state.outcome();
     let status = if play.state.is_over() { Status::Over } else { Status::StepLimit };
     journal.push(Event::End { status, outcome, score: play.state.score(), steps: play.steps })?;
-    Ok(Left::Ended(outcome))
+    Ok(PlayResult::Ended(outcome))
 }
 
 /// An episode in progress.
@@ -141,7 +141,7 @@ impl<'a> Playing<'a> {
     }
 
     /// Returns the first line of the log.
-    fn started(&self) -> Event {
+    fn start_event(&self) -> Event {
         let Task { subject, level, run, max_steps, .. } = *self.task;
         let (game, game_digest) = (subject.id.clone(), subject.game.digest());
         Event::Start {
@@ -160,7 +160,7 @@ impl<'a> Playing<'a> {
     }
 
     /// Replays the steps in the log, and shows them to the agent.
-    fn take_up(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
+    fn replay_log(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
         journal.set_step(1, None);
         let mut from = 1;
         while let Some((at, action, validity)) = step_after(journal.events(), from) {
@@ -177,8 +177,8 @@ impl<'a> Playing<'a> {
             let Event::Step { calls, took_ms, .. } = recorded else { unreachable!("it was found as a step") };
             if self.step(choice, calls, took_ms) != recorded {
                 let step = self.steps - 1;
-                return Err(journal.complaint(&format!(
-                    "step {step} leads elsewhere than recorded; the log is damaged or of another version of the suite"
+                return Err(journal.malformed(&format!(
+                    "step {step} differs from the log when it is replayed; the log is damaged or was written by another version of arcade"
                 )));
             }
             from = at + 1;

@@ -1,10 +1,10 @@
 //! The episodes of an evaluation, played in parallel, each with its own log.
 
 use crate::error::EvaluationError;
-use crate::log::{Event, Journal, NEXT_MOVE};
+use crate::log::{Event, Journal, NEXT_STEP};
 use crate::metrics::replay;
 use crate::player::{Contestant, Halt};
-use crate::run::episode::{Left, Task, play};
+use crate::run::episode::{PlayResult, Task, play};
 use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
 use crate::run::text::read_text;
 use crate::subject::Subject;
@@ -42,7 +42,7 @@ pub struct Evaluation {
 /// A progress display.
 pub trait Progress: Sync {
     /// Reports that an episode has ended or was aborted.
-    fn episode(&self, task: &Task<'_>, left: &Left);
+    fn episode(&self, task: &Task<'_>, result: &PlayResult);
 }
 
 /// The counts of an evaluation's episodes by their final status.
@@ -78,11 +78,11 @@ impl Evaluation {
         subjects: Vec<Subject>,
     ) -> Result<Evaluation, EvaluationError> {
         settings.check().map_err(EvaluationError::Malformed)?;
-        fs::create_dir_all(folder).map_err(EvaluationError::io("make", folder))?;
+        fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
         if !is_free(folder)? {
             let next = match folder.join(SETTINGS_FILE).exists() {
-                true => "--resume goes on with the evaluation in it, or name another",
-                false => "there is no evaluation in it to go on with: name another",
+                true => "pass --resume to continue the evaluation in it, or name another",
+                false => "it contains no evaluation to resume; name another",
             };
             return Err(EvaluationError::Malformed(format!(
                 "{}: the folder is not empty; {next}",
@@ -92,7 +92,7 @@ impl Evaluation {
         let lock = lock(folder)?;
         for subject in &subjects {
             let games = folder.join("games").join(&subject.id);
-            fs::create_dir_all(&games).map_err(EvaluationError::io("make", &games))?;
+            fs::create_dir_all(&games).map_err(EvaluationError::io("create", &games))?;
             let write = |name: &str, text: &str| {
                 let path = games.join(name);
                 fs::write(&path, text).map_err(EvaluationError::io("write", &path))
@@ -103,7 +103,7 @@ impl Evaluation {
             }
         }
         let episodes = folder.join("episodes");
-        fs::create_dir_all(&episodes).map_err(EvaluationError::io("make", &episodes))?;
+        fs::create_dir_all(&episodes).map_err(EvaluationError::io("create", &episodes))?;
         let text = serde_json::to_string_pretty(&settings).expect("settings are plain data");
         let (partial, path) = (folder.join(PARTIAL_FILE), folder.join(SETTINGS_FILE));
         let write = || {
@@ -125,7 +125,7 @@ impl Evaluation {
         let mut evaluation = Evaluation::open(folder)?;
         if let Some(difference) = difference(&evaluation.settings, settings) {
             return Err(EvaluationError::Malformed(format!(
-                "{}: the evaluation in it was asked for with another {difference}; ask for the same, or start in another folder",
+                "{}: the evaluation in it was started with another {difference}; use the same one, or another folder",
                 folder.display()
             )));
         }
@@ -163,12 +163,15 @@ impl Evaluation {
         let settings: Settings = serde_json::from_value(value).map_err(unreadable)?;
         if let Some(entry) = settings.games.iter().find(|entry| !is_file_name(&entry.id)) {
             let path = path.display();
-            return Err(EvaluationError::Malformed(format!("{path}: {:?} is no name of a game", entry.id)));
+            return Err(EvaluationError::Malformed(format!(
+                "{path}: {:?} is not the name of a game",
+                entry.id
+            )));
         }
         settings.check().map_err(|problem| {
             let path = path.display();
             EvaluationError::Malformed(format!(
-                "{path}: {problem}: it is damaged, get the results folder again"
+                "{path}: {problem}; the file is damaged: restore the results folder"
             ))
         })?;
         let subjects = settings.games.iter().map(|entry| entry.read(folder)).collect::<Result<_, _>>()?;
@@ -216,7 +219,7 @@ impl Evaluation {
         }
         others.first().map_or(Ok(()), |name| {
             Err(EvaluationError::Malformed(format!(
-                "{}: there is no such episode in {SETTINGS_FILE}, which was changed or is damaged: get the results folder again",
+                "{}: {SETTINGS_FILE} has no such episode, so it is damaged or was changed: restore the results folder",
                 folder.join(name).display()
             )))
         })
@@ -236,7 +239,7 @@ impl Evaluation {
         let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", place.display()));
         let found = read().map_err(|error| wrong(error.to_string()))?;
         let start = log.first().map_or(Ok(()), |start| task.compare_start(start));
-        start.map_err(|what| wrong(format!("line 1: {what}; {NEXT_MOVE}")))?;
+        start.map_err(|what| wrong(format!("line 1: {what}; {NEXT_STEP}")))?;
         Ok(found)
     }
 
@@ -273,18 +276,18 @@ impl Evaluation {
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
         // In order rather than in halves: when a run is aborted, every level has been played about equally often.
-        let lefts = tasks.iter().par_bridge().map(|task| {
+        let results = tasks.iter().par_bridge().map(|task| {
             if stopped.load(Ordering::Relaxed) {
                 return Ok(None);
             }
             let mut journal = Journal::open(&self.log_path(task))?;
-            let left = match contestant(task) {
+            let result = match contestant(task) {
                 Ok(mut contestant) => play(task, &mut contestant, &mut journal)?,
-                Err(halt) => Left::Halted(halt),
+                Err(halt) => PlayResult::Halted(halt),
             };
-            match &left {
-                Left::Ended(_) => failures.store(0, Ordering::Relaxed),
-                Left::Halted(halt) => {
+            match &result {
+                PlayResult::Ended(_) => failures.store(0, Ordering::Relaxed),
+                PlayResult::Halted(halt) => {
                     let many = failures.fetch_add(1, Ordering::Relaxed) + 1 >= FAILURES_IN_A_ROW;
                     if many || !matches!(halt, Halt::Infrastructure(_)) {
                         stopped.store(true, Ordering::Relaxed);
@@ -292,16 +295,16 @@ impl Evaluation {
                     first.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
                 }
             }
-            progress.episode(task, &left);
-            Ok(Some(left))
+            progress.episode(task, &result);
+            Ok(Some(result))
         });
-        let lefts = lefts.collect::<Result<Vec<Option<Left>>, EvaluationError>>()?;
+        let results = results.collect::<Result<Vec<Option<PlayResult>>, EvaluationError>>()?;
         let ended = |won: bool| {
-            let ended = |left: &&Option<Left>| match left {
-                Some(Left::Ended(outcome)) => !won || *outcome == Outcome::Won,
+            let ended = |result: &&Option<PlayResult>| match result {
+                Some(PlayResult::Ended(outcome)) => !won || *outcome == Outcome::Won,
                 _ => false,
             };
-            lefts.iter().filter(ended).count() as u64
+            results.iter().filter(ended).count() as u64
         };
         let halted: Option<Halt> = first.into_inner().expect("no holder panics");
         let (episodes, won, ended) = (tasks.len() as u64, ended(true), ended(false));
@@ -338,11 +341,11 @@ pub fn tasks<'a>(settings: &Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> 
 /// Locks the folder against other writers. The operating system releases the lock when the program ends for any reason.
 fn lock(folder: &Path) -> Result<File, EvaluationError> {
     let path = folder.join(LOCK_FILE);
-    let file = File::create(&path).map_err(EvaluationError::io("make", &path))?;
+    let file = File::create(&path).map_err(EvaluationError::io("create", &path))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(fs::TryLockError::WouldBlock) => Err(EvaluationError::Malformed(format!(
-            "{}: another `arcade evaluate` is writing into it; wait for it, or name another folder",
+            "{}: another `arcade evaluate` is writing to it; wait until it ends, or name another folder",
             folder.display()
         ))),
         Err(fs::TryLockError::Error(error)) => Err(EvaluationError::io("lock", &path)(error)),

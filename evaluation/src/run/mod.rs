@@ -6,7 +6,7 @@ mod evaluation;
 mod settings;
 pub(crate) mod text;
 
-pub use episode::{Left, Task, play};
+pub use episode::{PlayResult, Task, play};
 pub use evaluation::{Evaluation, Progress, Tally, tasks};
 pub use settings::{
     Entrant, FORMAT, LevelEntry, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, Settings, SubjectEntry,

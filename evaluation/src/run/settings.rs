@@ -96,7 +96,7 @@ impl Settings {
         if self.runs == 0 || self.runs > MAX_EPISODES || episodes.is_none() {
             let runs = self.runs;
             return Err(format!(
-                "`runs` is {runs}, on {levels} levels; an evaluation has 1 to {MAX_EPISODES} episodes in all"
+                "`runs` is {runs}, on {levels} levels; an evaluation has 1 to {MAX_EPISODES} episodes in total"
             ));
         }
         if !(1..=MAX_DECISIONS).contains(&self.max_steps) {
@@ -147,7 +147,7 @@ impl SubjectEntry {
         let changed = |what: &str| {
             let folder = folder.display();
             EvaluationError::Malformed(format!(
-                "{folder}: {what} is not the one that was played; get the results folder again"
+                "{folder}: {what} differs from the file that was played; restore the results folder"
             ))
         };
         let unreadable = |Unreadable { level, .. }: Unreadable| {

@@ -14,7 +14,7 @@ pub(crate) fn open_file(path: &Path, limit: u64) -> Result<File, EvaluationError
     let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", path.display()));
     let found = path.metadata().map_err(EvaluationError::io("read", path))?;
     if !found.is_file() {
-        return Err(wrong("not a file; get the results folder again".to_owned()));
+        return Err(wrong("not a file; restore the results folder".to_owned()));
     }
     if found.len() > limit {
         return Err(wrong(format!("larger than {limit} bytes, the limit for such a file")));
@@ -33,7 +33,7 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, EvaluationE
     String::from_utf8(bytes).map_err(|error| {
         let (path, at) = (path.display(), error.utf8_error().valid_up_to());
         EvaluationError::Malformed(format!(
-            "{path}: not a text file (byte {at} is not UTF-8); get the results folder again"
+            "{path}: not a text file (byte {at} is not UTF-8); restore the results folder"
         ))
     })
 }

@@ -37,11 +37,11 @@ impl Default for Bounds {
 
 /// The memory available for bodies that are being read or answered.
 #[derive(Clone, Debug)]
-pub(super) struct Room(Arc<Semaphore>);
+pub(super) struct BodyMemory(Arc<Semaphore>);
 
-impl Room {
-    pub(super) fn new(bytes: usize) -> Room {
-        Room(Arc::new(Semaphore::new(bytes / UNIT)))
+impl BodyMemory {
+    pub(super) fn new(bytes: usize) -> BodyMemory {
+        BodyMemory(Arc::new(Semaphore::new(bytes / UNIT)))
     }
 
     /// Waits until there is room for `bytes`, and reserves it until the permit is dropped.

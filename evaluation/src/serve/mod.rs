@@ -78,7 +78,7 @@ impl FromStr for PromptPlayer {
                 let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
                 let names = PROMPT_PLAYERS.join(", ");
                 Err(Unanswerable(format!(
-                    "no player named `{name}` answers prompts{near}; there are {names}, and `planner:NAME`, such as `planner:mcts:300`"
+                    "there is no prompt player `{name}`{near}; available: {names}, and `planner:NAME`, such as `planner:mcts:300`"
                 )))
             }
         }
@@ -147,7 +147,8 @@ fn prompt_tokens(messages: &[ChatMessage]) -> u64 {
 }
 
 /// Returns the actions other than nil, if there are any.
-fn deeds(actions: &[Action]) -> Vec<Action> {
-    let deeds: Vec<Action> = actions.iter().copied().filter(|&action| action != Action::Nil).collect();
-    if deeds.is_empty() { actions.to_vec() } else { deeds }
+fn actions_except_nil(actions: &[Action]) -> Vec<Action> {
+    let actions_except_nil: Vec<Action> =
+        actions.iter().copied().filter(|&action| action != Action::Nil).collect();
+    if actions_except_nil.is_empty() { actions.to_vec() } else { actions_except_nil }
 }

@@ -29,7 +29,7 @@ fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static
         return Some((
             StatusCode::MISDIRECTED_REQUEST,
             "foreign_host",
-            "this server answers to 127.0.0.1, localhost and [::1] only: use its base URL",
+            "this server answers only on 127.0.0.1, localhost and [::1]; use its base URL",
         ));
     }
     let is_own = |origin: &str| origin.strip_prefix("http://").is_some_and(is_loopback);
@@ -37,7 +37,7 @@ fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static
         return Some((
             StatusCode::FORBIDDEN,
             "foreign_origin",
-            "this server answers no page of another machine; ask it from a program",
+            "this server rejects requests from web pages of other hosts; send them from a program",
         ));
     }
     let is_json = |kind: &str| {

@@ -57,7 +57,7 @@ pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Resul
 /// does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
-        return Err("it needs the rules as VGDL (`rules = \"vgdl\"`)".to_owned());
+        return Err("it needs the rules as VGDL (set `rules = \"vgdl\"`)".to_owned());
     };
     let (description, _) = parse(vgdl);
     let game =
@@ -77,15 +77,13 @@ fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
     if analysis.is_stochastic() {
-        return Err("chance plays a part in this game".to_owned());
+        return Err("the game is random".to_owned());
     }
     if let Some(&unseen) = analysis.unseen().first() {
-        return Err(format!("the {} matters and cannot be seen", game.name(unseen)));
+        return Err(format!("the {} affects play but is not visible", game.name(unseen)));
     }
     if analysis.taxonomy().time != Time::TurnBased {
-        return Err(
-            "things move while you do nothing in this game, and the board does not show where to".to_owned()
-        );
+        return Err("sprites move by themselves, and the board does not show in which direction".to_owned());
     }
     if let Some(fleeting) = possible().find(|&stype| analysis.facts(stype).fleeting) {
         return Err(format!("the board does not show how long the {} stays", game.name(fleeting)));
@@ -102,14 +100,14 @@ fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
         meets || analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype))
     };
     if let Some(floor) = shown.floors.iter().find(|name| matters(name)) {
-        return Err(format!("the {floor} matters, and the board does not show it"));
+        return Err(format!("the {floor} affects play, but the board does not show it"));
     }
     let clauses = game.clauses();
     let effects = clauses.interactions.iter().map(|clause| clause.effect);
     let endings = clauses.terminations.iter().map(|clause| clause.class);
     let unknown = effects.filter(|effect| !SHOWN_EFFECTS.contains(effect));
     match unknown.chain(endings.filter(|ending| !SHOWN_ENDINGS.contains(ending))).next() {
-        Some(word) => Err(format!("`{word}` may leave behind what a board does not show")),
+        Some(word) => Err(format!("`{word}` may have effects that a board does not show")),
         None => Ok(()),
     }
 }
@@ -123,7 +121,7 @@ struct Position {
 impl Position {
     fn of(mut description: Description, shown: &Shown<'_>) -> Result<Position, String> {
         if shown.you.is_none() || shown.cells.is_empty() {
-            return Err("it shows no board with an avatar (`grid` and `position`)".to_owned());
+            return Err("it shows no board with an avatar (enable `grid` and `position`)".to_owned());
         }
         let symbols: Vec<char> = ('!'..='~').collect();
         let mut mapping: BTreeMap<&[&str], char> = BTreeMap::new();
@@ -148,17 +146,18 @@ impl Position {
             ..MappingLine::default()
         };
         description.mapping = mapping.into_iter().map(line).collect();
-        wind(&mut description, shown.tick);
+        lower_tick_limits(&mut description, shown.tick);
         let game = Game::compile(&description)
-            .map_err(|problems| format!("its board is not of its game: {problems}"))?;
-        let level =
-            game.level(&text).map_err(|problems| format!("its board is no level of its game: {problems}"))?;
+            .map_err(|problems| format!("its board does not fit its game: {problems}"))?;
+        let level = game
+            .level(&text)
+            .map_err(|problems| format!("its board is not a level of its game: {problems}"))?;
         Ok(Position { game, level })
     }
 }
 
 /// Lowers the tick limits by `ticks`.
-fn wind(description: &mut Description, ticks: u32) {
+fn lower_tick_limits(description: &mut Description, ticks: u32) {
     let timeouts = description.terminations.iter_mut().filter(|line| line.class.text == "Timeout");
     for param in timeouts.flat_map(|line| &mut line.params).filter(|param| param.key.text == "limit") {
         if let Ok(limit) = param.value.text.parse::<i64>() {
@@ -198,7 +197,7 @@ mod tests {
 
     /// Positions of corpus games that can be planned on continue like the original states.
     #[test]
-    fn positions_play_on_like_what_was_shown() {
+    fn positions_read_from_a_board_play_like_the_original() {
         let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };
         for name in ["dyepot-newt", "osier-way", "quiet-jars"] {
             let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);

@@ -1,6 +1,6 @@
 //! OpenAI-compatible chat completions, answered by a player.
 
-use super::bounds::{Bounds, Room};
+use super::bounds::{BodyMemory, Bounds};
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Role};
 use crate::error::EvaluationError;
@@ -165,14 +165,14 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .fallback(no_route)
         .method_not_allowed_fallback(no_method)
         .layer(axum::middleware::from_fn(origin::check))
-        .with_state(Arc::new(Serving { player, bounds, room: Room::new(bounds.bodies) }))
+        .with_state(Arc::new(Serving { player, bounds, body_memory: BodyMemory::new(bounds.bodies) }))
 }
 
 /// The state needed for an answer.
 struct Serving {
     player: PromptPlayer,
     bounds: Bounds,
-    room: Room,
+    body_memory: BodyMemory,
 }
 
 /// The relevant fields of a request. Sampling parameters are ignored.
@@ -243,31 +243,32 @@ async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePer
         Some(Ok(size)) if size <= most => size,
         Some(_) => {
             // A client that is still sending could not read the answer.
-            let _ = tokio::time::timeout(body_time, pass_over(body, 2 * most)).await;
+            let _ = tokio::time::timeout(body_time, discard(body, 2 * most)).await;
             return Err(too_large());
         }
         None => most,
     };
     let read = async {
-        let taken = serving.room.take(size).await;
+        let taken = serving.body_memory.take(size).await;
         (axum::body::to_bytes(body, size).await, taken)
     };
     match tokio::time::timeout(body_time, read).await {
         Ok((Ok(bytes), taken)) => Ok((bytes, taken)),
         Ok((Err(_), _)) if stated.is_none() => Err(too_large()),
         Ok((Err(error), _)) => {
-            let message = format!("the request breaks off: {error}");
+            let message = format!("the request was cut off: {error}");
             Err(Box::new(refusal(StatusCode::BAD_REQUEST, "unreadable_body", &message)))
         }
         Err(_) => {
-            let message = "the request was not sent in time, or too many others are; try again";
+            let message =
+                "the request was not received in time, or too many others are in progress; try again";
             Err(Box::new(refusal(StatusCode::REQUEST_TIMEOUT, "request_timeout", message)))
         }
     }
 }
 
 /// Reads and discards up to `most` bytes of a body.
-async fn pass_over(body: Body, most: usize) {
+async fn discard(body: Body, most: usize) {
     let (mut body, mut left) = (std::pin::pin!(body), most);
     while let Some(Ok(frame)) = std::future::poll_fn(|context| body.as_mut().poll_frame(context)).await {
         left = left.saturating_sub(frame.data_ref().map_or(0, Bytes::len));
@@ -289,7 +290,7 @@ fn completion(player: &PromptPlayer, body: &[u8]) -> Result<Value, Box<Response>
     if request.stream || request.n.is_some_and(|n| n != 1) {
         return Err(bad(
             "unsupported_value",
-            "answers come whole and one at a time: no `stream`, and `n` is 1",
+            "only one complete answer at a time is supported: remove `stream`, and set `n` to 1",
         ));
     }
     let messages = request.messages.into_iter().map(message).collect::<Result<Vec<_>, String>>();
@@ -317,7 +318,7 @@ fn message(message: Message) -> Result<ChatMessage, String> {
         "system" | "developer" => Role::System,
         "user" => Role::User,
         "assistant" => Role::Assistant,
-        other => return Err(format!("no role `{other}`; there are system, user and assistant")),
+        other => return Err(format!("unknown role `{other}`; use system, user or assistant")),
     };
     let text = match message.content {
         Content::Text(text) => text,

@@ -170,8 +170,8 @@ impl Contrasts {
             &format!("{id}-overall"),
             &format!("{title}, over all levels"),
             "p: exact test within levels (Cochran, Mantel, Haenszel). q: corrected for the pairs of this table (Benjamini, Hochberg). \
-             h: Cohen's effect size (0.2 small, 0.5 medium, 0.8 large). The difference of win rates, with an interval that draws whole \
-             games again.",
+             h: Cohen's effect size (0.2 small, 0.5 medium, 0.8 large). The difference of win rates, with a bootstrap \
+             interval over whole games.",
             &[
                 "first",
                 "second",
@@ -213,7 +213,11 @@ impl Contrasts {
                 "Fisher's exact test, two-sided; q: corrected for all {} comparisons (Benjamini, Hochberg), of which {believed} have at \
                  most 0.05. The difference of win rates with Newcombe's 95 % interval.{}",
                 list.len(),
-                if list.len() > most { format!(" The {most} with the least p.") } else { String::new() }
+                if list.len() > most {
+                    format!(" Only the {most} with the smallest p are shown.")
+                } else {
+                    String::new()
+                }
             );
             let mut table = Table::new(
                 &format!("{id}-by-{grain}"),

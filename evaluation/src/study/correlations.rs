@@ -70,7 +70,7 @@ impl Correlations {
 
     pub(crate) fn table(&self) -> Table {
         let note = format!(
-            "Over {} episodes ({} left out, for which one is missing), taken for independent. Corrected: by Bonferroni, for six pairs. \
+            "Over {} episodes ({} with a missing value left out), treated as independent. Corrected: by Bonferroni, for six pairs. \
              Distance: cells walked.",
             self.episodes, self.excluded
         );

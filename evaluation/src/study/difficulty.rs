@@ -107,7 +107,7 @@ pub(crate) fn table(study: &Study) -> Table {
         "difficulty",
         "Difficulty",
         "Ease: 0.6 win rate + 0.2 normalised reward + 0.2 step efficiency, means over the players of this study; high is easy. Missing \
-         where a part is, such as the reward of a game that gives everybody the same. Unbeaten: nobody has won.",
+         if a component is, such as the reward of a game with equal scores. Unbeaten: no player has won.",
         &["game or level", "win rate", "normalised reward", "efficiency", "ease", "difficulty"],
     );
     for row in &study.difficulties {

@@ -155,7 +155,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let mut modes = Table::new(
         "failure-modes",
         "Failure modes",
-        "Means, medians and Welch's t test of won against other episodes, taken for independent; corrected by Bonferroni for six \
+        "Means, medians and Welch's t test of won against other episodes, treated as independent; corrected by Bonferroni for six \
          measures. A bump is a step that was not meaningful; late: in the last quarter.",
         &[
             "measure",
@@ -189,7 +189,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let mut top = Table::new(
         "oscillation",
         "Oscillation",
-        "The levels on which players went back and forth most: mean share of steps that return to the cell of two steps ago.",
+        "The levels with the most oscillation: mean fraction of steps that return to the cell of two steps before.",
         &["player", "level", "oscillation rate", "episodes", "wins"],
     );
     for row in study.oscillations.iter().take(TOP) {

@@ -25,7 +25,8 @@ pub struct LeaderRow {
     /// The mean number of input and output tokens per step.
     pub tokens_per_step: Option<f64>,
     /// The number of aborted episodes by reason.
-    pub broken_off: BTreeMap<String, u64>,
+    #[serde(rename = "broken_off")]
+    pub aborted: BTreeMap<String, u64>,
 }
 
 /// Returns a row for each player: by win rate, then overall score, then in the order of the study.
@@ -42,12 +43,12 @@ pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
 fn row(study: &Study, player: usize) -> LeaderRow {
     let episodes = study.on(player, None, None);
     let scores = Scores::of(episodes);
-    let (mut choices, mut spending, mut broken_off) = Default::default();
+    let (mut choices, mut spending, mut aborted) = Default::default();
     for episode in episodes {
         Choices::add(&mut choices, &episode.metrics.choices);
         Spending::add(&mut spending, &episode.metrics.spending);
-        if let Some(reason) = episode.metrics.status.broken_off() {
-            *BTreeMap::entry(&mut broken_off, reason.to_owned()).or_insert(0) += 1;
+        if let Some(reason) = episode.metrics.status.aborted() {
+            *BTreeMap::entry(&mut aborted, reason.to_owned()).or_insert(0) += 1;
         }
     }
     let tokens = spending.input_tokens.zip(spending.output_tokens).map(|(input, output)| input + output);
@@ -63,7 +64,7 @@ fn row(study: &Study, player: usize) -> LeaderRow {
         .zip(interval)
         .filter(|_| games.len() > 1)
         .map(|(value, interval)| Estimate::new(value, interval));
-    LeaderRow { player, scores, by_game, choices, spending, tokens_per_step, broken_off }
+    LeaderRow { player, scores, by_game, choices, spending, tokens_per_step, aborted }
 }
 
 /// Returns the leaderboard and the table of the choices' origins.
@@ -71,10 +72,10 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let mut leaders = Table::new(
         "leaderboard",
         "Leaderboard",
-        "Win rate: wins by ended episodes, with Wilson's 95 % interval, and with one that draws whole games again (it speaks of \
+        "Win rate: wins divided by ended episodes, with Wilson's 95 % interval, and with a bootstrap interval over whole games (for \
          games like these; wide with few games). The overall score is the mean of meaningful step ratio, spared steps, normalised \
-         reward and win rate; it rewards quick losses too. Optimality: proved fewest ticks by steps, over wins. Broken off: episodes \
-         that network, caps or interruptions ended; they count nowhere else.",
+         reward and win rate; it rewards quick losses too. Optimality: proved fewest ticks divided by steps, over wins. Broken off: \
+         episodes aborted by the network, caps or interruptions; they are excluded from all other columns.",
         &[
             "player",
             "episodes",
@@ -95,8 +96,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let mut answers = Table::new(
         "answers",
         "Answers",
-        "Steps by how they came about. Tolerant: read from an answer that is not in the format asked for. Invalid, refused and \
-         truncated answers do nothing, and are the player's doing. Tokens as the provider counts them, with answers from the cache.",
+        "Steps by the origin of their action. Tolerant: read from an answer that is not in the required format. Invalid, refused and \
+         truncated answers do nothing, and count against the player. Tokens as counted by the provider, including cached answers.",
         &[
             "player",
             "steps",
@@ -124,7 +125,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
             Estimate::cell(*by_game, 2),
             TableCell::number(scores.overall, 3),
             TableCell::number(scores.meaningful, 3),
-            TableCell::number(scores.spared, 3),
+            TableCell::number(scores.unused_steps, 3),
             TableCell::number(scores.normalised_reward, 3),
             TableCell::number(scores.steps, 1),
             TableCell::number(scores.efficiency, 3),

@@ -70,7 +70,7 @@ impl Measure {
     }
 
     /// Returns `true` for a ratio within 0..=1.
-    pub fn is_share(self) -> bool {
+    pub fn is_fraction(self) -> bool {
         self != Measure::Steps
     }
 
@@ -194,7 +194,7 @@ impl Matrix {
 
     /// Returns a measure as a table, with games or levels down and players across. `grain` is part of its file name.
     pub(crate) fn table(&self, measure: Measure, grain: &str) -> Table {
-        let digits = if measure.is_share() { 2 } else { 1 };
+        let digits = if measure.is_fraction() { 2 } else { 1 };
         let id = format!("{}-by-{grain}-{}", measure.id(), self.scope.id());
         let title = format!("{} by {grain}, {}", measure.title(), self.scope.id());
         let note = if measure == Measure::WinRate { "With Wilson's 95 % interval." } else { "" };

@@ -50,7 +50,7 @@ const LEVEL: f64 = 0.95;
 /// The number of resamples of a bootstrap over whole games.
 const RESAMPLES: usize = 2000;
 /// The maximum number of rows of a comparison table in a report; the data has all.
-const MOST_COMPARISONS: usize = 100;
+const MAX_COMPARISONS: usize = 100;
 
 /// The results of several players and their analysis. Indices named `player` and `game` refer to the first two lists.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -206,14 +206,14 @@ impl Study {
         if limits.len() > 1 {
             let limits: Vec<String> = limits.iter().map(u64::to_string).collect();
             self.notes.push(format!(
-                "Players had different limits of steps ({}): steps, wins and what follows from them do not compare.",
+                "Players had different step limits ({}): steps, wins and derived values are not comparable.",
                 limits.join(", ")
             ));
         }
         let broken = self.episodes.iter().filter(|episode| !episode.metrics.counts()).count();
         if broken > 0 {
             self.notes.push(format!(
-                "{broken} of {} episodes were broken off or are not finished; they count in no number.",
+                "{broken} of {} episodes were aborted or are unfinished; they are excluded from all numbers.",
                 self.episodes.len()
             ));
         }
@@ -260,9 +260,9 @@ impl Study {
                 tables.extend(matrices.iter().map(|matrix| matrix.table(measure, grain)));
             }
         }
-        tables.extend(self.pairs.tables(self, "pairs", "Players compared", MOST_COMPARISONS));
-        tables.extend(self.modes.tables(self, "modes", "Zero-shot against contextual", MOST_COMPARISONS));
-        tables.extend(self.aids.tables(self, "aids", "Without and with an aid", MOST_COMPARISONS));
+        tables.extend(self.pairs.tables(self, "pairs", "Comparison of players", MAX_COMPARISONS));
+        tables.extend(self.modes.tables(self, "modes", "Zero-shot against contextual", MAX_COMPARISONS));
+        tables.extend(self.aids.tables(self, "aids", "Without and with an aid", MAX_COMPARISONS));
         tables.push(self.correlations.table());
         tables.extend(failures::tables(self));
         tables.extend(sweep::tables(self));

@@ -70,9 +70,9 @@ pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
 pub fn table(rows: &[PowerRow]) -> Table {
     let mut table = Table::new(
         "power",
-        "What so many episodes can show",
-        "The least difference of two win rates that a two-sided test at 5 % shows in 80 of 100 evaluations, by the arcsine \
-         approximation (Cohen 1988). Episodes of the player with the fewest; correction for many comparisons shows less.",
+        "Statistical power",
+        "The smallest difference of two win rates that a two-sided test at 5 % detects with a power of 80 %, by the arcsine \
+         approximation (Cohen 1988). Episodes of the player with the fewest; with correction for many comparisons, the power is lower.",
         &["on", "episodes a side", "h", "0.1 against", "0.5 against"],
     );
     for row in rows {

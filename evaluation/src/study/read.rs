@@ -39,7 +39,7 @@ impl Study {
             let open = tasks.len() - measured.len();
             if open > 0 {
                 notes.push(format!(
-                    "{open} of {} episodes of {} were not begun.",
+                    "{open} of {} episodes of {} were not started.",
                     tasks.len(),
                     player.label()
                 ));
@@ -51,9 +51,9 @@ impl Study {
         study.notes.extend(notes);
         study.notes.extend(names.unpaired());
         if seeds.len() > 1 {
-            study
-                .notes
-                .push("Players met different chance (--seed): their episodes are not paired.".to_owned());
+            study.notes.push(
+                "Players had different random seeds (--seed): their episodes are not paired.".to_owned(),
+            );
         }
         Ok(study)
     }
@@ -101,7 +101,7 @@ impl Names {
         };
         if *digest != subject.game.digest() {
             return Err(EvaluationError::Malformed(format!(
-                "{}: its game `{}` is another one than in the folders before; report on them apart",
+                "{}: its game `{}` differs from that of an earlier folder; report on them separately",
                 folder.display(),
                 subject.id
             )));
@@ -109,7 +109,7 @@ impl Names {
         for (number, digest) in levels {
             if *known.entry(number).or_insert(digest) != digest {
                 return Err(EvaluationError::Malformed(format!(
-                    "{}: its level {number} of `{}` is another one than in the folders before; report on them apart",
+                    "{}: its level {number} of `{}` differs from that of an earlier folder; report on them separately",
                     folder.display(),
                     subject.id
                 )));
@@ -135,7 +135,7 @@ impl Names {
             let key = (player.clone(), game.clone(), *level, *run);
             if let Some(other) = self.episodes.insert(key, folder.to_owned()) {
                 return Err(EvaluationError::Malformed(format!(
-                    "{}: {} has played run {run} of {game} level {level} in {} too; give one of the two another name",
+                    "{}: {} also played run {run} of {game} level {level} in {}; rename one of the two players",
                     folder.display(),
                     player.label(),
                     other.display()
@@ -161,7 +161,7 @@ impl Names {
         }
         let all = players.len();
         counts.values().any(|&count| count < all).then(|| {
-            "Not every player has played every level the same number of times: means over all levels compare only where they have."
+            "Not every player has played every level the same number of times: means over all levels are comparable only between players that have."
                 .to_owned()
         })
     }

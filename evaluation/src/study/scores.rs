@@ -77,7 +77,8 @@ pub struct Scores {
     /// The mean normalised reward.
     pub normalised_reward: Option<f64>,
     /// The mean of `1 − steps / limit`.
-    pub spared: Option<f64>,
+    #[serde(rename = "spared")]
+    pub unused_steps: Option<f64>,
     /// The overall score of the paper: the mean of meaningful step ratio, spared steps, normalised reward and win rate.
     /// Missing if one of the four is.
     pub overall: Option<f64>,
@@ -101,9 +102,9 @@ impl Scores {
         let count = ended.len() as u64;
         let win_rate = Estimate::rate(wins, count);
         let meaningful = mean_of(&|e| e.metrics.meaningful);
-        let spared = mean_of(&|e| e.metrics.spared());
+        let unused_steps = mean_of(&|e| e.metrics.unused_steps());
         let normalised_reward = mean_of(&|e| e.normalised_reward);
-        let parts = [meaningful, spared, normalised_reward, win_rate.map(|rate| rate.value)];
+        let parts = [meaningful, unused_steps, normalised_reward, win_rate.map(|rate| rate.value)];
         let sum: Option<f64> = parts.into_iter().sum();
         Scores {
             episodes: count,
@@ -119,7 +120,7 @@ impl Scores {
             steps: mean_of(&|e| Some(e.metrics.steps as f64)),
             score: mean_of(&|e| Some(e.metrics.score)),
             normalised_reward,
-            spared,
+            unused_steps,
             overall: sum.map(|sum| sum / parts.len() as f64),
             efficiency: efficiency(&ended),
             optimality: mean_of(&|e| e.metrics.optimality()),

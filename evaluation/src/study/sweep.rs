@@ -87,10 +87,10 @@ fn row(player: &str, game: &str, scores: &Scores, levels: u64, zero_win_levels: 
 
 /// Returns the table of all games and its summary.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
-    let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / most steps of anybody's episode on the \
+    let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / most steps of any episode on the \
                 level, over the levels that were won.";
     let mut games = Table::new("games", "Game by game", note, &COLUMNS);
-    let mut summary = Table::new("summary", "All games together", note, &COLUMNS);
+    let mut summary = Table::new("summary", "Results over all games", note, &COLUMNS);
     for sweep in &study.sweeps {
         let player = study.players[sweep.player].label();
         for found in &sweep.games {

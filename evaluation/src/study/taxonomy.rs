@@ -47,7 +47,7 @@ pub(crate) fn table(study: &Study) -> Table {
     let mut table = Table::new(
         "taxonomy",
         "Results by kind of game",
-        "Kinds are derived from the rules; a game is of several.",
+        "Kinds are derived from the rules; a game can have several.",
         &["kind", "player", "games", "episodes", "win rate", "meaningful", "normalised reward", "overall"],
     );
     for row in &study.taxonomy {

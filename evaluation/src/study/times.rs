@@ -44,8 +44,8 @@ pub(crate) fn table(study: &Study) -> Table {
     let mut table = Table::new(
         "times",
         "Decision times",
-        "From what is shown to the action, with waiting and asking again. Calls of the forward model, of planners. Times hang on the \
-         machine and on what else it did.",
+        "From the observation to the action, including waits and repeated questions. Calls: forward-model calls of planners. Times \
+         depend on the machine and its load.",
         &["player", "decisions", "median, ms", "90 %, ms", "median calls", "90 % calls"],
     );
     for row in &study.times {

@@ -2,14 +2,14 @@
 
 use crate::walk::{Walk, corpus, game, public_games};
 use engine::{Action, Observation};
-use evaluation::legend::{AVATAR, Legend, LegendOptions, Standing};
+use evaluation::legend::{AVATAR, EntryRole, Legend, LegendOptions};
 use evaluation::prompt::{PromptSettings, Prompter};
 use evaluation::{Subject, SubjectFacts, encoding};
 use std::collections::BTreeMap;
 
 /// Returns the names by symbol, without floors.
 fn by_symbol(legend: &Legend) -> BTreeMap<char, &str> {
-    let told = legend.entries().iter().filter(|entry| entry.standing != Standing::Floor);
+    let told = legend.entries().iter().filter(|entry| entry.role != EntryRole::Floor);
     told.map(|entry| (entry.symbol, entry.name.as_str())).collect()
 }
 
@@ -19,9 +19,8 @@ fn legends_have_a_character_for_each_thing() {
         for (tracking, shuffled) in [(false, None), (true, None), (false, Some(3)), (true, Some(4))] {
             let options = LegendOptions { tracking, shuffled };
             let legend = Legend::new(&subject.analysis, &options);
-            let told = legend.entries().iter().filter(|entry| entry.standing != Standing::Floor);
-            let (avatars, things): (Vec<_>, Vec<_>) =
-                told.partition(|entry| entry.standing == Standing::Avatar);
+            let told = legend.entries().iter().filter(|entry| entry.role != EntryRole::Floor);
+            let (avatars, things): (Vec<_>, Vec<_>) = told.partition(|entry| entry.role == EntryRole::Avatar);
             let expected = things.len() + if tracking { avatars.len() } else { 1 };
             assert_eq!(by_symbol(&legend).len(), expected, "{}: {:?}", subject.id, legend.lines());
             assert!(things.iter().all(|entry| entry.symbol.is_ascii_graphic() && entry.symbol != '.'));
@@ -61,21 +60,18 @@ fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
         let seen =
             |name: &str| !game.sprite_type(name).is_some_and(|stype| subject.analysis.facts(stype).hidden);
         let others =
-            all.iter().filter(|name| !own(name) && seen(name) && entry(name).standing != Standing::Floor);
+            all.iter().filter(|name| !own(name) && seen(name) && entry(name).role != EntryRole::Floor);
         let others: Vec<&str> = others.map(String::as_str).collect();
         // All states of the avatar look the same to the reader of a board.
         let (below, top) = if is_here { read.split_at(read.len() - 1) } else { (&read[..], &[][..]) };
-        assert!(
-            top.iter().all(|name| entry(name).standing == Standing::Avatar),
-            "{id}: {read:?} at {place:?}"
-        );
-        let dead = |name: &String| entry(name).standing == Standing::Avatar && below.len() == 1;
+        assert!(top.iter().all(|name| entry(name).role == EntryRole::Avatar), "{id}: {read:?} at {place:?}");
+        let dead = |name: &String| entry(name).role == EntryRole::Avatar && below.len() == 1;
         assert!(below == others || below.iter().any(dead), "{id}: {below:?} for {others:?} at {place:?}");
     }
 }
 
 #[test]
-fn boards_read_back_tell_everything() {
+fn boards_can_be_read_back_completely() {
     for subject in corpus() {
         let legend = Legend::new(&subject.analysis, &LegendOptions::default());
         for level in 0..subject.levels.len() {
@@ -92,7 +88,7 @@ fn boards_read_back_tell_everything() {
 
 /// Games written without prompts in mind: the same holds, and every prompt can be written.
 #[test]
-fn public_games_are_told() {
+fn boards_of_public_games_can_be_read_back() {
     for subject in public_games() {
         let settings =
             [PromptSettings::default(), PromptSettings { masked_names: true, ..PromptSettings::default() }];
@@ -163,7 +159,7 @@ fn states_of_the_avatar_share_a_character_or_have_their_own() {
 }
 
 #[test]
-fn what_can_be_chosen_now_is_told_where_it_changes() {
+fn available_actions_are_listed_where_they_change() {
     let subject = knight();
     let prompter =
         Prompter::new(&subject, PromptSettings { feedback: Some(true), ..PromptSettings::default() })
@@ -186,7 +182,7 @@ fn what_can_be_chosen_now_is_told_where_it_changes() {
 }
 
 #[test]
-fn pictures_show_what_is_seen() {
+fn pictures_show_the_visible_sprites() {
     let subject = game("first-ice");
     let legend = Legend::new(&subject.analysis, &LegendOptions::default());
     let mut walk = Walk::new(&subject, 1);

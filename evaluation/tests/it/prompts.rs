@@ -166,7 +166,7 @@ fn vgdl_in_prompts_is_the_game() {
 
 /// A name is leaked if a masked prompt has it and no masked prompt of another game does: then it is not one of our words.
 #[test]
-fn masked_prompts_tell_no_names() {
+fn masked_prompts_contain_no_names() {
     let words = |subject: &Subject, rules: Rules| -> BTreeSet<String> {
         let encodings = Encodings { coordinates: true, json: true, ..Encodings::default() };
         let mode = Mode::Contextual;
@@ -196,7 +196,7 @@ fn masked_prompts_tell_no_names() {
 }
 
 #[test]
-fn all_settings_write() {
+fn all_settings_render() {
     let subjects = [game("first-ice"), game("moth-observatory"), game("pantry-mouse")];
     for subject in &subjects {
         for bits in 0_u32..1 << 12 {
@@ -250,7 +250,7 @@ fn all_settings_write() {
 }
 
 #[test]
-fn settings_are_refused_that_do_not_exist() {
+fn unknown_settings_are_rejected() {
     assert_eq!(serde_json::from_str::<PromptSettings>("{}").unwrap(), PromptSettings::default());
     assert!(serde_json::from_str::<PromptSettings>(r#"{"rulez": "vgdl"}"#).is_err());
     assert!(serde_json::from_str::<PromptSettings>(r#"{"encodings": {"gird": true}}"#).is_err());
@@ -260,7 +260,7 @@ fn settings_are_refused_that_do_not_exist() {
 }
 
 #[test]
-fn aids_name_what_differs() {
+fn aids_list_the_changed_settings() {
     assert_eq!(PromptSettings::default().aids(), Vec::<String>::new());
     let settings = PromptSettings {
         mode: Mode::Contextual,
@@ -278,7 +278,7 @@ fn aids_name_what_differs() {
 }
 
 #[test]
-fn digests_tell_settings_apart() {
+fn digests_distinguish_settings() {
     let subject = game("first-ice");
     let standard = prompter(&subject, &PromptSettings::default());
     assert_eq!(standard.digest(), prompter(&game("turnip-heist"), &PromptSettings::default()).digest());
@@ -325,7 +325,7 @@ fn histories_keep_to_their_budget() {
 }
 
 #[test]
-fn answers_are_read_in_the_words_of_the_prompt() {
+fn answers_use_the_action_names_of_the_prompt() {
     let subject = game("first-ice");
     let walk = Walk::new(&subject, 0);
     let standard = prompter(&subject, &PromptSettings::default());
@@ -341,7 +341,7 @@ fn answers_are_read_in_the_words_of_the_prompt() {
 }
 
 #[test]
-fn pictures_are_shown_of_the_newest_turn() {
+fn only_the_newest_turn_has_a_picture() {
     let subject = game("first-ice");
     let encodings = Encodings { image: true, ..Encodings::default() };
     let settings = PromptSettings { mode: Mode::Contextual, encodings, ..PromptSettings::default() };

@@ -5,7 +5,7 @@ use agents::Budget;
 use engine::{Action, Episode, SEMANTICS};
 use evaluation::log::{Status, read, without_times};
 use evaluation::player::{Contestant, Replay};
-use evaluation::run::{FORMAT, Left, Progress, Tally, Task};
+use evaluation::run::{FORMAT, PlayResult, Progress, Tally, Task};
 use evaluation::{Entrant, Evaluation, EvaluationError, Event, Halt, Settings, Subject};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 struct Silent;
 
 impl Progress for Silent {
-    fn episode(&self, _: &Task<'_>, _: &Left) {}
+    fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
 fn settings(subjects: &[Subject]) -> Settings {
@@ -57,7 +57,7 @@ fn logs(folder: &Path) -> Vec<(PathBuf, Vec<Event>)> {
 }
 
 #[test]
-fn a_results_folder_holds_all_that_a_replay_needs() {
+fn a_results_folder_is_enough_for_a_replay() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("results");
     let tally = evaluate(&folder);
@@ -101,7 +101,7 @@ fn players_are_paired() {
 
 /// The resumed evaluation has the same logs, regardless of what was written before the program was killed.
 #[test]
-fn interrupted_evaluations_are_taken_up_again() {
+fn interrupted_evaluations_are_resumed() {
     let home = tempfile::tempdir().unwrap();
     let whole = home.path().join("whole");
     evaluate(&whole);
@@ -124,7 +124,7 @@ fn interrupted_evaluations_are_taken_up_again() {
 }
 
 #[test]
-fn an_agents_episode_is_taken_up_where_it_ends() {
+fn an_agents_episode_is_resumed_at_the_end_of_its_log() {
     let home = tempfile::tempdir().unwrap();
     let subjects = vec![corridor()];
     let actions = vec![Action::Right; 3];
@@ -152,7 +152,7 @@ fn an_agents_episode_is_taken_up_where_it_ends() {
 
 /// An episode aborted by the network or the server stays open, and is resumed later.
 #[test]
-fn environment_failures_are_not_the_players_fault() {
+fn environment_failures_do_not_count_against_the_player() {
     let home = tempfile::tempdir().unwrap();
     let subjects = vec![corridor()];
     let folder = home.path().join("results");
@@ -174,13 +174,13 @@ fn refusal(result: Result<Evaluation, EvaluationError>) -> String {
 }
 
 #[test]
-fn results_folders_are_guarded() {
+fn results_folders_are_locked_and_checked() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("results");
     let subjects = vec![corridor()];
     let evaluation = Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
     let again = Evaluation::create(&folder, settings(&subjects), subjects.clone());
-    assert!(refusal(again).contains("--resume goes on"));
+    assert!(refusal(again).contains("pass --resume to continue"));
     let busy = Evaluation::resume(&folder, &settings(&subjects));
     assert!(refusal(busy).contains("another `arcade evaluate` is writing"));
     drop(evaluation);
@@ -189,18 +189,18 @@ fn results_folders_are_guarded() {
     assert!(refusal(Evaluation::open(home.path())).contains("no results of an evaluation here"));
 
     fs::write(folder.join("games/corridor/lvl1.txt"), "wwww\nwAew\nwwww\n").unwrap();
-    assert!(refusal(Evaluation::open(&folder)).contains("lvl1.txt is not the one that was played"));
+    assert!(refusal(Evaluation::open(&folder)).contains("lvl1.txt differs from the file that was played"));
     let settings_file = folder.join("evaluation.json");
     let text = fs::read_to_string(&settings_file).unwrap();
     fs::write(&settings_file, text.replace("\"corridor\"", "\"../corridor\"")).unwrap();
-    assert!(refusal(Evaluation::open(&folder)).contains("no name of a game"));
+    assert!(refusal(Evaluation::open(&folder)).contains("is not the name of a game"));
     fs::write(&settings_file, "{}").unwrap();
     assert!(refusal(Evaluation::open(&folder)).contains("not the settings of an evaluation"));
 }
 
 /// A log whose replay differs is not resumed.
 #[test]
-fn damaged_logs_are_told() {
+fn damaged_logs_are_reported() {
     let home = tempfile::tempdir().unwrap();
     let subjects = vec![corridor()];
     let evaluation =
@@ -218,7 +218,7 @@ fn damaged_logs_are_told() {
     fs::write(&path, damaged.join("\n").replace("\"action\":\"nil\"", "\"action\":\"right\"") + "\n")
         .unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
-    assert!(error.contains("step 0 leads elsewhere than recorded"), "{error}");
+    assert!(error.contains("step 0 differs from the log when it is replayed"), "{error}");
     fs::write(&path, "no log\n").unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
     assert!(error.contains(": line 1 is not an event of an episode"), "{error}");

@@ -114,7 +114,7 @@ fn through(model: &dyn Model, messages: &[ChatMessage]) -> String {
 }
 
 #[test]
-fn moves_over_the_network_are_those_of_a_direct_call() {
+fn network_moves_equal_direct_calls() {
     for (name, mode) in [("random", Mode::ZeroShot), ("reflex", Mode::ZeroShot), ("reflex", Mode::Contextual)]
     {
         let (player, server): (PromptPlayer, Running) = (name.parse().unwrap(), spawn(name));
@@ -148,7 +148,7 @@ fn reflex_is_better_than_random() {
 const LAMP: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    lamp > Door\n    gate > Immovable\n    key > Resource limit=2\n    moth > Immovable\n    bat > Immovable\n    dart > Missile\n    avatar > ShootAvatar stype=dart\n  LevelMapping\n    . > floor\n    A > avatar floor\n    l > lamp floor\n    g > gate floor\n    k > key floor\n    m > moth floor\n    b > bat floor\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    avatar moth bat > killSprite\n    bat dart > killBoth\n    dart wall > killSprite\n    lamp avatar > killSprite scoreChange=5\n  TerminationSet\n    MultiSpriteCounter stype1=lamp stype2=bat win=True\n    SpriteCounter stype=avatar win=False\n";
 
 #[test]
-fn reflex_goes_by_the_rules() {
+fn reflex_follows_the_rules() {
     let reflex = PromptPlayer::Reflex;
     let check = |level: &str, limit: usize| {
         for rules in [Rules::Described, Rules::Vgdl] {
@@ -170,7 +170,7 @@ const CELLAR: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    drain >
 const CELLAR_LEVEL: &str = "wwwwwww\nw...o.w\nw.x...w\nw.Ax.ow\nw.....w\nwwwwwww\n";
 
 #[test]
-fn a_planner_wins_on_the_position_that_it_reads() {
+fn a_planner_wins_from_the_position_in_the_prompt() {
     let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };
     let cellar = subject("cellar", CELLAR, CELLAR_LEVEL);
     let (_, outcome) = episode(&cellar, &settings, directly(&"planner:mcts:2000".parse().unwrap()));
@@ -178,7 +178,7 @@ fn a_planner_wins_on_the_position_that_it_reads() {
 }
 
 #[test]
-fn planners_refuse_what_a_board_does_not_show() {
+fn planners_refuse_games_with_hidden_state() {
     let refusal = |source: &str, level: &str, settings: &PromptSettings| {
         let subject = subject("refused", source, level);
         let player: PromptPlayer = "planner:mcts:20".parse().unwrap();
@@ -197,16 +197,16 @@ fn planners_refuse_what_a_board_does_not_show() {
         assert!(message.contains(words), "{message}");
     };
     check(CELLAR, &PromptSettings::default(), "it needs the rules as VGDL");
-    check(&CELLAR.replace("crate > Passive", "crate > RandomNPC"), &vgdl, "chance plays a part");
+    check(&CELLAR.replace("crate > Passive", "crate > RandomNPC"), &vgdl, "the game is random");
     check(
         &CELLAR.replace("drain > Door", "drain > Door hidden=True"),
         &vgdl,
-        "the drain matters and cannot be seen",
+        "the drain affects play but is not visible",
     );
     check(
         &CELLAR.replace("crate > Passive", "crate > Missile orientation=LEFT"),
         &vgdl,
-        "things move while you do nothing",
+        "sprites move by themselves",
     );
     check(&CELLAR.replace("MovingAvatar", "MovingAvatar cooldown=3"), &vgdl, "when the avatar can move");
     check(
@@ -220,7 +220,7 @@ fn planners_refuse_what_a_board_does_not_show() {
 }
 
 #[test]
-fn errors_have_the_form_of_the_real_interfaces() {
+fn errors_have_the_format_of_the_real_apis() {
     let server = spawn("random");
     let check = |path: &str, body: &str, status: u16, code: &str| {
         let (got, document) = post(&server, path, body);
@@ -243,7 +243,7 @@ fn errors_have_the_form_of_the_real_interfaces() {
 }
 
 #[test]
-fn what_is_asked_by_hand_is_answered() {
+fn handwritten_requests_are_answered() {
     let server = spawn("random");
     let text = "## Actions\nnil, use\n\n## Turn\nTick 3 of at most 9. Score 0.";
     let parts = json!([{"type": "text", "text": text}, {"type": "image_url", "image_url": {"url": "data:"}}]);
@@ -270,11 +270,11 @@ fn connection(server: &Running, patience: Duration) -> TcpStream {
     stream
 }
 
-const PATIENT: Duration = Duration::from_secs(60);
+const GENEROUS: Duration = Duration::from_secs(60);
 
 /// Sends bytes and returns the whole reply.
 fn raw(server: &Running, bytes: &str) -> String {
-    let mut stream = connection(server, PATIENT);
+    let mut stream = connection(server, GENEROUS);
     stream.write_all(bytes.as_bytes()).unwrap();
     let mut reply = String::new();
     stream.read_to_string(&mut reply).unwrap();
@@ -283,7 +283,7 @@ fn raw(server: &Running, bytes: &str) -> String {
 
 /// A foreign page in a browser on this machine gets no answers from a served player.
 #[test]
-fn pages_of_strangers_are_refused() {
+fn foreign_pages_are_refused() {
     let server = spawn("random");
     let check = |headers: &str, status: &str, code: &str| {
         let request = format!(
@@ -317,7 +317,7 @@ const HEAD: &str = "POST /v1/chat/completions HTTP/1.1\r\nHost: localhost\r\nCon
 
 /// Slow clients are disconnected, both in the head and in the body of a request.
 #[test]
-fn slow_clients_are_let_go() {
+fn slow_clients_are_disconnected() {
     let short = Duration::from_millis(200);
     let server = bounded(Bounds { head_time: short, body_time: short, ..Bounds::default() });
     for bytes in ["", "POST /v1/chat/comp", HEAD] {
@@ -331,14 +331,14 @@ fn slow_clients_are_let_go() {
 /// Connections beyond the limit wait for one to be closed.
 #[test]
 fn connections_are_bounded() {
-    let server = bounded(Bounds { connections: 2, head_time: PATIENT, ..Bounds::default() });
-    let idle = [connection(&server, PATIENT), connection(&server, PATIENT)];
+    let server = bounded(Bounds { connections: 2, head_time: GENEROUS, ..Bounds::default() });
+    let idle = [connection(&server, GENEROUS), connection(&server, GENEROUS)];
     let mut third = connection(&server, Duration::from_millis(300));
     third.write_all(b"GET /v1/models HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n").unwrap();
     let kind = third.read(&mut [0; 1]).unwrap_err().kind();
     assert!(matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut), "{kind:?}");
     drop(idle);
-    third.set_read_timeout(Some(PATIENT)).unwrap();
+    third.set_read_timeout(Some(GENEROUS)).unwrap();
     let mut reply = String::new();
     third.read_to_string(&mut reply).unwrap();
     assert!(reply.starts_with("HTTP/1.1 200"), "{reply}");
@@ -348,8 +348,8 @@ fn connections_are_bounded() {
 #[test]
 fn bodies_are_bounded() {
     let server =
-        bounded(Bounds { body: 48 << 10, bodies: 64 << 10, body_time: PATIENT, ..Bounds::default() });
-    let mut half = connection(&server, PATIENT);
+        bounded(Bounds { body: 48 << 10, bodies: 64 << 10, body_time: GENEROUS, ..Bounds::default() });
+    let mut half = connection(&server, GENEROUS);
     half.write_all(format!("{HEAD}Content-Length: {}\r\n\r\n{{", 48 << 10).as_bytes()).unwrap();
     // The server reads what has been sent, so that room for the body is reserved.
     half.flush().unwrap();
@@ -361,7 +361,7 @@ fn bodies_are_bounded() {
     let kind = waiting.read(&mut [0; 1]).unwrap_err().kind();
     assert!(matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut), "{kind:?}");
     drop(half);
-    waiting.set_read_timeout(Some(PATIENT)).unwrap();
+    waiting.set_read_timeout(Some(GENEROUS)).unwrap();
     let mut reply = String::new();
     waiting.read_to_string(&mut reply).unwrap();
     assert!(reply.starts_with("HTTP/1.1 400") && reply.contains("invalid_json"), "{reply}");
@@ -370,7 +370,7 @@ fn bodies_are_bounded() {
     let stated = raw(&server, &format!("{HEAD}Content-Length: {much}\r\n\r\n{}", " ".repeat(much)));
     assert!(stated.starts_with("HTTP/1.1 413"), "{stated}");
     let piece = format!("{:x}\r\n{}\r\n0\r\n\r\n", 49 << 10, " ".repeat(49 << 10));
-    let mut pieces = connection(&server, PATIENT);
+    let mut pieces = connection(&server, GENEROUS);
     let _ = pieces.write_all(format!("{HEAD}Transfer-Encoding: chunked\r\n\r\n{piece}").as_bytes());
     let mut start = [0; 12];
     pieces.read_exact(&mut start).unwrap();

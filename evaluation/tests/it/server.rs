@@ -12,7 +12,7 @@ use std::time::{Duration, SystemTime};
 
 /// The server's reaction to a request.
 #[derive(Clone, Debug)]
-pub(crate) enum Act {
+pub(crate) enum Response {
     /// Sends a reply.
     Reply {
         /// The status.
@@ -30,7 +30,7 @@ pub(crate) enum Act {
 
 /// A request as the server received it.
 #[derive(Clone, Debug)]
-pub(crate) struct Asked {
+pub(crate) struct ReceivedRequest {
     /// The path and query.
     pub(crate) path: String,
     /// The headers, with names in lower case.
@@ -39,7 +39,7 @@ pub(crate) struct Asked {
     pub(crate) body: String,
 }
 
-impl Asked {
+impl ReceivedRequest {
     /// Returns the value of a header.
     pub(crate) fn header(&self, name: &str) -> Option<&str> {
         self.headers.iter().find(|(found, _)| found == name).map(|(_, value)| value.as_str())
@@ -51,31 +51,31 @@ impl Asked {
     }
 }
 
-impl Act {
+impl Response {
     /// Returns a reply with this status and body.
-    pub(crate) fn reply(status: u16, body: impl Into<Vec<u8>>) -> Act {
-        Act::Reply { status, headers: Vec::new(), body: body.into() }
+    pub(crate) fn reply(status: u16, body: impl Into<Vec<u8>>) -> Response {
+        Response::Reply { status, headers: Vec::new(), body: body.into() }
     }
 
     /// Adds a header.
-    pub(crate) fn with_header(self, name: &str, value: &str) -> Act {
+    pub(crate) fn with_header(self, name: &str, value: &str) -> Response {
         match self {
-            Act::Reply { status, mut headers, body } => {
+            Response::Reply { status, mut headers, body } => {
                 headers.push((name.to_owned(), value.to_owned()));
-                Act::Reply { status, headers, body }
+                Response::Reply { status, headers, body }
             }
             other => other,
         }
     }
 
     /// Returns a chat completion with this text, 100 tokens of prompt and 10 of answer.
-    pub(crate) fn completion(text: &str) -> Act {
+    pub(crate) fn completion(text: &str) -> Response {
         let body = json!({
             "model": "served",
             "choices": [{ "index": 0, "message": { "role": "assistant", "content": text }, "finish_reason": "stop" }],
             "usage": { "prompt_tokens": 100, "completion_tokens": 10, "total_tokens": 110 },
         });
-        Act::reply(200, body.to_string())
+        Response::reply(200, body.to_string())
     }
 }
 
@@ -86,7 +86,7 @@ pub(crate) struct Server {
     thread: Option<JoinHandle<()>>,
 }
 
-type Script = dyn Fn(usize, &Asked) -> Act + Send + Sync;
+type Script = dyn Fn(usize, &ReceivedRequest) -> Response + Send + Sync;
 
 struct Shared {
     script: Box<Script>,
@@ -96,7 +96,7 @@ struct Shared {
 
 #[derive(Default)]
 struct State {
-    asked: Vec<Asked>,
+    received: Vec<ReceivedRequest>,
     at_once: usize,
     most_at_once: usize,
     closed: bool,
@@ -104,7 +104,9 @@ struct State {
 
 impl Server {
     /// Starts a server that asks `script` for the reaction to each request; requests are counted from 0.
-    pub(crate) fn start(script: impl Fn(usize, &Asked) -> Act + Send + Sync + 'static) -> Server {
+    pub(crate) fn start(
+        script: impl Fn(usize, &ReceivedRequest) -> Response + Send + Sync + 'static,
+    ) -> Server {
         let listener = TcpListener::bind(("127.0.0.1", 0)).expect("loopback has a free port");
         let address = listener.local_addr().expect("it is bound");
         let shared =
@@ -115,7 +117,7 @@ impl Server {
     }
 
     /// Starts a server with these reactions in turn; the last one is repeated.
-    pub(crate) fn scripted(acts: Vec<Act>) -> Server {
+    pub(crate) fn scripted(acts: Vec<Response>) -> Server {
         Server::start(move |number, _| acts[number.min(acts.len() - 1)].clone())
     }
 
@@ -125,8 +127,8 @@ impl Server {
     }
 
     /// Returns all requests so far.
-    pub(crate) fn asked(&self) -> Vec<Asked> {
-        self.shared.state.lock().unwrap().asked.clone()
+    pub(crate) fn received(&self) -> Vec<ReceivedRequest> {
+        self.shared.state.lock().unwrap().received.clone()
     }
 
     /// Returns the maximum number of concurrent requests.
@@ -161,30 +163,30 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
 
 /// Serves one request. Connection errors are the client's concern.
 fn serve(mut stream: TcpStream, shared: &Shared) {
-    let Some(asked) = read(&mut stream) else { return };
+    let Some(received) = read(&mut stream) else { return };
     let number = {
         let mut state = shared.state.lock().unwrap();
-        state.asked.push(asked.clone());
+        state.received.push(received.clone());
         state.at_once += 1;
         state.most_at_once = state.most_at_once.max(state.at_once);
-        state.asked.len() - 1
+        state.received.len() - 1
     };
-    let act = (shared.script)(number, &asked);
+    let act = (shared.script)(number, &received);
     // Before the answer, because the client may send another request as soon as it has it.
     let leave = || shared.state.lock().unwrap().at_once -= 1;
     match act {
-        Act::Reply { status, headers, body } => {
+        Response::Reply { status, headers, body } => {
             let mut head = format!("HTTP/1.1 {status} As scripted\r\nContent-Length: {}\r\n", body.len());
             head.extend(headers.iter().map(|(name, value)| format!("{name}: {value}\r\n")));
             head.push_str("Connection: close\r\n\r\n");
             leave();
             let _ = stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&body));
         }
-        Act::Cut(bytes) => {
+        Response::Cut(bytes) => {
             leave();
             let _ = stream.write_all(&bytes);
         }
-        Act::Hang => {
+        Response::Hang => {
             let state = shared.state.lock().unwrap();
             let mut state = shared.closed.wait_while(state, |state| !state.closed).unwrap();
             state.at_once -= 1;
@@ -192,7 +194,7 @@ fn serve(mut stream: TcpStream, shared: &Shared) {
     }
 }
 
-fn read(stream: &mut TcpStream) -> Option<Asked> {
+fn read(stream: &mut TcpStream) -> Option<ReceivedRequest> {
     let mut reader = BufReader::new(stream);
     let mut line = String::new();
     reader.read_line(&mut line).ok()?;
@@ -207,14 +209,14 @@ fn read(stream: &mut TcpStream) -> Option<Asked> {
     let length = headers.iter().find(|(name, _)| name == "content-length").map_or("0", |(_, value)| value);
     let mut body = vec![0; length.parse().ok()?];
     reader.read_exact(&mut body).ok()?;
-    Some(Asked { path, headers, body: String::from_utf8(body).ok()? })
+    Some(ReceivedRequest { path, headers, body: String::from_utf8(body).ok()? })
 }
 
 /// A clock that advances only in sleep.
 #[derive(Default)]
-pub(crate) struct Dial(Mutex<Vec<Duration>>);
+pub(crate) struct FakeClock(Mutex<Vec<Duration>>);
 
-impl Dial {
+impl FakeClock {
     /// Returns all sleeps.
     pub(crate) fn sleeps(&self) -> Vec<Duration> {
         self.0.lock().unwrap().clone()
@@ -226,13 +228,13 @@ impl Dial {
     }
 }
 
-impl Clock for Dial {
+impl Clock for FakeClock {
     fn elapsed(&self) -> Duration {
         self.0.lock().unwrap().iter().sum()
     }
 
     fn date(&self) -> SystemTime {
-        Dial::begin() + self.elapsed()
+        FakeClock::begin() + self.elapsed()
     }
 
     fn sleep(&self, time: Duration) {
@@ -240,7 +242,7 @@ impl Clock for Dial {
     }
 }
 
-impl Dial {
+impl FakeClock {
     /// Returns the time since the start, ms.
     pub(crate) fn elapsed_ms(&self) -> u64 {
         self.elapsed().as_millis() as u64

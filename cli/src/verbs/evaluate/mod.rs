@@ -16,7 +16,7 @@ use evaluation::client::Spent;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
 use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
-use evaluation::run::{self, FORMAT, Left, Progress, SETTINGS_FILE, Tally, Task};
+use evaluation::run::{self, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
 use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use human::Human;
@@ -150,7 +150,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Evaluation::create(&folder, settings, subjects.games)
     };
     let evaluation = evaluation.map_err(failure)?;
-    ready.charge_past(&evaluation)?;
+    ready.charge_logged(&evaluation)?;
     let hint = format!(
         "interrupted: what was played is in {}; the same command with --resume goes on with it",
         folder.display()
@@ -258,10 +258,10 @@ impl Ready {
     }
 
     /// Charges the expenses of earlier runs of the evaluation.
-    fn charge_past(&self, evaluation: &Evaluation) -> Result<(), Failure> {
+    fn charge_logged(&self, evaluation: &Evaluation) -> Result<(), Failure> {
         if let Ready::Model(model) = self {
             for task in evaluation.tasks() {
-                model.caps.charge_past(&evaluation.events(&task).map_err(failure)?);
+                model.caps.charge_logged(&evaluation.events(&task).map_err(failure)?);
             }
         }
         Ok(())
@@ -429,11 +429,11 @@ impl Bar {
 }
 
 impl Progress for Bar {
-    fn episode(&self, task: &Task<'_>, left: &Left) {
-        if *left == Left::Ended(Outcome::Won) {
+    fn episode(&self, task: &Task<'_>, result: &PlayResult) {
+        if *result == PlayResult::Ended(Outcome::Won) {
             self.won.fetch_add(1, Ordering::Relaxed);
         }
-        if let Left::Halted(halt) = left {
+        if let PlayResult::Halted(halt) = result {
             self.bar.println(format!("{}: {halt}", task.file_name()));
         }
         self.bar.set_message(format!("{} won", self.won.load(Ordering::Relaxed)));

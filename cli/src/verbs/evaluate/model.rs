@@ -415,7 +415,7 @@ impl Asked {
             max_answer_tokens: most,
             max_output_tokens: longest.map(|longest| longest.output_tokens),
             max_cost: longest.and_then(|longest| longest.cost).map(Usd::dollars),
-            forbidden: self.options.limits.forbid_estimate(&estimate),
+            forbidden: self.options.limits.exceeded_by_estimate(&estimate),
         })
     }
 }

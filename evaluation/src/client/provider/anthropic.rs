@@ -1,6 +1,6 @@
 //! Anthropic's messages API.
 
-use super::{Answer, base64, joined, object, parse, words_or_none};
+use super::{Answer, base64, joined, object, parse, text_or_placeholder};
 use crate::client::chat::{ChatMessage, ChatRequest, Finish, Role, Usage};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -42,7 +42,7 @@ pub(super) fn body(model: &str, request: &ChatRequest) -> Value {
 }
 
 fn text(text: &str) -> Value {
-    json!({ "type": "text", "text": words_or_none(text) })
+    json!({ "type": "text", "text": text_or_placeholder(text) })
 }
 
 fn message(message: &ChatMessage) -> Value {
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_set_is_not_sent() {
+    fn unset_options_are_not_sent() {
         let expect = json!({
             "model": "m",
             "messages": [{ "role": "user", "content": [{ "type": "text", "text": "Hi" }] }],
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn ends() {
+    fn stop_reasons() {
         for (reason, expect) in [
             ("max_tokens", Finish::Length),
             ("refusal", Finish::Refusal),

@@ -1,6 +1,6 @@
 //! Gemini's `generateContent`.
 
-use super::{Answer, base64, object, parse, words_or_none};
+use super::{Answer, base64, object, parse, text_or_placeholder};
 use crate::client::chat::{ChatMessage, ChatRequest, Decoding, Finish, Role, Usage};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ fn generation(decoding: &Decoding) -> Value {
 }
 
 fn text(text: &str) -> Value {
-    json!({ "text": words_or_none(text) })
+    json!({ "text": text_or_placeholder(text) })
 }
 
 fn content(message: &ChatMessage) -> Value {
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_set_is_not_sent() {
+    fn unset_options_are_not_sent() {
         assert_eq!(body(&bare()), json!({ "contents": [{ "role": "user", "parts": [{ "text": "Hi" }] }] }));
         let mut request = bare();
         request.decoding.reasoning_effort = Some("512".to_owned());
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn ends() {
+    fn finish_reasons() {
         let end = |body: Value| answer(&body.to_string()).map(|answer| answer.finish);
         assert_eq!(end(json!({ "candidates": [{ "finishReason": "MAX_TOKENS" }] })), Ok(Finish::Length));
         assert_eq!(end(json!({ "candidates": [{ "finishReason": "SAFETY" }] })), Ok(Finish::Refusal));

@@ -86,7 +86,7 @@ impl Provider {
         check_ranges(asked).map_err(EvaluationError::Malformed)?;
         if self == Provider::Anthropic {
             if asked.seed.is_some() {
-                let problem = "anthropic has no sampling seed; leave it out".to_owned();
+                let problem = "anthropic has no sampling seed; remove the option".to_owned();
                 return Err(EvaluationError::Malformed(problem));
             }
             decoding.max_output_tokens.get_or_insert(anthropic::MAX_TOKENS);
@@ -158,11 +158,11 @@ fn check_ranges(decoding: &Decoding) -> Result<(), String> {
 }
 
 /// The text sent for an empty message, for APIs that do not allow one: it shows a model that it has said nothing.
-const NO_WORDS: &str = "(no words)";
+const PLACEHOLDER: &str = "(no words)";
 
-/// Returns the text, or [`NO_WORDS`] if it is empty.
-fn words_or_none(text: &str) -> &str {
-    if text.trim().is_empty() { NO_WORDS } else { text }
+/// Returns the text, or [`PLACEHOLDER`] if it is empty.
+fn text_or_placeholder(text: &str) -> &str {
+    if text.trim().is_empty() { PLACEHOLDER } else { text }
 }
 
 /// Encodes a picture as text.
@@ -207,7 +207,7 @@ mod tests {
 
     /// Otherwise sums would overflow, and caps would be reached by a server's mistake.
     #[test]
-    fn counts_that_no_request_has_are_left_out() {
+    fn implausible_counts_are_left_out() {
         let body = r#"{"choices":[{"message":{"content":"up"},"finish_reason":"stop"}],
             "usage":{"prompt_tokens":18446744073709551615,"completion_tokens":10}}"#;
         let usage = Provider::Compatible.answer(body).unwrap().usage;

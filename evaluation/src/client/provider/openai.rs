@@ -107,8 +107,9 @@ pub(super) fn answer(body: &str) -> Result<Answer, String> {
     let Some(choice) = completion.choices.into_iter().next() else {
         // Gateways report the errors of their upstream servers in this way.
         let error = completion.error.filter(|error| !error.is_null());
-        return Err(error
-            .map_or("a body without choices".to_owned(), |error| format!("an error for a reply: {error}")));
+        return Err(error.map_or("a body without choices".to_owned(), |error| {
+            format!("an error instead of a reply: {error}")
+        }));
     };
     let refused = choice.message.refusal.filter(|words| !words.is_empty());
     let finish = match choice.finish_reason.as_deref() {
@@ -183,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_set_is_not_sent() {
+    fn unset_options_are_not_sent() {
         let expect = json!({ "model": "m", "messages": [{ "role": "user", "content": "Hi" }] });
         assert_eq!(body("m", &bare(), Dialect::Own), expect);
     }
@@ -225,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn reasoning_beside_the_answer_is_counted_in() {
+    fn separate_reasoning_tokens_are_counted() {
         let answer = check(
             json!({
                 "choices": [{ "message": { "content": "up" }, "finish_reason": "stop" }],
@@ -241,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn other_ends_and_shapes() {
+    fn other_finish_reasons_and_shapes() {
         let choice = |message: Value, finish: &str| json!({ "choices": [{ "message": message, "finish_reason": finish }] });
         let answer = check(choice(json!({ "content": "So, I th" }), "length"), "So, I th", Finish::Length);
         assert_eq!(answer.usage, Usage::default(), "what is not told is not 0");
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_that_are_no_replies() {
+    fn malformed_bodies_are_rejected() {
         for (body, words) in [
             ("", "not a reply"),
             ("<html></html>", "not a reply"),

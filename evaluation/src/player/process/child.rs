@@ -17,19 +17,19 @@ use tempfile::TempDir;
 pub(super) const MAX_LINE: usize = 1 << 20;
 
 /// The number of bytes kept from the end of standard error.
-const MAX_LAST_WORDS: usize = 2000;
+const STDERR_TAIL: usize = 2000;
 
 /// The number of lines that a process may be ahead of us before its writes block.
-const AHEAD: usize = 16;
+const MAX_QUEUED_LINES: usize = 16;
 
 /// The time for a process to exit after it has been told of the end.
-pub(super) const LEAVING: Duration = Duration::from_secs(2);
+pub(super) const EXIT_TIME: Duration = Duration::from_secs(2);
 
 /// The time for the threads to deliver the remaining output of a dead process.
-const SETTLING: Duration = Duration::from_millis(500);
+const DRAIN_TIME: Duration = Duration::from_millis(500);
 
 /// The number of polls for a guard to kill its program and exit, and the pause between them: ten seconds at most.
-const LOOKS: u32 = 2000;
+const POLLS: u32 = 2000;
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The environment variables that every process inherits, if they are set: the locations of programs, libraries and their
@@ -51,14 +51,14 @@ const ENVIRONMENT: &[&str] = &[
 /// A running process with an empty folder of its own. Dropping it kills the process with all its descendants, and removes
 /// the folder.
 #[derive(Debug)]
-pub(super) struct Talker {
+pub(super) struct LineProcess {
     /// The process or its guard.
     child: Child,
     is_guarded: bool,
     /// `None` once nothing more will be sent.
-    says: Option<Sender<Vec<u8>>>,
-    hears: Receiver<Heard>,
-    last_words: Receiver<String>,
+    input: Option<Sender<Vec<u8>>>,
+    output: Receiver<Output>,
+    stderr_tail: Receiver<String>,
     /// Removed on drop.
     _folder: TempDir,
     ended: bool,
@@ -66,25 +66,25 @@ pub(super) struct Talker {
 
 /// The output on standard output.
 #[derive(Debug)]
-enum Heard {
+enum Output {
     Line(Vec<u8>),
     TooLong,
 }
 
 /// The reason why there is no line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Silence {
+pub(super) enum NoLine {
     /// No line arrived in time.
     TimedOut,
     /// The process has closed its standard output: it is dead or about to exit.
     Closed,
     /// A line longer than [`MAX_LINE`].
-    Flood,
+    TooLong,
     /// Too many answers to earlier questions.
     Stale,
 }
 
-impl Talker {
+impl LineProcess {
     /// Starts a program, behind a guard if there is a command for one. Words of the command that name files are made
     /// absolute, because the process runs in another folder.
     ///
@@ -94,7 +94,7 @@ impl Talker {
         words: &[String],
         inherited: &[String],
         guard: &[OsString],
-    ) -> std::io::Result<Talker> {
+    ) -> std::io::Result<LineProcess> {
         let place = std::path::absolute(std::env::temp_dir())?;
         let folder = tempfile::Builder::new().prefix("arcade-player-").tempdir_in(place)?;
         let (program, arguments) = words.split_first().expect("a command has a first word");
@@ -121,51 +121,51 @@ impl Talker {
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut child = spawn(&mut command, !guard.is_empty())?;
 
-        let (says, lines) = channel();
-        let (heard, hears) = sync_channel(AHEAD);
-        let (words, last_words) = channel();
+        let (input, lines) = channel();
+        let (sender, output) = sync_channel(MAX_QUEUED_LINES);
+        let (tail_sender, stderr_tail) = channel();
         let stdin = child.stdin.take().expect("it is piped");
         let stdout = child.stdout.take().expect("it is piped");
         let stderr = child.stderr.take().expect("it is piped");
         thread::spawn(move || write(stdin, &lines));
-        thread::spawn(move || read(stdout, &heard));
-        thread::spawn(move || words.send(tail(stderr)));
-        Ok(Talker {
+        thread::spawn(move || read(stdout, &sender));
+        thread::spawn(move || tail_sender.send(tail(stderr)));
+        Ok(LineProcess {
             child,
             is_guarded: !guard.is_empty(),
-            says: Some(says),
-            hears,
-            last_words,
+            input: Some(input),
+            output,
+            stderr_tail,
             _folder: folder,
             ended: false,
         })
     }
 
     /// Sends a line without waiting until it is read.
-    pub(super) fn say(&self, mut line: Vec<u8>) {
+    pub(super) fn send_line(&self, mut line: Vec<u8>) {
         line.push(b'\n');
-        if let Some(says) = &self.says {
+        if let Some(input) = &self.input {
             // If nobody reads it, the missing answer will reveal that.
-            let _ = says.send(line);
+            let _ = input.send(line);
         }
     }
 
     /// Returns the next line without its line ending.
-    pub(super) fn hear(&self, timeout: Duration) -> Result<Vec<u8>, Silence> {
-        match self.hears.recv_timeout(timeout) {
-            Ok(Heard::Line(line)) => Ok(line),
-            Ok(Heard::TooLong) => Err(Silence::Flood),
-            Err(RecvTimeoutError::Timeout) => Err(Silence::TimedOut),
-            Err(RecvTimeoutError::Disconnected) => Err(Silence::Closed),
+    pub(super) fn receive(&self, timeout: Duration) -> Result<Vec<u8>, NoLine> {
+        match self.output.recv_timeout(timeout) {
+            Ok(Output::Line(line)) => Ok(line),
+            Ok(Output::TooLong) => Err(NoLine::TooLong),
+            Err(RecvTimeoutError::Timeout) => Err(NoLine::TimedOut),
+            Err(RecvTimeoutError::Disconnected) => Err(NoLine::Closed),
         }
     }
 
     /// Closes the input, and gives the process a moment to exit by itself. Its output is ignored.
-    pub(super) fn let_go(mut self) {
-        self.says = None;
-        let told = Stopwatch::start();
-        while let Some(left) = LEAVING.checked_sub(told.elapsed()) {
-            if self.hear(left).is_err() {
+    pub(super) fn close(mut self) {
+        self.input = None;
+        let closed = Stopwatch::start();
+        while let Some(left) = EXIT_TIME.checked_sub(closed.elapsed()) {
+            if self.receive(left).is_err() {
                 return;
             }
         }
@@ -174,12 +174,12 @@ impl Talker {
     /// Kills the process with all its descendants. Returns its exit status, if it had already exited, and the end of its
     /// standard error.
     pub(super) fn kill(mut self) -> (Option<ExitStatus>, String) {
-        if matches!(self.hear(Duration::ZERO), Err(Silence::Closed)) {
+        if matches!(self.receive(Duration::ZERO), Err(NoLine::Closed)) {
             // It is exiting: after a moment it has its own exit status.
-            thread::sleep(SETTLING / 10);
+            thread::sleep(DRAIN_TIME / 10);
         }
         let status = self.end().filter(|status| status.code().is_some());
-        (status, self.last_words.recv_timeout(SETTLING).unwrap_or_default())
+        (status, self.stderr_tail.recv_timeout(DRAIN_TIME).unwrap_or_default())
     }
 
     /// Kills the remaining processes and reaps the child.
@@ -202,7 +202,7 @@ impl Talker {
         if self.is_guarded {
             let _ = kill_process(id, Signal::TERM);
             let how = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
-            for _ in 0..LOOKS {
+            for _ in 0..POLLS {
                 if !matches!(waitid(WaitId::Pid(id), how), Ok(None)) {
                     break;
                 }
@@ -228,7 +228,7 @@ impl Talker {
     }
 }
 
-impl Drop for Talker {
+impl Drop for LineProcess {
     fn drop(&mut self) {
         self.end();
     }
@@ -269,7 +269,7 @@ fn write(mut stdin: impl Write, lines: &Receiver<Vec<u8>>) {
     }
 }
 
-fn read(stdout: impl Read, heard: &SyncSender<Heard>) {
+fn read(stdout: impl Read, sender: &SyncSender<Output>) {
     let mut stdout = BufReader::new(stdout);
     loop {
         let mut line = Vec::new();
@@ -278,8 +278,8 @@ fn read(stdout: impl Read, heard: &SyncSender<Heard>) {
             Ok(_) => {}
         }
         let ended = line.pop_if(|&mut last| last == b'\n').is_some();
-        let said = if ended || line.len() <= MAX_LINE { Heard::Line(line) } else { Heard::TooLong };
-        if heard.send(said).is_err() || !ended {
+        let output = if ended || line.len() <= MAX_LINE { Output::Line(line) } else { Output::TooLong };
+        if sender.send(output).is_err() || !ended {
             return;
         }
     }
@@ -290,7 +290,7 @@ fn tail(mut stderr: impl Read) -> String {
     let (mut kept, mut bytes) = (VecDeque::new(), [0; 4096]);
     while let Ok(length @ 1..) = stderr.read(&mut bytes) {
         kept.extend(&bytes[..length]);
-        kept.drain(..kept.len().saturating_sub(MAX_LAST_WORDS));
+        kept.drain(..kept.len().saturating_sub(STDERR_TAIL));
     }
     String::from_utf8_lossy(kept.make_contiguous()).trim().to_owned()
 }

@@ -10,7 +10,7 @@
 //! program escape. A control group would find no more: a process started through an external service (`systemd-run`,
 //! `docker`) escapes both.
 
-use super::child::LEAVING;
+use super::child::EXIT_TIME;
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitOptions, getpid, kill_process, kill_process_group, wait};
 use signal_hook::consts::{SIGCHLD, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
@@ -51,7 +51,7 @@ enum Event {
 /// Returns the exit status of the program, 128 plus the signal that ended it, or 126 if it could not be started. A guard
 /// that has to kill its program ends by `SIGKILL` itself, with its process group, of which it should be the leader.
 pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
-    let (tell, events) = channel();
+    let (sender, events) = channel();
     let started = Signals::new([SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT]).and_then(|signals| {
         // On systems without subreapers, killing the group has to suffice.
         #[cfg(target_os = "linux")]
@@ -68,15 +68,15 @@ pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
         }
     };
     release_output();
-    relay(child.stdin.take().expect("it is piped"), tell.clone());
-    let told = tell.clone();
-    thread::spawn(move || signals.forever().all(|signal| told.send(Event::Signal(signal)).is_ok()));
+    relay(child.stdin.take().expect("it is piped"), sender.clone());
+    let signal_sender = sender.clone();
+    thread::spawn(move || signals.forever().all(|signal| signal_sender.send(Event::Signal(signal)).is_ok()));
     let mut program = Program { child, status: None };
-    let is_heard = program.attend(&events, &tell);
+    let exited = program.wait_for_end(&events, &sender);
     program.kill();
     let _ = std::fs::remove_dir_all(folder);
     match program.status {
-        Some(status) if is_heard => status,
+        Some(status) if exited => status,
         _ => {
             let _ = kill_process_group(rustix::process::getpgrp(), Signal::KILL);
             unreachable!("SIGKILL ends every process")
@@ -96,24 +96,24 @@ impl Program {
     }
 
     /// Waits until everything has ended or has to end. Returns `true` if the exit status may be needed.
-    fn attend(&mut self, events: &Receiver<Event>, tell: &Sender<Event>) -> bool {
+    fn wait_for_end(&mut self, events: &Receiver<Event>, sender: &Sender<Event>) -> bool {
         loop {
             match events.recv().expect("this thread can tell itself") {
                 Event::Signal(SIGCHLD) => {
-                    if !self.bury() {
+                    if !self.reap() {
                         return true;
                     }
                 }
                 Event::Signal(_) => {
                     // If it has exited by itself, it keeps its own status.
-                    self.bury();
+                    self.reap();
                     return true;
                 }
                 Event::InputEnded => {
-                    let tell = tell.clone();
+                    let sender = sender.clone();
                     thread::spawn(move || {
-                        thread::sleep(LEAVING);
-                        tell.send(Event::TimeUp)
+                        thread::sleep(EXIT_TIME);
+                        sender.send(Event::TimeUp)
                     });
                 }
                 Event::TimeUp => return false,
@@ -131,7 +131,7 @@ impl Program {
             if had_left.is_none() && self.status.is_none() {
                 let _ = kill_process(self.pid(), Signal::KILL);
             }
-            if !self.bury() {
+            if !self.reap() {
                 break;
             }
             thread::sleep(PAUSE);
@@ -140,7 +140,7 @@ impl Program {
     }
 
     /// Reaps all ended processes. Returns `true` if any is left.
-    fn bury(&mut self) -> bool {
+    fn reap(&mut self) -> bool {
         loop {
             match wait(WaitOptions::NOHANG) {
                 Ok(Some((pid, ended))) if pid == self.pid() => {
@@ -165,7 +165,7 @@ fn release_output() {
 
 /// Relays standard input to the program. Reading never waits for writing, so that the end of input is noticed while the
 /// program reads nothing. The buffer holds only messages that `arcade` sent without waiting for an answer.
-fn relay(mut to: ChildStdin, tell: Sender<Event>) {
+fn relay(mut to: ChildStdin, sender: Sender<Event>) {
     let (pass, passed) = channel::<Vec<u8>>();
     thread::spawn(move || {
         let mut bytes = vec![0; 1 << 16];
@@ -175,7 +175,7 @@ fn relay(mut to: ChildStdin, tell: Sender<Event>) {
             let _ = pass.send(bytes[..length].to_vec());
         }
         drop(pass);
-        tell.send(Event::InputEnded)
+        sender.send(Event::InputEnded)
     });
     thread::spawn(move || passed.iter().try_for_each(|bytes| to.write_all(&bytes)));
 }
@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parents_are_read_whatever_a_process_is_called() {
+    fn parents_are_parsed_for_any_process_name() {
         assert_eq!(parent(b"17 (sh) S 4 17 17 0"), Some(4));
         assert_eq!(parent(b"17 (a) S 9 (b)\xff) R 4 17"), Some(4));
         assert_eq!(parent(b"17 (sh"), None);

@@ -25,7 +25,7 @@ use crate::log::{Event, Journal, Reply, ReplyClass};
 use crate::player::{Agent, Choice, Halt, Validity};
 use crate::run::clock::Stopwatch;
 use crate::turn::Turn;
-use child::{Silence, Talker};
+use child::{LineProcess, NoLine};
 use engine::Action;
 use engine::describe::Guide;
 use message::{Message, Past, Seen};
@@ -38,7 +38,7 @@ use std::time::Duration;
 const MAX_RECORDED: usize = 500;
 
 /// The number of times to ask again after a wrong answer.
-const ASKED_AGAIN: u32 = 1;
+const MAX_REASKS: u32 = 1;
 
 /// The maximum number of bytes of answers to earlier turns before the answer to a question, 1 MiB.
 const MAX_STALE: usize = 1 << 20;
@@ -72,7 +72,7 @@ pub struct Process {
 
 #[derive(Debug)]
 struct Running {
-    talker: Talker,
+    process: LineProcess,
     shown: Shown,
 }
 
@@ -84,7 +84,7 @@ impl Process {
     pub fn new(command: &str, config: ProcessConfig) -> Result<Process, String> {
         let words = shlex::split(command).filter(|words| words.first().is_some_and(|word| !word.is_empty()));
         let words = words.ok_or_else(|| {
-            format!("`cmd:{command}` is no command line; write the program and its arguments, quoted as for a shell")
+            format!("`cmd:{command}` is not a command line; write the program and its arguments, quoted as for a shell")
         })?;
         Ok(Process { command: command.to_owned(), words, config, running: None })
     }
@@ -109,14 +109,14 @@ impl Process {
         let running = match self.running.take() {
             Some(running) => running,
             None => {
-                let started = Talker::start(&self.words, &self.config.inherited, &self.config.guard);
-                let talker = started.map_err(|error| match error.kind() {
+                let started = LineProcess::start(&self.words, &self.config.inherited, &self.config.guard);
+                let process = started.map_err(|error| match error.kind() {
                     std::io::ErrorKind::Interrupted => Halt::Interrupted,
                     _ => self.not_started(&error.to_string()),
                 })?;
                 let shown = Shown::of(turn);
-                talker.say(line(&shown.hello(turn)));
-                Running { talker, shown }
+                process.send_line(line(&shown.hello(turn)));
+                Running { process, shown }
             }
         };
         Ok(self.running.insert(running))
@@ -127,24 +127,24 @@ impl Process {
     }
 
     /// Handles a failure of the player: kills it and reports its last output.
-    fn failed(&mut self, silence: Silence, turn: &Turn<'_>) -> Halt {
+    fn failed(&mut self, no_line: NoLine, turn: &Turn<'_>) -> Halt {
         let number = turn.number;
-        let what = match silence {
-            Silence::TimedOut => {
+        let what = match no_line {
+            NoLine::TimedOut => {
                 let seconds = self.config.timeout.as_secs_f64();
-                format!("has not answered at step {number} within {seconds} s")
+                format!("did not answer at step {number} within {seconds} s")
             }
-            Silence::Closed => format!("has left at step {number}"),
-            Silence::Flood => {
+            NoLine::Closed => format!("exited at step {number}"),
+            NoLine::TooLong => {
                 let limit = child::MAX_LINE / 1024;
-                format!("has written a line of more than {limit} KiB at step {number}")
+                format!("wrote a line of more than {limit} KiB at step {number}")
             }
-            Silence::Stale => {
+            NoLine::Stale => {
                 let limit = MAX_STALE / 1024;
-                format!("has written more than {limit} KiB of answers to earlier steps at step {number}")
+                format!("wrote more than {limit} KiB of answers to earlier steps at step {number}")
             }
         };
-        let (status, words) = self.running.take().map_or((None, String::new()), |it| it.talker.kill());
+        let (status, words) = self.running.take().map_or((None, String::new()), |it| it.process.kill());
         #[cfg(unix)]
         if running::running().is_over() {
             return Halt::Interrupted;
@@ -156,8 +156,13 @@ impl Process {
             return self.not_started(why);
         }
         let status = status.map_or_else(String::new, |status| format!(" ({status})"));
-        let words =
-            if words.is_empty() { ", and said nothing" } else { "; its last words: " }.to_owned() + &words;
+        let words = if words.is_empty() {
+            ", and its standard error is empty"
+        } else {
+            "; the end of its standard error: "
+        }
+        .to_owned()
+            + &words;
         Halt::Infrastructure(format!("`{}` {what}{status}{words}", self.command))
     }
 }
@@ -166,19 +171,19 @@ impl Agent for Process {
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
         let timeout = self.config.timeout;
         let running = self.running(turn)?;
-        running.talker.say(line(&running.shown.turn(turn, None)));
-        for attempt in 0..=ASKED_AGAIN {
-            let answer = match hear(&self.running(turn)?.talker, timeout, turn.number) {
+        running.process.send_line(line(&running.shown.turn(turn, None)));
+        for attempt in 0..=MAX_REASKS {
+            let answer = match receive(&self.running(turn)?.process, timeout, turn.number) {
                 Ok(answer) => answer,
-                Err(silence) => return Err(self.failed(silence, turn)),
+                Err(no_line) => return Err(self.failed(no_line, turn)),
             };
             match read(&answer, turn) {
                 Ok(action) => return Ok(Choice { action, validity: Validity::Valid }),
                 Err(message) => {
                     record(journal, turn, attempt, &answer)?;
-                    if attempt < ASKED_AGAIN {
+                    if attempt < MAX_REASKS {
                         let again = Message::Invalid { turn: turn.number, message };
-                        self.running(turn)?.talker.say(line(&again));
+                        self.running(turn)?.process.send_line(line(&again));
                     }
                 }
             }
@@ -189,16 +194,16 @@ impl Agent for Process {
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, choice: &Choice) -> Result<(), Halt> {
         let running = self.running(turn)?;
         let past = Past { past: true, action: choice.action };
-        running.talker.say(line(&running.shown.turn(turn, Some(past))));
+        running.process.send_line(line(&running.shown.turn(turn, Some(past))));
         Ok(())
     }
 
     fn end(&mut self, last: &Turn<'_>) {
-        if let Some(Running { talker, shown }) = self.running.take() {
+        if let Some(Running { process, shown }) = self.running.take() {
             let end =
                 Message::End { turn: last.number, seen: shown.seen(last), outcome: last.observation.outcome };
-            talker.say(line(&end));
-            talker.let_go();
+            process.send_line(line(&end));
+            process.close();
         }
     }
 }
@@ -259,17 +264,17 @@ struct Addressed {
 
 /// Returns the next answer. Answers to an earlier turn are skipped, so that an agent that names turns cannot get out of
 /// step; the timeout keeps running meanwhile.
-fn hear(talker: &Talker, timeout: Duration, turn: u64) -> Result<Vec<u8>, Silence> {
+fn receive(process: &LineProcess, timeout: Duration, turn: u64) -> Result<Vec<u8>, NoLine> {
     let (asked, mut stale) = (Stopwatch::start(), 0);
     loop {
-        let left = timeout.checked_sub(asked.elapsed()).ok_or(Silence::TimedOut)?;
-        let answer = talker.hear(left)?;
+        let left = timeout.checked_sub(asked.elapsed()).ok_or(NoLine::TimedOut)?;
+        let answer = process.receive(left)?;
         if !serde_json::from_slice::<Addressed>(&answer).is_ok_and(|addressed| addressed.turn < turn) {
             return Ok(answer);
         }
         stale += answer.len() + 1;
         if stale > MAX_STALE {
-            return Err(Silence::Stale);
+            return Err(NoLine::Stale);
         }
     }
 }
@@ -281,15 +286,15 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Action, String> {
         && addressed > turn.number
     {
         let number = turn.number;
-        return Err(format!(
-            "this is an answer to turn {addressed}, which is still to come: this is turn {number}"
-        ));
+        return Err(format!("this answers turn {addressed}, but the current turn is {number}"));
     }
     let names = || actions.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     let Answer { action } = serde_json::from_slice(answer)
         .map_err(|error| format!("{error}; answer {{\"action\": …}} with one of {}", names()))?;
     let known = actions.iter().find(|known| known.to_string() == action);
-    known.copied().ok_or_else(|| format!("there is no action `{action}` now; there are {}", names()))
+    known
+        .copied()
+        .ok_or_else(|| format!("the action `{action}` is not available now; available: {}", names()))
 }
 
 /// Records a wrong answer, unless an interrupted run has already done so.

@@ -38,7 +38,7 @@ fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
     let found = match path.metadata() {
         Ok(found) => found,
         Err(error) if error.kind() == std::io::ErrorKind::PermissionDenied => {
-            return Err(format!("`{word}` may not be read; check the permissions of its folder"));
+            return Err(format!("`{word}` cannot be accessed; check the permissions of its folder"));
         }
         Err(_) => {
             let folder = path.parent().unwrap_or(Path::new(""));
@@ -55,7 +55,7 @@ fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
         return Err(format!("`{word}` is a folder, not a program"));
     }
     match is_program && found.permissions().mode() & 0o111 == 0 {
-        true => Err(format!("`{word}` may not be executed; `chmod +x {word}` allows it")),
+        true => Err(format!("`{word}` is not executable; run `chmod +x {word}`")),
         false => Ok(()),
     }
 }
@@ -98,7 +98,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn what_cannot_be_started_is_told_with_what_is_meant() {
+    fn missing_programs_are_reported_with_a_suggestion() {
         let home = tempfile::tempdir().unwrap();
         let bin = home.path().join("bin");
         fs::create_dir(&bin).unwrap();
@@ -122,7 +122,7 @@ mod tests {
         check("python3 agnet.py", Some("there is no file `agnet.py`; did you mean `agent.py`?"));
         check("python3 other.py", Some("there is no file `other.py`"));
         check("./rum.sh", Some("there is no file `./rum.sh`; did you mean `./run.sh`?"));
-        check("./agent.py", Some("`./agent.py` may not be executed; `chmod +x ./agent.py` allows it"));
+        check("./agent.py", Some("`./agent.py` is not executable; run `chmod +x ./agent.py`"));
         check("./bin", Some("`./bin` is a folder, not a program"));
         check("notes", Some("there is no program `notes` in PATH"));
         check(

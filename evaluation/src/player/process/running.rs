@@ -10,7 +10,7 @@ use std::time::Duration;
 static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: BTreeMap::new() });
 
 /// The number of polls until all players are gone, and the pause between them: three seconds at most.
-const LOOKS: u32 = 600;
+const POLLS: u32 = 600;
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The players by process id, and if they have a guard.
@@ -55,7 +55,7 @@ pub fn end_all() {
         };
     }
     drop(all);
-    for _ in 0..LOOKS {
+    for _ in 0..POLLS {
         if running().players.is_empty() {
             return;
         }

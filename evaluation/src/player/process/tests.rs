@@ -135,7 +135,7 @@ fn an_episode_is_played_in_lines() {
 }
 
 #[test]
-fn past_turns_are_told_and_not_asked() {
+fn past_turns_are_sent_without_a_question() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("heard");
     // Answers only messages that are not marked as past.
@@ -174,16 +174,16 @@ fn a_wrong_answer_is_asked_again_once() {
     let [first, second, third] = texts;
     assert_eq!(wrong, [(0, 0, invalid, first), (1, 0, invalid, second), (1, 1, invalid, third)]);
     let message = board.failure();
-    assert!(message.contains("has left at step 2") && message.contains("exit status: 3"), "{message}");
+    assert!(message.contains("exited at step 2") && message.contains("exit status: 3"), "{message}");
     assert!(
-        message.contains("there is no action `jump` now; there are nil, up, left, down, right"),
+        message.contains("the action `jump` is not available now; available: nil, up, left, down, right"),
         "{message}"
     );
 }
 
 /// An answer that names its turn is never used for another turn.
 #[test]
-fn late_answers_are_passed_over() {
+fn late_answers_are_skipped() {
     let mut board = Board::of(
         "read hello; read turn; echo '{\"turn\":0,\"action\":\"up\"}'; echo '{\"turn\":0,\"action\":\"up\"}'; read turn; \
          echo '{\"turn\":1,\"action\":\"right\"}'; read end",
@@ -194,22 +194,19 @@ fn late_answers_are_passed_over() {
 
 /// An answer to a later turn is wrong: otherwise all further answers would be out of step.
 #[test]
-fn answers_to_turns_still_to_come_are_wrong() {
+fn answers_to_future_turns_are_invalid() {
     let mut board = Board::of(
         "read hello; read turn; echo '{\"turn\":5,\"action\":\"up\"}'; read invalid; echo \"$invalid\" >&2; \
          echo '{\"turn\":0,\"action\":\"left\"}'; read turn; exit 3",
     );
     assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Left));
     let message = board.failure();
-    assert!(
-        message.contains("this is an answer to turn 5, which is still to come: this is turn 0"),
-        "{message}"
-    );
+    assert!(message.contains("this answers turn 5, but the current turn is 0"), "{message}");
 }
 
 /// Answers to earlier turns neither restart the timeout nor use unlimited memory.
 #[test]
-fn late_answers_do_not_put_off_the_end_of_the_time() {
+fn late_answers_do_not_extend_the_timeout() {
     let begin = "read hello; read turn; echo '{\"turn\":0,\"action\":\"up\"}'; read turn; ";
     let mut slow = Board::with(
         &format!(
@@ -220,7 +217,7 @@ fn late_answers_do_not_put_off_the_end_of_the_time() {
     );
     slow.decide().unwrap();
     let message = slow.failure();
-    assert!(message.contains("has not answered at step 1 within 0.9 s"), "{message}");
+    assert!(message.contains("did not answer at step 1 within 0.9 s"), "{message}");
     let mut endless = Board::of(&format!("{begin} exec yes '{{\"turn\":0,\"action\":\"up\"}}'"));
     endless.decide().unwrap();
     let message = endless.failure();
@@ -228,24 +225,24 @@ fn late_answers_do_not_put_off_the_end_of_the_time() {
 }
 
 #[test]
-fn a_process_that_fails_is_told_with_its_last_words() {
+fn failures_are_reported_with_the_end_of_stderr() {
     let check = |script: &str, timeout: Duration, expected: &[&str]| {
         let message = Board::with(script, timeout).failure();
         assert!(expected.iter().all(|words| message.contains(words)), "{script}: {message}");
     };
     let (soon, late) = (Duration::from_millis(300), Duration::from_secs(60));
+    check("echo no such module >&2; exit 1", late, &["exited at step 0 (exit status: 1)", "no such module"]);
     check(
-        "echo no such module >&2; exit 1",
-        late,
-        &["has left at step 0 (exit status: 1)", "no such module"],
+        "read hello; exec sleep 600",
+        soon,
+        &["did not answer at step 0 within 0.3 s", "its standard error is empty"],
     );
-    check("read hello; exec sleep 600", soon, &["has not answered at step 0 within 0.3 s", "said nothing"]);
     check("yes | tr -d '\\n'; echo over >&2", late, &["a line of more than 1024 KiB"]);
     check("kill -9 $$", late, &["has left"]);
 }
 
 #[test]
-fn what_cannot_be_started_ends_it_all() {
+fn a_missing_program_stops_the_evaluation() {
     let mut board = Board::of("true");
     board.agent = Process::new("no-such-program-anywhere x", ProcessConfig::default()).unwrap();
     assert!(
@@ -257,7 +254,7 @@ fn what_cannot_be_started_ends_it_all() {
 }
 
 #[test]
-fn nothing_is_left_behind() {
+fn processes_and_folders_are_removed() {
     // Its child stays when the process is let go, and is killed with it.
     let folder = tempfile::tempdir().unwrap();
     let pid = folder.path().join("pid");
@@ -266,8 +263,8 @@ fn nothing_is_left_behind() {
         pid.display()
     ));
     board.decide().unwrap();
-    let talker = &board.agent.running.as_ref().unwrap().talker;
-    let (own, path) = (talker.id(), talker.folder().to_owned());
+    let process = &board.agent.running.as_ref().unwrap().process;
+    let (own, path) = (process.id(), process.folder().to_owned());
     assert_eq!(std::fs::read_dir(&path).unwrap().count(), 0);
     let child = std::fs::read_to_string(&pid).unwrap().trim().parse().unwrap();
     board.end();
@@ -301,7 +298,7 @@ fn the_environment_is_small() {
 }
 
 #[test]
-fn outcomes_are_told() {
+fn outcomes_are_sent() {
     let mut board = Board::of("while read line; do echo '{\"action\":\"right\"}'; done");
     let path: Vec<Action> = [Action::Right; 3].into_iter().chain([Action::Down]).collect();
     path.into_iter().for_each(|action| board.play(action));

@@ -15,26 +15,26 @@ pub(super) struct Beliefs<'a> {
     /// Things that can be pushed.
     pub(super) pushed: BTreeSet<&'a str>,
     /// Things that kill by touch, if the condition holds.
-    kills: Vec<(&'a str, Option<Need<'a>>)>,
+    kills: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
     /// Things that are removed by touch, if the condition holds.
-    taken: Vec<(&'a str, Option<Need<'a>>)>,
+    taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
     /// Things whose touch has another effect: on the type of the player, on its resources, or elsewhere.
     pub(super) changes: BTreeSet<&'a str>,
     /// Things whose removal wins the game.
     pub(super) wins: BTreeSet<&'a str>,
     /// Things whose removal loses the game.
-    pub(super) precious: BTreeSet<&'a str>,
+    pub(super) must_keep: BTreeSet<&'a str>,
     /// Things that move by themselves.
     pub(super) moves: BTreeSet<&'a str>,
     /// Pairs of a thing and another one whose touch removes it.
-    ends: Vec<(&'a str, &'a str)>,
+    removals: Vec<(&'a str, &'a str)>,
     /// The product of the use key.
     pub(super) shot: Option<Shot<'a>>,
 }
 
 /// A resource condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Need<'a> {
+struct ResourceCondition<'a> {
     resource: &'a str,
     least: i32,
     /// `true` if the resource must not be held.
@@ -47,11 +47,11 @@ pub(super) struct Shot<'a> {
     /// The type.
     pub(super) name: &'a str,
     /// `true` if it appears at the player's position, not ahead.
-    pub(super) here: bool,
+    pub(super) at_player: bool,
     /// The resources it costs.
     pub(super) ammo: Vec<&'a str>,
     /// `Some` if it moves by itself; the direction is given if it is always the same.
-    pub(super) flies: Option<Option<&'a str>>,
+    pub(super) flight: Option<Option<&'a str>>,
 }
 
 /// A party in a sentence.
@@ -162,12 +162,12 @@ impl<'a> Beliefs<'a> {
 
     /// Returns `true` if a shot removes it.
     pub(super) fn is_shot(&self, name: &str) -> bool {
-        self.shot.as_ref().is_some_and(|shot| self.ends.contains(&(name, shot.name)))
+        self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(name, shot.name)))
     }
 
     /// Returns `true` if it stops a shot.
     pub(super) fn stops_shots(&self, name: &str) -> bool {
-        self.shot.as_ref().is_some_and(|shot| self.ends.contains(&(shot.name, name)))
+        self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(shot.name, name)))
     }
 
     fn group(&mut self, found: &Captures<'a>) {
@@ -185,7 +185,7 @@ impl<'a> Beliefs<'a> {
 
     fn lose(&mut self, found: &Captures<'a>) {
         let names = self.names(found, "one");
-        self.precious.extend(names);
+        self.must_keep.extend(names);
     }
 
     fn block(&mut self, found: &Captures<'a>) {
@@ -212,7 +212,7 @@ impl<'a> Beliefs<'a> {
     }
 
     fn end(&mut self, found: &Captures<'a>) {
-        let need = found.name("resource").map(|resource| Need {
+        let need = found.name("resource").map(|resource| ResourceCondition {
             resource: resource.as_str(),
             least: found.name("least").and_then(|least| least.as_str().parse().ok()).unwrap_or(1),
             not: found.name("when").is_some_and(|when| when.as_str() == "unless"),
@@ -224,7 +224,7 @@ impl<'a> Beliefs<'a> {
         if self.is_me(found, "two") {
             self.taken.extend(goes.iter().map(|&name| (name, need)));
         }
-        self.ends.extend(goes.iter().flat_map(|&goes| by.iter().map(move |&by| (goes, by))));
+        self.removals.extend(goes.iter().flat_map(|&goes| by.iter().map(move |&by| (goes, by))));
     }
 
     fn end_both(&mut self, found: &Captures<'a>) {
@@ -236,7 +236,7 @@ impl<'a> Beliefs<'a> {
             self.kills.extend(one.iter().map(|&name| (name, None)));
         }
         for (&one, &two) in one.iter().flat_map(|one| two.iter().map(move |two| (one, two))) {
-            self.ends.extend([(one, two), (two, one)]);
+            self.removals.extend([(one, two), (two, one)]);
         }
     }
 
@@ -258,13 +258,13 @@ impl<'a> Beliefs<'a> {
         let ammo = found.name("ammo").map_or("", |ammo| ammo.as_str());
         self.shot = Some(Shot {
             name,
-            here: found.name("place").is_some_and(|place| place.as_str() == "where you are"),
+            at_player: found.name("place").is_some_and(|place| place.as_str() == "where you are"),
             ammo: ammo
                 .split(" or ")
                 .flat_map(|part| part.split(", "))
                 .filter(|name| !name.is_empty())
                 .collect(),
-            flies: sentences.iter().find_map(flight),
+            flight: sentences.iter().find_map(flight),
         });
     }
 
@@ -311,7 +311,7 @@ impl<'a> Party<'a> {
     }
 }
 
-impl Need<'_> {
+impl ResourceCondition<'_> {
     fn is_met(self, held: &BTreeMap<&str, i32>) -> bool {
         (held.get(self.resource).copied().unwrap_or(0) >= self.least) != self.not
     }

@@ -7,21 +7,21 @@ mod beliefs;
 mod route;
 
 use super::shown::{Shown, You};
-use super::{Unanswerable, deeds};
+use super::{Unanswerable, actions_except_nil};
 use beliefs::Beliefs;
 use engine::describe::Guide;
 use engine::{Action, Game, Sampler, Seed};
-use route::{Board, Routes, WAYS};
+use route::{Board, DIRECTIONS, Routes};
 use std::collections::BTreeMap;
 
 /// The extra cost of a step next to a deadly moving thing, in steps.
-const NEAR_DANGER: u32 = 8;
+const DANGER_COST: u32 = 8;
 
 /// The cost of pushing something, in steps.
-const PUSH: u32 = 20;
+const PUSH_COST: u32 = 20;
 
 /// One in this many decisions is a random step. Without a memory, the player would otherwise follow a useless way forever.
-const STRAYS: usize = 16;
+const RANDOM_STEP_ODDS: usize = 16;
 
 /// Chooses the next step.
 ///
@@ -33,18 +33,18 @@ pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Result<Action, Unanswerab
     let guide = game.map(|game| sentences(Guide::of(&game))).unwrap_or_default();
     let rules: Vec<&str> = shown.rules.iter().copied().chain(guide.iter().map(String::as_str)).collect();
     if shown.cells.is_empty() || rules.is_empty() {
-        let what = "`reflex` reads the board as a grid and the rules in words or as VGDL: leave `grid` and the rules on";
+        let what = "`reflex` needs the board as a grid, and the rules in words or as VGDL: enable `grid` and the rules";
         return Err(Unanswerable(what.to_owned()));
     }
     let mut choices = seed.sampler();
-    let Some(you) = shown.you else { return Ok(*choices.choose(&deeds(&shown.actions))) };
+    let Some(you) = shown.you else { return Ok(*choices.choose(&actions_except_nil(&shown.actions))) };
     let board = Board { columns: shown.columns, rows: shown.cells.len() / shown.columns };
     let none = BTreeMap::new();
     let held = shown.held.as_ref().unwrap_or(&none);
     let beliefs = Beliefs::of(&rules, you.name);
     let player = Reflex { shown, you, board, held, beliefs };
     let fire = player.fire();
-    Ok(fire.or_else(|| player.go(&mut choices)).unwrap_or_else(|| player.stray(&mut choices)))
+    Ok(fire.or_else(|| player.go(&mut choices)).unwrap_or_else(|| player.random_step(&mut choices)))
 }
 
 /// Collects all sentences of a guide about the rules.
@@ -72,13 +72,14 @@ impl Reflex<'_> {
     }
 
     fn is_near_danger(&self, cell: usize) -> bool {
-        let lurks = |name: &str| self.beliefs.moves.contains(name) && self.beliefs.is_deadly(name, self.held);
-        let beside = WAYS.into_iter().filter_map(|(_, way)| self.board.beside(cell, way));
-        beside.into_iter().any(|beside| self.others(beside).any(lurks))
+        let moves_and_kills =
+            |name: &str| self.beliefs.moves.contains(name) && self.beliefs.is_deadly(name, self.held);
+        let beside = DIRECTIONS.into_iter().filter_map(|(_, way)| self.board.beside(cell, way));
+        beside.into_iter().any(|beside| self.others(beside).any(moves_and_kills))
     }
 
     fn is_taken(&self, name: &str) -> bool {
-        self.beliefs.is_taken(name, self.held) && !self.beliefs.precious.contains(name)
+        self.beliefs.is_taken(name, self.held) && !self.beliefs.must_keep.contains(name)
     }
 
     /// Returns `true` for a cell with something that blocks the way and is not removed by touching it.
@@ -88,8 +89,8 @@ impl Reflex<'_> {
     }
 
     /// Returns the rank of a cell as a target: 0 is best.
-    fn worth(&self, cell: usize) -> Option<u32> {
-        let worth = |name: &str| {
+    fn rank(&self, cell: usize) -> Option<u32> {
+        let rank = |name: &str| {
             let (beliefs, taken) = (&self.beliefs, self.is_taken(name));
             if beliefs.wins.contains(name) && taken {
                 return Some(0);
@@ -99,21 +100,21 @@ impl Reflex<'_> {
             }
             let known = beliefs.blocks.contains(name)
                 || beliefs.pushed.contains(name)
-                || beliefs.precious.contains(name);
+                || beliefs.must_keep.contains(name);
             (!known && !beliefs.is_taken(name, &BTreeMap::new())).then_some(2)
         };
-        self.others(cell).filter_map(worth).min()
+        self.others(cell).filter_map(rank).min()
     }
 
     /// Returns the cost of entering a cell in a direction, or `None` if it kills or cannot be entered.
-    fn price(&self, cell: usize, way: (isize, isize)) -> Option<u32> {
-        if self.is_deadly(cell) || (self.is_blocked(cell) && self.worth(cell).is_none_or(|worth| worth > 1)) {
+    fn entry_cost(&self, cell: usize, way: (isize, isize)) -> Option<u32> {
+        if self.is_deadly(cell) || (self.is_blocked(cell) && self.rank(cell).is_none_or(|rank| rank > 1)) {
             return None;
         }
-        let near = if self.is_near_danger(cell) { NEAR_DANGER } else { 0 };
+        let near = if self.is_near_danger(cell) { DANGER_COST } else { 0 };
         if self.others(cell).any(|name| self.beliefs.pushed.contains(name)) {
             let free = |beyond: usize| self.others(beyond).next().is_none();
-            return self.board.beside(cell, way).is_some_and(free).then_some(PUSH + near);
+            return self.board.beside(cell, way).is_some_and(free).then_some(PUSH_COST + near);
         }
         Some(1 + near)
     }
@@ -127,17 +128,20 @@ impl Reflex<'_> {
         {
             return None;
         }
-        let always = shot.flies.flatten();
-        let reach = if shot.flies.is_some() { usize::MAX } else { 1 };
-        let facing = always.and_then(|way| WAYS.into_iter().find(|(action, _)| action.to_string() == way));
-        let facing = facing.or_else(|| WAYS.into_iter().find(|(action, _)| Some(*action) == self.you.facing));
+        let always = shot.flight.flatten();
+        let reach = if shot.flight.is_some() { usize::MAX } else { 1 };
+        let facing =
+            always.and_then(|way| DIRECTIONS.into_iter().find(|(action, _)| action.to_string() == way));
+        let facing =
+            facing.or_else(|| DIRECTIONS.into_iter().find(|(action, _)| Some(*action) == self.you.facing));
         if let Some((_, way)) = facing
             && self.target(way, reach).is_some()
         {
             return Some(Action::Use);
         }
-        let turns =
-            WAYS.into_iter().filter(|(action, _)| self.shown.actions.contains(action) && always.is_none());
+        let turns = DIRECTIONS
+            .into_iter()
+            .filter(|(action, _)| self.shown.actions.contains(action) && always.is_none());
         let mut seen = turns.filter_map(|(action, way)| Some((self.target(way, reach)?, action)));
         // Skip a target that is too close for a turn.
         seen.find(|(distance, _)| *distance > 1).map(|(_, action)| action)
@@ -148,7 +152,7 @@ impl Reflex<'_> {
         let mut cell = self.you.cell;
         for distance in 1..=reach {
             cell = self.board.beside(cell, way)?;
-            let foe = |name: &str| self.beliefs.is_shot(name) && !self.beliefs.precious.contains(name);
+            let foe = |name: &str| self.beliefs.is_shot(name) && !self.beliefs.must_keep.contains(name);
             if self.others(cell).any(foe) {
                 return Some(distance);
             }
@@ -164,25 +168,25 @@ impl Reflex<'_> {
 
     /// Returns the first step to the best reachable target, the nearest of equals.
     fn go(&self, choices: &mut Sampler) -> Option<Action> {
-        let enter = |cell: usize, way| self.price(cell, way);
+        let enter = |cell: usize, way| self.entry_cost(cell, way);
         let routes = Routes::from(self.board, self.you.cell, &self.shown.actions, enter, |cell| {
             !self.is_blocked(cell)
         });
         let cells = 0..self.shown.cells.len();
-        let reached = cells.filter_map(|cell| Some((self.worth(cell)?, routes.to(cell)?)));
-        let (_, (cost, first)) = reached.min_by_key(|(worth, (cost, _))| (*worth, *cost))?;
+        let reached = cells.filter_map(|cell| Some((self.rank(cell)?, routes.to(cell)?)));
+        let (_, (cost, first)) = reached.min_by_key(|(rank, (cost, _))| (*rank, *cost))?;
         // The last step to the target is never replaced by a random one.
-        (cost == 1 || choices.below(STRAYS) != 0).then_some(first)
+        (cost == 1 || choices.below(RANDOM_STEP_ODDS) != 0).then_some(first)
     }
 
     /// Returns any step that is not known to be bad.
-    fn stray(&self, choices: &mut Sampler) -> Action {
-        let fine = |(action, way): (Action, (isize, isize))| {
+    fn random_step(&self, choices: &mut Sampler) -> Action {
+        let safe = |(action, way): (Action, (isize, isize))| {
             let next = self.board.beside(self.you.cell, way)?;
             let offered = self.shown.actions.contains(&action);
-            (offered && self.price(next, way).is_some() && !self.is_near_danger(next)).then_some(action)
+            (offered && self.entry_cost(next, way).is_some() && !self.is_near_danger(next)).then_some(action)
         };
-        let fine: Vec<Action> = WAYS.into_iter().filter_map(fine).collect();
-        *choices.choose(&if fine.is_empty() { deeds(&self.shown.actions) } else { fine })
+        let safe: Vec<Action> = DIRECTIONS.into_iter().filter_map(safe).collect();
+        *choices.choose(&if safe.is_empty() { actions_except_nil(&self.shown.actions) } else { safe })
     }
 }

@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// The four directions in the order of preference among equals.
-pub(super) const WAYS: [(Action, (isize, isize)); 4] =
+pub(super) const DIRECTIONS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 
 /// The size of a board in cells.
@@ -55,12 +55,12 @@ impl Routes {
                     continue;
                 }
             }
-            for (action, way) in WAYS.into_iter().filter(|(action, _)| actions.contains(action)) {
+            for (action, way) in DIRECTIONS.into_iter().filter(|(action, _)| actions.contains(action)) {
                 let Some(next) = board.beside(cell, way).filter(|&next| !done[next]) else { continue };
-                let Some(price) = enter(next, way) else { continue };
+                let Some(step_cost) = enter(next, way) else { continue };
                 number += 1;
                 let first = if cell == start { action } else { first };
-                queue.push(Reverse((cost + price, number, next, first)));
+                queue.push(Reverse((cost + step_cost, number, next, first)));
             }
         }
         Routes(best)

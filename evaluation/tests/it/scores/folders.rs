@@ -5,7 +5,7 @@ use agents::Budget;
 use engine::{Action, SEMANTICS, Seed};
 use evaluation::metrics::{EpisodeMetrics, replay};
 use evaluation::player::Contestant;
-use evaluation::run::{FORMAT, Left, Progress, Task, play};
+use evaluation::run::{FORMAT, PlayResult, Progress, Task, play};
 use evaluation::study::{Player, Study};
 use evaluation::{Entrant, Evaluation, Journal, Settings, Subject, SubjectFacts};
 use std::fs;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 struct Silent;
 
 impl Progress for Silent {
-    fn episode(&self, _: &Task<'_>, _: &Left) {}
+    fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
 fn planner(name: &str) -> Contestant {
@@ -73,20 +73,20 @@ fn folders_are_read_together() {
 }
 
 #[test]
-fn what_does_not_go_together() {
+fn incompatible_folders_are_rejected() {
     let home = tempfile::tempdir().unwrap();
     let once = evaluate(&home.path().join("once"), "random", vec![subject()]);
     let check = |folders: &[PathBuf], expect: &str| {
         let error = Study::read(folders).unwrap_err().to_string();
         assert!(error.contains(expect), "{error}");
     };
-    check(&[once.clone(), once.clone()], "give one of the two another name");
+    check(&[once.clone(), once.clone()], "rename one of the two players");
     let other = Subject { source: subject().source.replace("scoreChange=2", "scoreChange=3"), ..subject() };
     let levels: Vec<(usize, String, Option<usize>)> =
         other.levels.iter().map(|level| (level.number, level.text.clone(), None)).collect();
     let other = Subject::read(&other.id, &other.source, &levels, SubjectFacts::default()).unwrap();
     let other = evaluate(&home.path().join("other"), "mcts", vec![other]);
-    check(&[once.clone(), other], "is another one than in the folders before");
+    check(&[once.clone(), other], "differs from that of an earlier folder");
     check(&[home.path().join("nowhere")], "no results of an evaluation");
 
     // An episode that was not started, and one that was cut off.
@@ -107,7 +107,7 @@ fn what_does_not_go_together() {
 
 /// Random play of all games of the corpus: every log replays, ratios are within range, and the parts agree.
 #[test]
-fn what_holds_of_any_episode() {
+fn invariants_of_any_episode() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
     let mut folders: Vec<PathBuf> = fs::read_dir(corpus)
         .unwrap()

@@ -106,7 +106,10 @@ fn the_shortest_win() {
     let log = log(&subject, 0, &[Right; 4], 50);
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
     assert!(found.won() && found.counts());
-    assert_eq!((found.meaningful, found.optimality(), found.spared()), (Some(1.0), Some(1.0), Some(0.92)));
+    assert_eq!(
+        (found.meaningful, found.optimality(), found.unused_steps()),
+        (Some(1.0), Some(1.0), Some(0.92))
+    );
     // The optimum of level 3 is unknown.
     let log = self::log(&subject, 3, &[Right; 9], 50);
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
@@ -115,7 +118,7 @@ fn the_shortest_win() {
 
 /// Pushing a box and going back has changed the state; using a key that the avatar does not have has not.
 #[test]
-fn what_moves_things_counts() {
+fn moving_things_is_meaningful() {
     let subject = subject();
     let replayed = replay(&subject, &log(&subject, 3, &[Right, Right, Left, Use, Up], 5)).unwrap();
     assert_eq!(replayed.meaningful, [true, true, true, false, false]);
@@ -124,13 +127,16 @@ fn what_moves_things_counts() {
 }
 
 #[test]
-fn ends() {
+fn end_events() {
     let subject = subject();
     let status = |log: &[Event]| EpisodeMetrics::of(&subject, log).unwrap().status;
     let limited = log(&subject, 0, &[Nil; 5], 5);
     assert_eq!(status(&limited), EpisodeStatus::StepLimit);
     let idle = EpisodeMetrics::of(&subject, &limited).unwrap();
-    assert_eq!((idle.meaningful, idle.movement.still_rate, idle.spared()), (Some(0.0), Some(1.0), Some(0.0)));
+    assert_eq!(
+        (idle.meaningful, idle.movement.still_rate, idle.unused_steps()),
+        (Some(0.0), Some(1.0), Some(0.0))
+    );
     assert!(idle.counts() && !idle.won());
 
     let halted = log(&subject, 0, &[Right, Right], 5);
@@ -153,7 +159,7 @@ fn check_fault(change: impl Fn(&mut Vec<Event>), expect: &str) {
 
 /// A log that does not replay is an error that names the step.
 #[test]
-fn faults() {
+fn damaged_logs_are_rejected() {
     let at = |log: &mut [Event], number: u64, change: &dyn Fn(&mut Event)| {
         let is_it = |event: &&mut Event| matches!(event, Event::Step { step, .. } if *step == number);
         change(log.iter_mut().find(is_it).expect("there is such a step"));
@@ -177,7 +183,7 @@ fn faults() {
             *outcome = Outcome::Won;
         }
     };
-    check_fault(win, "the log says won");
+    check_fault(win, "the log records won");
     let older = |log: &mut Vec<Event>| {
         if let Some(Event::Start { semantics, .. }) = log.first_mut() {
             *semantics -= 1;

@@ -145,7 +145,7 @@ fn sums() {
 
 /// With 25 episodes a side there are effects of the prompt, which five a side cannot show.
 #[test]
-fn prompts_matter() {
+fn prompt_modes_differ_significantly() {
     let rows = published();
     let study = study(&rows, |_| true);
     assert_eq!((study.modes.by_game.len(), study.modes.by_level.len()), (36, 180));
@@ -178,7 +178,7 @@ fn pairs_of_models() {
 
 /// The tagger: on aliens no win without it and two with it, on escape none and one.
 #[test]
-fn an_aid() {
+fn aids_are_compared() {
     let games =
         |wins: [u64; 2]| ["aliens", "escape"].map(str::to_owned).into_iter().zip(wins).collect::<Vec<_>>();
     let with = Player { aids: vec!["coordinates".to_owned()], ..Player::model("GPT-4o-mini", ZERO_SHOT) };

@@ -46,13 +46,13 @@ fn scores_worked_by_hand() {
     close(scores.win_rate.map(|rate| rate.value), 0.5);
     close(scores.meaningful, 0.5);
     close(scores.steps, 30.0);
-    close(scores.spared, 0.7);
+    close(scores.unused_steps, 0.7);
     close(scores.normalised_reward, 0.5);
     close(scores.overall, (0.5 + 0.7 + 0.5 + 0.5) / 4.0);
     close(scores.efficiency, 0.8);
     close(scores.optimality, 0.5);
     close(scores.bump_rate, 0.5);
-    assert_eq!(row.broken_off.get("infrastructure"), Some(&1));
+    assert_eq!(row.aborted.get("infrastructure"), Some(&1));
     assert_eq!(row.by_game, None, "one game says nothing about others");
     let random = &study.leaderboard[1].scores;
     assert_eq!((random.timeouts, random.efficiency, random.optimality), (1, None, None));
@@ -77,7 +77,7 @@ fn difficulty_worked_by_hand() {
 }
 
 #[test]
-fn what_is_missing_is_missing() {
+fn missing_values_stay_missing() {
     let same = |game: &str, outcome| {
         vec![episode(game, 0, 0, outcome, 3.0, 9), episode(game, 0, 1, outcome, 3.0, 9)]
     };
@@ -134,7 +134,7 @@ fn heat_maps() {
 }
 
 #[test]
-fn every_table_has_every_form() {
+fn every_table_has_every_format() {
     let study = one_level();
     let tables = study.tables();
     let mut ids: Vec<&str> = tables.iter().map(|table| table.id.as_str()).collect();
