@@ -292,13 +292,13 @@ mod tests {
     }
 
     #[test]
-    fn the_same_seed_asks_the_same() {
+    fn equal_seeds_ask_for_equal_candidates() {
         assert_eq!(run("seven", 500, 8).0, run("seven", 500, 8).0);
         assert_ne!(run("seven", 500, 8).0, run("eight", 500, 8).0);
     }
 
     #[test]
-    fn feasible_ones_are_never_given_up() {
+    fn feasible_candidates_are_never_abandoned() {
         let of = |feasibility: f64, objective: f64| Evaluation { feasibility, objective, measures: vec![] };
         let mut chain = Chain {
             sampler: Seed::from_text("chain").sampler(),

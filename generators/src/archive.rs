@@ -118,8 +118,8 @@ impl<C> Archive<C> {
     ///
     /// # Panics
     /// If `feasibility` is that of a feasible candidate.
-    pub fn refuse(&mut self, cell: usize, feasibility: f64) {
-        assert!(feasibility < 1.0, "what is refused is not feasible");
+    pub fn demote(&mut self, cell: usize, feasibility: f64) {
+        assert!(feasibility < 1.0, "a demoted candidate must be infeasible");
         if let Some(mut judged) = self.elites.remove(&cell) {
             judged.evaluation.feasibility = feasibility;
             self.pocket_in(cell, judged);
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn values_beyond_the_range_count_as_its_ends() {
+    fn values_beyond_the_range_are_clamped() {
         let axis = Axis::new("length", (10.0, 30.0), 4);
         let bins =
             [-1e300, 10.0, 14.9, 15.0, 29.9, 30.0, f64::INFINITY, f64::NAN].map(|value| axis.bin(value));
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pocket_keeps_the_least_infeasible_and_of_equals_the_youngest() {
+    fn a_pocket_keeps_the_least_infeasible_and_the_youngest_of_equals() {
         let mut archive = archive();
         let mut add = |name, feasibility| archive.add(name, judged(feasibility, 1.0, [15.0, 0.6]));
         assert_eq!(add("half", 0.5), AddStatus::New);

@@ -7,6 +7,6 @@ pub enum GenerateError {
     #[error("no level can be made for this game: {0}")]
     Unsuitable(String),
     /// Generation fails with this seed; another may succeed.
-    #[error("this seed leads nowhere: {0}")]
+    #[error("generation failed with this seed: {0}")]
     Unlucky(String),
 }

@@ -155,9 +155,13 @@ impl<V: Variation> Search for FeasibleInfeasible<'_, V> {
             self.breeding.note(&candidate);
             let judged = Judged { candidate, evaluation };
             if judged.evaluation.is_feasible() {
-                settle(&mut self.feasible, judged, self.config.size, |evaluation| evaluation.objective);
+                insert_ranked(&mut self.feasible, judged, self.config.size, |evaluation| {
+                    evaluation.objective
+                });
             } else {
-                settle(&mut self.infeasible, judged, self.config.size, |evaluation| evaluation.feasibility);
+                insert_ranked(&mut self.infeasible, judged, self.config.size, |evaluation| {
+                    evaluation.feasibility
+                });
             }
         }
     }
@@ -169,7 +173,7 @@ fn tournament(members: usize, size: usize, sampler: &mut Sampler) -> usize {
 }
 
 /// Inserts a member at its rank, before its equals, and drops the last one if there are too many.
-fn settle<C>(
+fn insert_ranked<C>(
     population: &mut Vec<Judged<C>>,
     judged: Judged<C>,
     size: usize,
@@ -192,7 +196,7 @@ mod tests {
 
     /// Random sampling finds one feasible candidate in 26,000, and then a poor one.
     #[test]
-    fn the_optimum_is_found_where_random_sampling_finds_nothing_feasible() {
+    fn the_optimum_is_found_although_random_sampling_finds_nothing_feasible() {
         let fences = Fences { posts: 48 };
         for seed in 0..3 {
             let mut search = search(&fences, seed);
@@ -221,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_seed_asks_the_same() {
+    fn equal_seeds_ask_for_equal_candidates() {
         let fences = Fences { posts: 30 };
         let asked = |seed| run(&mut search(&fences, seed), |candidate| fences.judge(candidate), 12, 20);
         assert_eq!(asked(1), asked(1));
@@ -249,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variation_that_gives_nothing_ends_the_search() {
+    fn an_exhausted_variation_ends_the_search() {
         let fences = Fences { posts: 0 };
         let mut search = search(&fences, 0);
         assert!(search.ask(5).is_empty());

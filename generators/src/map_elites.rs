@@ -103,9 +103,9 @@ impl<'a, V: Variation> MapElites<'a, V> {
         &self.archive
     }
 
-    /// Removes an elite that a closer look found infeasible: see [`Archive::refuse`].
-    pub fn refuse(&mut self, cell: usize, feasibility: f64) {
-        self.archive.refuse(cell, feasibility);
+    /// Removes an elite that a closer look found infeasible: see [`Archive::demote`].
+    pub fn demote(&mut self, cell: usize, feasibility: f64) {
+        self.archive.demote(cell, feasibility);
     }
 
     /// Ends the search and returns the archive.
@@ -222,7 +222,7 @@ mod tests {
 
     /// Pockets are the only parents when all created candidates are infeasible.
     #[test]
-    fn the_way_to_the_first_feasible_candidate_leads_through_pockets() {
+    fn pockets_lead_to_the_first_feasible_candidate() {
         let steep = |slope: &[u8; 8]| {
             let drops = [(0, 7), (1, 6), (2, 5)].map(|(one, two)| f64::from(slope[one].abs_diff(slope[two])));
             let met = drops.map(|drop| (drop / 90.0).min(1.0));
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_seed_asks_the_same_and_nothing_twice() {
+    fn equal_seeds_ask_for_equal_candidates_and_none_twice() {
         let asked = |seed| run(&mut search(MapElitesConfig::default(), seed), Slopes::judge, 12, 20);
         assert_eq!(asked(1), asked(1));
         assert_ne!(asked(1), asked(2));
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn candidates_that_were_not_asked_for_are_a_start() {
+    fn foreign_candidates_can_start_the_search() {
         let mut search = search(MapElitesConfig { initial: 1, ..MapElitesConfig::default() }, 0);
         let flat = [50, 50, 50, 50, 50, 50, 50, 70];
         search.tell(vec![(flat, Slopes::judge(&flat))]);

@@ -7,7 +7,7 @@ use crate::{Digest, SnapshotError};
 use engine::{Analysis, Game, Seed, syntax};
 use forge::card::{Card, Origin};
 use generators::games::Masked;
-use generators::levels::Likeness;
+use generators::levels::LevelSimilarity;
 use std::collections::BTreeMap;
 use std::path::Path;
 use validators::novelty::GameForm;
@@ -43,7 +43,7 @@ pub enum AncestryError {
 
 /// The canonical item (rules and level) of a level of a game. Items are equal if they differ only in names, in the
 /// order of rules or by a symmetry of the board.
-pub(crate) fn item(form: &GameForm, likeness: &Likeness, level: &engine::Level) -> Digest {
+pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }
 
@@ -81,7 +81,7 @@ impl Holdings {
                 found.forms.insert(form.digest(), card.id);
                 continue;
             }
-            let likeness = Likeness::of(&Analysis::of(&game));
+            let likeness = LevelSimilarity::of(&Analysis::of(&game));
             for level in &card.levels {
                 let path = format!("games/{}/{}", card.id, level.file);
                 let level = game.level(&read(&path)?).map_err(|_| damaged(&path))?;

@@ -75,7 +75,7 @@ fn what_does_not_fit_is_no_level_and_no_endless_work() {
         ["--json", "generate", "levels", "--game", "hailglass", "--with", "orchid=100", "--out", "new"];
     let output = run(home.path(), &args, 1);
     let message = text(&output.stderr);
-    assert!(message.contains("no board holds what is asked: 100 of orchid are asked for"), "{message}");
+    assert!(message.contains("no board holds what is asked: requested 100 of orchid"), "{message}");
     assert!(message.contains("--with"), "{message}");
     assert!(!home.path().join("new").exists());
     let asked: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -255,7 +255,7 @@ impl Maker<'_> {
                         set.games.push(made);
                     }
                     Some(Err(why)) => tally.taken_back(why),
-                    None => search.refuse(cell, REFUSED),
+                    None => search.demote(cell, REFUSED),
                 }
                 set.tally.add(&tally);
             }

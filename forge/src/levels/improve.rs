@@ -116,7 +116,7 @@ impl Maker<'_> {
                 for ((cell, level), judged) in picked.into_iter().zip(judged) {
                     set.cost.judged(&judged);
                     if judged.obstacle.is_some() {
-                        search.refuse(cell, REFUSED);
+                        search.demote(cell, REFUSED);
                         continue;
                     }
                     let number = set.levels.len() as u32;

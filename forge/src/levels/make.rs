@@ -5,7 +5,7 @@ use super::look::Look;
 use super::order::{LevelOrder, Method};
 use crate::tally::reasons;
 use engine::{Analysis, Digest, Game, Level, Seed};
-use generators::levels::{ConstructiveLevels, LevelConfig, LevelSearch, Likeness};
+use generators::levels::{ConstructiveLevels, LevelConfig, LevelSearch, LevelSimilarity};
 use generators::{GenerateError, Generator};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -133,7 +133,7 @@ pub fn make_levels(
     order.criteria.check()?;
     let generator = ConstructiveLevels::new(game, order.config())?;
     let analysis = Analysis::of(game);
-    let likeness = Likeness::of(&analysis);
+    let likeness = LevelSimilarity::of(&analysis);
     let maker = Maker { analysis: &analysis, order, generator, likeness, seed, progress };
     let set = match order.method {
         Method::Constructive if !order.has_to_be_measured() => maker.drawn(),
@@ -169,7 +169,7 @@ pub(super) struct Maker<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a LevelOrder,
     generator: ConstructiveLevels<'a>,
-    pub(super) likeness: Likeness,
+    pub(super) likeness: LevelSimilarity,
     pub(super) seed: Seed,
     pub(super) progress: &'a dyn Progress,
 }

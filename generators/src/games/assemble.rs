@@ -18,7 +18,7 @@ pub(crate) fn complete(draft: &mut Draft) {
     draft.rules.sort_by_key(|rule| rule.phase);
     let wanes = draft.rules.iter().any(|rule| matches!(rule.effect, Effect::Wane { .. }));
     if wanes || !draft.harms.is_empty() {
-        draft.endings.insert(0, (Ending::Gone(vec![AVATAR]), false));
+        draft.endings.insert(0, (Ending::NoneLeft(vec![AVATAR]), false));
     }
     // Losing comes before winning, time last.
     draft.endings.sort_by_key(|(ending, win)| (matches!(ending, Ending::Timeout(_)), *win));
@@ -40,7 +40,7 @@ pub(crate) fn describe(draft: &Draft) -> Description {
 
 /// All parts, the lowest first.
 fn drawing_order(draft: &Draft) -> Vec<Part> {
-    let mut order: Vec<Part> = draft.parts().filter(|&part| !draft.sprite(part).gone).collect();
+    let mut order: Vec<Part> = draft.parts().filter(|&part| !draft.sprite(part).removed).collect();
     order.sort_by_key(|&part| draft.sprite(part).body);
     order
 }
@@ -53,7 +53,7 @@ fn movement(draft: &Draft, order: &[Part]) -> Vec<Rule> {
     for &mover in &tops {
         let body = draft.sprite(mover).body;
         let stops = |&obstacle: &Part| {
-            body.is_stopped_by(draft.sprite(obstacle).body) && !draft.settled.contains(&(mover, obstacle))
+            body.is_stopped_by(draft.sprite(obstacle).body) && !draft.handled.contains(&(mover, obstacle))
         };
         let second: Vec<Part> = tops.iter().copied().filter(stops).collect();
         let phase = match body {
@@ -109,7 +109,7 @@ fn sprites(draft: &Draft, order: &[Part]) -> Vec<SpriteLine> {
         let mut params: Vec<Param> =
             sprite.params.iter().map(|&(key, value)| param(draft, key, value)).collect();
         if part != WALL && part != AVATAR {
-            let color = palette::color(sprite.role, draft.setting(), &colors);
+            let color = palette::color(sprite.role, draft.current_theme(), &colors);
             colors.push(color);
             params.push(Param::new("color", color));
         }
@@ -175,10 +175,10 @@ fn interaction(draft: &Draft, rule: &Rule) -> InteractionLine {
 fn terminations(draft: &Draft) -> Vec<TerminationLine> {
     let lines = draft.endings.iter().map(|(ending, win)| {
         let (class, mut params) = match ending {
-            Ending::Gone(parts) if parts.len() == 1 => {
+            Ending::NoneLeft(parts) if parts.len() == 1 => {
                 ("SpriteCounter", vec![Param::new("stype", draft.name(parts[0])), Param::new("limit", 0)])
             }
-            Ending::Gone(parts) => {
+            Ending::NoneLeft(parts) => {
                 let keys = ["stype1", "stype2", "stype3"];
                 let named = keys.iter().zip(parts).map(|(key, &part)| Param::new(key, draft.name(part)));
                 assert!(parts.len() <= keys.len(), "MultiSpriteCounter counts three types");

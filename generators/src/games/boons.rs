@@ -73,9 +73,12 @@ fn hearts(draft: &mut Draft, sampler: &mut Sampler) {
     let medicine = draft.place(Role::Medicine, SpriteClass::Immovable, Body::Item, &[]);
     let heal = Effect::AddHealthPointsToMax { value: draw(sampler, 1, 2) };
     draft.scored(Phase::Take, AVATAR, &[medicine], heal, 1);
-    let clause =
-        format!("{} wounds are the end, but {} heals", super::english::number(health), draft.say(medicine));
-    draft.tell(clause);
+    let clause = format!(
+        "{} wounds are the end, but {} heals",
+        super::english::number(health),
+        draft.spaced_name(medicine)
+    );
+    draft.add_fact(clause);
 }
 
 /// Coins buy medicine, which heals wounds.
@@ -93,21 +96,21 @@ fn shop(draft: &mut Draft, sampler: &mut Sampler) {
     draft.rule(Phase::Take, AVATAR, &[shop], buy);
     draft.scored(Phase::Take, AVATAR, &[medicine], Effect::AddHealthPointsToMax { value: 1 }, 1);
     let wounds = super::english::number(health);
-    let cost = if price == 1 { draft.one(coin) } else { format!("two {}", draft.many(coin)) };
+    let cost = if price == 1 { draft.with_article(coin) } else { format!("two {}", draft.plural(coin)) };
     let clause = format!(
         "{wounds} wounds are the end, but the {} gives {} for {cost}, which heals",
-        draft.say(shop),
-        draft.say(medicine)
+        draft.spaced_name(shop),
+        draft.spaced_name(medicine)
     );
-    draft.tell(clause);
+    draft.add_fact(clause);
 }
 
 fn ward(draft: &mut Draft, _: &mut Sampler) {
     let ward = draft.place(Role::Ward, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(2))]);
     draft.stamina = Stamina::Warded(ward);
     draft.scored(Phase::Take, ward, &[AVATAR], Effect::CollectResource { stays: false }, 1);
-    let clause = format!("{} protects once", draft.one(ward));
-    draft.tell(clause);
+    let clause = format!("{} protects once", draft.with_article(ward));
+    draft.add_fact(clause);
 }
 
 /// An optional task with a reward.
@@ -121,18 +124,18 @@ fn press(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Take, charm, &[AVATAR], Effect::KillSprite, draw(sampler, 3, 5) as i32);
     let clause = format!(
         "whoever pushes {} onto {} is rewarded with {}",
-        draft.one(block),
-        draft.one(plate),
-        draft.one(charm)
+        draft.with_article(block),
+        draft.with_article(plate),
+        draft.with_article(charm)
     );
-    draft.tell(clause);
+    draft.add_fact(clause);
 }
 
 fn coins(draft: &mut Draft, _: &mut Sampler) {
     let coin = draft.place(Role::Coin, SpriteClass::Immovable, Body::Item, &[]);
     draft.scored(Phase::Take, coin, &[AVATAR], Effect::KillSprite, 1);
-    let clause = format!("{} are worth a point each", draft.many(coin));
-    draft.tell_points(clause);
+    let clause = format!("{} are worth a point each", draft.plural(coin));
+    draft.add_points_clause(clause);
 }
 
 /// Berries ripen at the bushes, one at a time.
@@ -146,6 +149,7 @@ pub(crate) fn bush(draft: &mut Draft, sampler: &mut Sampler) {
     ];
     let bush = draft.place(Role::Bush, SpriteClass::SpawnPoint, Body::Spot, &params);
     draft.scored(Phase::Take, berry, &[AVATAR], Effect::KillSprite, 1);
-    let clause = format!("{} to be had at {} are worth a point each", draft.many(berry), draft.many(bush));
-    draft.tell_points(clause);
+    let clause =
+        format!("{} to be had at {} are worth a point each", draft.plural(berry), draft.plural(bush));
+    draft.add_points_clause(clause);
 }

@@ -5,7 +5,7 @@ use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};
 
 /// The roles that a type can play, the most fitting first; never empty.
-pub(super) fn parts(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
+pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
     use Role as R;
     let facts = analysis.facts(stype);
     let still = facts.motion == Motion::Still;

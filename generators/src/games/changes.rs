@@ -32,7 +32,7 @@ pub(crate) enum Change {
     /// Changes the time limit.
     Time,
     /// Changes the theme.
-    Fiction,
+    ThemeDraw,
     /// Takes back an earlier edit.
     Undo,
 }
@@ -50,7 +50,7 @@ const CHANGES: [(Change, u32); 13] = [
     (Change::Drop, 1),
     (Change::Score, 1),
     (Change::Time, 1),
-    (Change::Fiction, 1),
+    (Change::ThemeDraw, 1),
     (Change::Undo, 2),
 ];
 
@@ -63,7 +63,7 @@ impl Change {
 
 /// Draws an edit of that kind; `None` if this draw finds nothing to edit.
 pub(crate) fn edit(draft: &Draft, change: Change, sampler: &mut Sampler) -> Option<Edit> {
-    let parts: Vec<Part> = draft.parts().filter(|&part| !draft.sprite(part).gone).collect();
+    let parts: Vec<Part> = draft.parts().filter(|&part| !draft.sprite(part).removed).collect();
     match change {
         Change::Parameter => {
             let mut options: Vec<(Part, &'static str, Value, (u32, u32))> = Vec::new();

@@ -10,7 +10,7 @@ use super::threats::THREATS;
 use engine::Sampler;
 
 /// The maximum number of boons in a game.
-const BOONS_AT_MOST: usize = 2;
+const MAX_BOONS: usize = 2;
 
 /// The patterns of one game, in the order in which they are built.
 pub(crate) struct Composition {
@@ -92,7 +92,7 @@ pub(crate) fn admits(goal: &Goal, patterns: &[&'static Pattern], pattern: &Patte
     let most = match family(pattern) {
         "threat" => goal.threats.1 + 1,
         "obstacle" => goal.obstacles.1 + 1,
-        _ => BOONS_AT_MOST,
+        _ => MAX_BOONS,
     };
     let like = patterns.iter().filter(|other| family(other) == family(pattern)).count();
     like < most && goes_with(patterns, pattern)
@@ -106,9 +106,9 @@ fn go_together(one: &Pattern, two: &Pattern) -> bool {
 
 /// Tests whether something endangers the hero, works against it, or stands in its way.
 pub(crate) fn is_challenge(patterns: &[&'static Pattern]) -> bool {
-    let company = |pattern: &&&Pattern| ["threat", "obstacle"].contains(&family(pattern));
+    let companions = |pattern: &&&Pattern| ["threat", "obstacle"].contains(&family(pattern));
     let works_against = |feature: &Feature| [Feature::Harm, Feature::Movers].contains(feature);
-    patterns.iter().any(|pattern| company(&pattern))
+    patterns.iter().any(|pattern| companions(&pattern))
         || patterns.get(1).is_some_and(|goal| goal.gives.iter().any(works_against))
 }
 
@@ -118,7 +118,7 @@ pub(crate) fn family(pattern: &Pattern) -> &'static str {
 }
 
 /// The patterns that can accompany a goal: threats, obstacles and boons.
-pub(crate) fn company() -> impl Iterator<Item = &'static Pattern> {
+pub(crate) fn companions() -> impl Iterator<Item = &'static Pattern> {
     THREATS.iter().chain(OBSTACLES).chain(BOONS)
 }
 
@@ -136,7 +136,7 @@ pub(crate) fn is_coherent(goal: &'static Goal, patterns: &[&'static Pattern]) ->
         && count("threat") + count("obstacle") + count("boon") == rest.len()
         && within("threat", goal.threats)
         && within("obstacle", goal.obstacles)
-        && count("boon") <= BOONS_AT_MOST
+        && count("boon") <= MAX_BOONS
         && patterns.iter().all(|pattern| pattern.needs.iter().all(gives))
         && is_challenge(patterns)
         && (!gives(&Feature::Strikes) || gives(&Feature::Prey))
@@ -150,12 +150,12 @@ mod tests {
     /// All patterns.
     fn all() -> Vec<&'static Pattern> {
         let goals = goals::all().into_iter().map(|goal| &goal.pattern);
-        MOVEMENTS.iter().chain(goals).chain(company()).collect()
+        MOVEMENTS.iter().chain(goals).chain(companions()).collect()
     }
 
     /// The documentation page lists every pattern, with the features it gives, needs and bars.
     #[test]
-    fn the_page_tells_of_every_pattern() {
+    fn the_page_documents_every_pattern() {
         let page = include_str!("../../../docs/generate-games.md");
         for pattern in all() {
             let words = |features: &[Feature]| {

@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_game_of_each_kind_can_be_asked_for() {
+    fn a_game_of_each_kind_can_be_requested() {
         for &kind in Kind::ALL {
             let generator = ConstructiveGames::new(GameConfig { kinds: vec![kind] });
             for number in 0..10 {
@@ -121,7 +121,7 @@ mod tests {
 
     /// Descriptions are built as trees, not parsed; printing one and parsing the text must give the same game.
     #[test]
-    fn the_print_is_the_same_game() {
+    fn the_printed_rules_are_the_same_game() {
         for game in games(200) {
             let text = engine::syntax::print(&game.description);
             let again = Game::from_source(&text).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn words_for_people_are_sentences() {
+    fn texts_for_people_are_sentences() {
         for game in games(100) {
             for text in [&game.summary, &game.goal] {
                 assert!(text.ends_with('.') && text.starts_with(|c: char| c.is_uppercase()), "{text}");

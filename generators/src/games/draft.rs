@@ -20,7 +20,7 @@ pub(crate) struct Draft {
     pub(crate) endings: Vec<(Ending, bool)>,
     pub(crate) harms: Vec<(Part, Harm)>,
     /// Pairs whose meeting a pattern handles itself: no rule of movement is derived for them.
-    pub(crate) settled: Vec<(Part, Part)>,
+    pub(crate) handled: Vec<(Part, Part)>,
     pub(crate) weapon: Option<Weapon>,
     pub(crate) stamina: Stamina,
     /// The instructions for winning, in words.
@@ -42,7 +42,7 @@ impl Draft {
             rules: Vec::new(),
             endings: Vec::new(),
             harms: Vec::new(),
-            settled: Vec::new(),
+            handled: Vec::new(),
             weapon: None,
             stamina: Stamina::Fragile,
             goal: String::new(),
@@ -78,7 +78,7 @@ impl Draft {
             body,
             placed: true,
             gene: self.gene,
-            gone: false,
+            removed: false,
         })
     }
 
@@ -115,7 +115,7 @@ impl Draft {
             body,
             placed: false,
             gene: self.gene,
-            gone: false,
+            removed: false,
         })
     }
 
@@ -131,7 +131,7 @@ impl Draft {
             body: Body::Hero,
             placed: false,
             gene: self.gene,
-            gone: false,
+            removed: false,
         })
     }
 
@@ -146,7 +146,7 @@ impl Draft {
             body,
             placed: false,
             gene: self.gene,
-            gone: false,
+            removed: false,
         })
     }
 
@@ -162,7 +162,7 @@ impl Draft {
             body,
             placed: true,
             gene: self.gene,
-            gone: false,
+            removed: false,
         })
     }
 
@@ -204,7 +204,7 @@ impl Draft {
             return Some(CLOCK);
         }
         let mut of_role = self.parts().filter(|&part| self.sprite(part).role == site.role);
-        of_role.nth(site.nth).filter(|&part| !self.sprite(part).gone)
+        of_role.nth(site.nth).filter(|&part| !self.sprite(part).removed)
     }
 
     /// All parts, in the order of creation.
@@ -238,8 +238,8 @@ impl Draft {
     }
 
     /// Records that a pattern handles the meeting of these two itself.
-    pub(crate) fn settle(&mut self, first: Part, second: Part) {
-        self.settled.push((first, second));
+    pub(crate) fn mark_handled(&mut self, first: Part, second: Part) {
+        self.handled.push((first, second));
     }
 
     /// Lets the hero's weapon, if there is one, kill the part.
@@ -247,11 +247,11 @@ impl Draft {
         match self.weapon {
             None => {}
             Some(Weapon::Bolt(bolt)) => {
-                self.settle(bolt, part);
+                self.mark_handled(bolt, part);
                 self.scored(Phase::Strike, part, &[bolt], Effect::KillBoth, score);
             }
             Some(Weapon::Blade(hit) | Weapon::Blast(hit)) => {
-                self.settle(hit, part);
+                self.mark_handled(hit, part);
                 self.scored(Phase::Strike, part, &[hit], Effect::KillSprite, score);
             }
         }
@@ -264,18 +264,18 @@ impl Draft {
             Some(Weapon::Bolt(bolt)) => (bolt, true),
             Some(Weapon::Blade(hit) | Weapon::Blast(hit)) => (hit, false),
         };
-        self.settle(hit, part);
+        self.mark_handled(hit, part);
         self.scored(Phase::Strike, part, &[hit], Effect::TransformTo { stype, kill_second }, score);
     }
 
     /// Adds a win for when none of these is left.
     pub(crate) fn win_without(&mut self, parts: &[Part]) {
-        self.endings.push((Ending::Gone(parts.to_vec()), true));
+        self.endings.push((Ending::NoneLeft(parts.to_vec()), true));
     }
 
     /// Adds a loss for when none of these is left.
     pub(crate) fn lose_without(&mut self, part: Part) {
-        self.endings.push((Ending::Gone(vec![part]), false));
+        self.endings.push((Ending::NoneLeft(vec![part]), false));
     }
 
     /// Adds a loss for when `count` of these exist.
@@ -284,32 +284,32 @@ impl Draft {
     }
 
     /// Returns the name in English: "sea glass".
-    pub(crate) fn say(&self, part: Part) -> String {
+    pub(crate) fn spaced_name(&self, part: Part) -> String {
         english::spaced(self.name(part))
     }
 
     /// Returns the plural: "sea glasses".
-    pub(crate) fn many(&self, part: Part) -> String {
-        english::plural(&self.say(part))
+    pub(crate) fn plural(&self, part: Part) -> String {
+        english::plural(&self.spaced_name(part))
     }
 
     /// Returns the name with its article: "a sea glass".
-    pub(crate) fn one(&self, part: Part) -> String {
-        english::one(&self.say(part))
+    pub(crate) fn with_article(&self, part: Part) -> String {
+        english::one(&self.spaced_name(part))
     }
 
     /// Adds a fact to the summary.
-    pub(crate) fn tell(&mut self, text: String) {
+    pub(crate) fn add_fact(&mut self, text: String) {
         self.claim(Claim::Fact, text);
     }
 
     /// Adds a clause about the movement of a sprite type.
-    pub(crate) fn tell_way(&mut self, part: Part, text: String) {
+    pub(crate) fn add_motion_clause(&mut self, part: Part, text: String) {
         self.claim(Claim::Way(part), text);
     }
 
     /// Adds a clause about the points that something is worth.
-    pub(crate) fn tell_points(&mut self, text: String) {
+    pub(crate) fn add_points_clause(&mut self, text: String) {
         self.claim(Claim::Points, text);
     }
 
@@ -318,13 +318,13 @@ impl Draft {
     }
 
     /// Makes the title. Called after all other names of the theme are drawn, since it continues the same draws.
-    pub(crate) fn title(&mut self, deed: &str) -> String {
-        let hero = english::headline(&self.say(HERO));
-        self.naming.title(&hero, deed)
+    pub(crate) fn title(&mut self, title_word: &str) -> String {
+        let hero = english::headline(&self.spaced_name(HERO));
+        self.naming.title(&hero, title_word)
     }
 
     /// Returns the theme.
-    pub(crate) fn setting(&self) -> &'static Theme {
+    pub(crate) fn current_theme(&self) -> &'static Theme {
         self.naming.theme()
     }
 }

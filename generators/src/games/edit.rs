@@ -114,7 +114,7 @@ impl Edit {
                 let text = ways::changed(draft, &draft.rules[rule], effect);
                 draft.rules[rule].effect = effect;
                 draft.gene = None;
-                text.into_iter().for_each(|text| draft.tell(text));
+                text.into_iter().for_each(|text| draft.add_fact(text));
             }
             Edit::Drop { rule } => {
                 let rule = rule.find(draft)?;
@@ -152,7 +152,7 @@ impl Draft {
     }
 
     /// Lets two types pass each other, regardless of their bodies.
-    pub(crate) fn let_pass(&mut self, mover: Part, obstacle: Part) {
+    pub(crate) fn allow_passing(&mut self, mover: Part, obstacle: Part) {
         let derived = [Phase::Carry, Phase::Push, Phase::Block];
         for rule in &mut self.rules {
             if rule.gene.is_none() && derived.contains(&rule.phase) && rule.first == mover {
@@ -171,7 +171,7 @@ impl Draft {
     fn remove(&mut self, part: Part) -> Option<()> {
         let named = |value: &Value| *value == Value::Part(part);
         let leans = |sprite: &super::draft::Sprite| {
-            !sprite.gone
+            !sprite.removed
                 && (sprite.parent == Some(part) || sprite.params.iter().any(|(_, value)| named(value)))
         };
         let needed = [FLOOR, WALL, AVATAR, HERO].contains(&part) || self.is_counted(part);
@@ -188,7 +188,7 @@ impl Draft {
         self.rules.retain(|rule| !rule.second.is_empty());
         let gene = self.sprite(part).gene;
         self.clauses.retain(|clause| gene.is_none() || clause.gene != gene);
-        self.sprites[part.index()].gone = true;
+        self.sprites[part.index()].removed = true;
         Some(())
     }
 }

@@ -35,7 +35,7 @@ pub(crate) struct Gene {
 /// [`ConstructiveGames`](super::ConstructiveGames) and [`GameVariation`](super::GameVariation) build.
 #[derive(Clone)]
 pub struct GameGenome {
-    pub(crate) fiction: Fiction,
+    pub(crate) theme_draw: ThemeDraw,
     pub(crate) goal: &'static Goal,
     /// The way of moving, the goal, then threats, obstacles and boons: in build order.
     pub(crate) genes: Vec<Gene>,
@@ -46,18 +46,18 @@ pub struct GameGenome {
 
 /// The theme of a game, and the draws of its names.
 #[derive(Clone, Copy)]
-pub(crate) struct Fiction {
+pub(crate) struct ThemeDraw {
     pub(crate) theme: &'static Theme,
     pub(crate) names: Seed,
     /// The hero's task, for the title.
-    pub(crate) deed: &'static str,
+    pub(crate) title_word: &'static str,
 }
 
-impl Fiction {
-    pub(crate) fn draw(kind: Kind, seed: Seed) -> Fiction {
+impl ThemeDraw {
+    pub(crate) fn draw(kind: Kind, seed: Seed) -> ThemeDraw {
         let mut sampler = seed.child("fiction", 0).sampler();
         let theme = *sampler.choose(Theme::ALL);
-        Fiction { theme, names: seed.child("names", 0), deed: kind.deed(&mut sampler) }
+        ThemeDraw { theme, names: seed.child("names", 0), title_word: kind.title_word(&mut sampler) }
     }
 }
 
@@ -76,7 +76,7 @@ impl GameGenome {
             let genome = GameGenome::compose(Composition::draw(&config.kinds, sampler)?, seed);
             (mechanics::dependencies(&genome.draft().0) > 0).then_some(genome)
         });
-        drawn.ok_or_else(|| GenerateError::Unlucky("no goal found company".to_owned()))
+        drawn.ok_or_else(|| GenerateError::Unlucky("no goal found fitting patterns".to_owned()))
     }
 
     /// Makes a genome of these patterns, with a theme for them.
@@ -84,7 +84,7 @@ impl GameGenome {
         let (least, most) = goal.ticks;
         let genes = patterns.into_iter().enumerate();
         GameGenome {
-            fiction: Fiction::draw(goal.kind, seed),
+            theme_draw: ThemeDraw::draw(goal.kind, seed),
             goal,
             genes: genes
                 .map(|(at, pattern)| Gene { pattern, seed: seed.child(pattern.name, at as u64) })
@@ -115,9 +115,10 @@ impl GameGenome {
         // Compiles the printed text: frozen games are compiled from it.
         match Game::from_source(&syntax::print(&game.description)) {
             Ok(compiled) if compiled.warnings().is_empty() => Ok(game),
-            Ok(compiled) => {
-                Err(GenerateError::Unlucky(format!("warned of: {}", compiled.warnings()[0].message)))
-            }
+            Ok(compiled) => Err(GenerateError::Unlucky(format!(
+                "the rules compile with a warning: {}",
+                compiled.warnings()[0].message
+            ))),
             Err(problems) => Err(GenerateError::Unlucky(format!("the rules do not compile: {problems}"))),
         }
     }
@@ -130,7 +131,7 @@ impl GameGenome {
 
     /// Builds the patterns and applies the edits; returns the draft with the edits that changed something.
     pub(crate) fn draft(&self) -> (Draft, Vec<Edit>) {
-        let mut draft = Draft::new(self.fiction.theme, self.fiction.names);
+        let mut draft = Draft::new(self.theme_draw.theme, self.theme_draw.names);
         for (number, gene) in self.genes.iter().enumerate() {
             draft.gene = Some(number);
             (gene.pattern.build)(&mut draft, &mut gene.seed.sampler());
@@ -147,8 +148,8 @@ impl GameGenome {
     }
 
     fn lay_out(&self, mut draft: Draft) -> GeneratedGame {
-        let title = draft.title(self.fiction.deed);
-        let patterns = self.genes.iter().map(|gene| gene.pattern.name).chain([self.fiction.theme.name]);
+        let title = draft.title(self.theme_draw.title_word);
+        let patterns = self.genes.iter().map(|gene| gene.pattern.name).chain([self.theme_draw.theme.name]);
         let edits = self.edits.iter().map(Edit::name);
         GeneratedGame {
             description: assemble::describe(&draft),
@@ -176,7 +177,7 @@ impl fmt::Debug for GameGenome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names: Vec<&str> = self.genes.iter().map(|gene| gene.pattern.name).collect();
         f.debug_struct("GameGenome")
-            .field("fiction", &self.fiction.theme.name)
+            .field("theme", &self.theme_draw.theme.name)
             .field("patterns", &names)
             .field("time", &self.time)
             .field("edits", &self.edits)
@@ -186,12 +187,12 @@ impl fmt::Debug for GameGenome {
 
 /// Describes the hero with its equipment and the place, then the other facts.
 fn summary(draft: &Draft) -> String {
-    let hero = draft.one(HERO);
+    let hero = draft.with_article(HERO);
     let outfit = match draft.outfit.as_str() {
         "" => String::new(),
         outfit => format!(", {outfit},"),
     };
-    let first = format!("{}{outfit} {}.", english::capital(&hero), draft.setting().place);
+    let first = format!("{}{outfit} {}.", english::capital(&hero), draft.current_theme().place);
     let sentences = draft.clauses.iter().map(|clause| format!(" {}.", english::capital(&clause.text)));
     first + &sentences.collect::<String>()
 }

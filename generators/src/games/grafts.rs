@@ -33,7 +33,7 @@ pub(crate) struct Graft {
     passes: bool,
     score: i32,
     effect: fn([Part; 3]) -> Effect,
-    tell: fn(&Draft, [Part; 3]) -> String,
+    clause: fn(&Draft, [Part; 3]) -> String,
 }
 
 /// All grafts.
@@ -49,7 +49,9 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: false,
         score: 2,
         effect: |_| Effect::KillSprite,
-        tell: |draft, [foe, hazard, _]| format!("{} harms {} as well", draft.one(hazard), draft.many(foe)),
+        clause: |draft, [foe, hazard, _]| {
+            format!("{} harms {} as well", draft.with_article(hazard), draft.plural(foe))
+        },
     },
     Graft {
         name: "graft/crush",
@@ -62,7 +64,9 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: true,
         score: 2,
         effect: |_| Effect::KillSprite,
-        tell: |draft, [foe, pushed, _]| format!("{} do not survive {}", draft.many(foe), draft.one(pushed)),
+        clause: |draft, [foe, pushed, _]| {
+            format!("{} do not survive {}", draft.plural(foe), draft.with_article(pushed))
+        },
     },
     Graft {
         name: "graft/eat",
@@ -75,7 +79,9 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: false,
         score: 0,
         effect: |_| Effect::KillSprite,
-        tell: |draft, [treat, foe, _]| format!("{} make off with {}", draft.many(foe), draft.many(treat)),
+        clause: |draft, [treat, foe, _]| {
+            format!("{} make off with {}", draft.plural(foe), draft.plural(treat))
+        },
     },
     Graft {
         name: "graft/breed",
@@ -88,8 +94,8 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: false,
         score: 0,
         effect: |[_, foe, _]| Effect::TransformTo { stype: foe, kill_second: false },
-        tell: |draft, [treat, foe, _]| {
-            format!("{} that comes upon {} becomes two", draft.one(foe), draft.one(treat))
+        clause: |draft, [treat, foe, _]| {
+            format!("{} that comes upon {} becomes two", draft.with_article(foe), draft.with_article(treat))
         },
     },
     Graft {
@@ -103,8 +109,8 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: false,
         score: 0,
         effect: |[_, _, fury]| Effect::TransformTo { stype: fury, kill_second: false },
-        tell: |draft, [foe, cause, fury]| {
-            format!("{} turns {} into {}", draft.one(cause), draft.many(foe), draft.many(fury))
+        clause: |draft, [foe, cause, fury]| {
+            format!("{} turns {} into {}", draft.with_article(cause), draft.plural(foe), draft.plural(fury))
         },
     },
     Graft {
@@ -118,8 +124,8 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: false,
         score: 1,
         effect: |_| Effect::KillBoth,
-        tell: |draft, [one, two, _]| {
-            format!("{} and {} are the end of each other", draft.many(one), draft.many(two))
+        clause: |draft, [one, two, _]| {
+            format!("{} and {} are the end of each other", draft.plural(one), draft.plural(two))
         },
     },
     Graft {
@@ -133,7 +139,9 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: false,
         score: 0,
         effect: |_| Effect::TeleportToExit,
-        tell: |draft, [foe, entry, _]| format!("{} take the {} too", draft.many(foe), draft.say(entry)),
+        clause: |draft, [foe, entry, _]| {
+            format!("{} take the {} too", draft.plural(foe), draft.spaced_name(entry))
+        },
     },
     Graft {
         name: "graft/ride",
@@ -146,7 +154,7 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: false,
         score: 0,
         effect: |_| Effect::PullWithIt,
-        tell: |draft, [foe, cart, _]| format!("{} ride on {} too", draft.many(foe), draft.many(cart)),
+        clause: |draft, [foe, cart, _]| format!("{} ride on {} too", draft.plural(foe), draft.plural(cart)),
     },
     Graft {
         name: "graft/shatter",
@@ -159,7 +167,9 @@ pub(crate) const GRAFTS: &[Graft] = &[
         passes: true,
         score: 0,
         effect: |_| Effect::KillBoth,
-        tell: |draft, [barrier, hit, _]| format!("{} breaks {}", draft.one(hit), draft.say(barrier)),
+        clause: |draft, [barrier, hit, _]| {
+            format!("{} breaks {}", draft.with_article(hit), draft.spaced_name(barrier))
+        },
     },
 ];
 
@@ -167,7 +177,7 @@ impl Graft {
     /// Returns the parts of a draft between which the rule makes sense.
     pub(crate) fn places(&self, draft: &Draft) -> Vec<[Part; 3]> {
         let of = |roles: &'static [Role]| {
-            let parts = draft.parts().filter(|&part| !draft.sprite(part).gone);
+            let parts = draft.parts().filter(|&part| !draft.sprite(part).removed);
             parts.filter(|&part| roles.contains(&draft.sprite(part).role)).collect::<Vec<_>>()
         };
         let (firsts, seconds, thirds) = (of(self.first), of(self.second), of(self.third));
@@ -206,8 +216,8 @@ impl Graft {
         }
         let [first, second, _] = place;
         if self.passes {
-            draft.let_pass(first, second);
-            draft.let_pass(second, first);
+            draft.allow_passing(first, second);
+            draft.allow_passing(second, first);
         }
         let effect = (self.effect)(place);
         let rule =
@@ -215,8 +225,8 @@ impl Graft {
         let at = draft.rules.partition_point(|other| other.phase <= self.phase);
         draft.rules.insert(at, rule);
         draft.gene = None;
-        let text = (self.tell)(draft, place);
-        draft.tell(text);
+        let text = (self.clause)(draft, place);
+        draft.add_fact(text);
         Some(())
     }
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Declares the kinds once: variant, name in configurations, words for titles.
 macro_rules! kinds {
-    ($($(#[doc = $doc:literal])+ $kind:ident $name:literal $deeds:literal;)*) => {
+    ($($(#[doc = $doc:literal])+ $kind:ident $name:literal $title_words:literal;)*) => {
         /// A kind of game.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
@@ -20,8 +20,8 @@ macro_rules! kinds {
                 match self { $(Kind::$kind => $name),* }
             }
 
-            fn deeds(self) -> &'static str {
-                match self { $(Kind::$kind => $deeds),* }
+            fn title_words(self) -> &'static str {
+                match self { $(Kind::$kind => $title_words),* }
             }
         }
     };
@@ -62,8 +62,8 @@ kinds! {
 
 impl Kind {
     /// Draws a word for the hero's task, for titles.
-    pub(crate) fn deed(self, sampler: &mut Sampler) -> &'static str {
-        let deeds: Vec<&'static str> = self.deeds().split(' ').collect();
-        deeds[sampler.below(deeds.len())]
+    pub(crate) fn title_word(self, sampler: &mut Sampler) -> &'static str {
+        let title_words: Vec<&'static str> = self.title_words().split(' ').collect();
+        title_words[sampler.below(title_words.len())]
     }
 }

@@ -26,7 +26,7 @@ impl Masked {
     pub fn of(description: &Description, seed: Seed) -> Masked {
         let mut sampler = seed.child("masked", 0).sampler();
         let mask = Mask::draw(description, &mut sampler);
-        let mut masked = surface::undressed(description, &mask.names);
+        let mut masked = surface::without_surface(description, &mask.names);
         mask.recolor(&mut masked.sprites);
         mask.symbols.write(&mut masked);
         // The mapping is sorted by character, so its order does not reveal the sprite types.
@@ -75,16 +75,17 @@ impl Mask {
         pool.extend(
             ('!'..='~').filter(|symbol| symbol.is_ascii_punctuation() && !['#', '<', '>'].contains(symbol)),
         );
-        let silent = || surface::silent(description).map(|(symbol, _)| (symbol, symbol));
-        pool.retain(|&symbol| !silent().any(|(kept, _)| kept == symbol));
-        let needed: Vec<char> = surface::overridden(description).collect();
+        let unmapped_builtins =
+            || surface::unmapped_builtins(description).map(|(symbol, _)| (symbol, symbol));
+        pool.retain(|&symbol| !unmapped_builtins().any(|(kept, _)| kept == symbol));
+        let needed: Vec<char> = surface::mapped_builtins(description).collect();
         pool.retain(|symbol| !needed.contains(symbol));
         pool.truncate(used.len() - needed.len());
         pool.extend(needed);
         sampler.shuffle(&mut pool);
         // A game with more characters than the pool keeps its last ones.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
-        let symbols = symbols.chain(silent());
+        let symbols = symbols.chain(unmapped_builtins());
         Mask { names: names.collect(), symbols: Symbols(symbols.collect()), colors: colors.collect() }
     }
 

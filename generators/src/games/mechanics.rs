@@ -56,7 +56,7 @@ pub(crate) fn dependencies(draft: &Draft) -> usize {
 /// Tests whether everything in a draft is connected: collected things have a use, required ones can be obtained, shut
 /// ones can be opened, and everything that levels place plays a part.
 pub(crate) fn is_whole(draft: &Draft) -> bool {
-    let parts = || draft.parts().filter(|&part| !draft.sprite(part).gone);
+    let parts = || draft.parts().filter(|&part| !draft.sprite(part).removed);
     let mechanics = || draft.rules.iter().filter(|rule| is_mechanic(rule));
     let named = |part: Part| mechanics().any(|rule| rule.effect.names().contains(&part));
     let held = |part: Part| {

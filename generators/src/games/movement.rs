@@ -130,7 +130,7 @@ fn blade(draft: &mut Draft, sampler: &mut Sampler) {
         &[("stype", Value::Part(blade)), ("rotateInPlace", Value::Flag(turns))],
     );
     draft.weapon = Some(Weapon::Blade(blade));
-    draft.outfit = format!("armed with {}", draft.one(blade));
+    draft.outfit = format!("armed with {}", draft.with_article(blade));
 }
 
 /// Adds a shot, and makes the hero shoot it.
@@ -146,7 +146,7 @@ fn shooter(draft: &mut Draft, sampler: &mut Sampler, ammo: Option<Value>) {
     let params: Vec<_> = stype.into_iter().chain(ammo).collect();
     draft.set_hero(SpriteClass::ShootAvatar, &params);
     draft.weapon = Some(Weapon::Bolt(bolt));
-    draft.outfit = format!("shooting {}", draft.many(bolt));
+    draft.outfit = format!("shooting {}", draft.plural(bolt));
 }
 
 fn shoot(draft: &mut Draft, sampler: &mut Sampler) {
@@ -159,8 +159,8 @@ fn shoot_scarce(draft: &mut Draft, sampler: &mut Sampler) {
     let ammo = draft.place(Role::Ammo, SpriteClass::Resource, Body::Item, &params);
     shooter(draft, sampler, Some(Value::Part(ammo)));
     draft.scored(Phase::Take, ammo, &[AVATAR], Effect::CollectResource { stays: false }, 1);
-    let clause = format!("{} give {} shots each", draft.many(ammo), super::english::number(value));
-    draft.tell(clause);
+    let clause = format!("{} give {} shots each", draft.plural(ammo), super::english::number(value));
+    draft.add_fact(clause);
 }
 
 fn shoot_rack(draft: &mut Draft, sampler: &mut Sampler) {
@@ -175,8 +175,9 @@ fn shoot_rack(draft: &mut Draft, sampler: &mut Sampler) {
     let rack = draft.place(Role::Rack, SpriteClass::SpawnPoint, Body::Spot, &params);
     shooter(draft, sampler, Some(Value::Part(ammo)));
     draft.rule(Phase::Take, ammo, &[AVATAR], Effect::CollectResource { stays: false });
-    let clause = format!("every shot costs {}, to be had at {}", draft.one(ammo), draft.one(rack));
-    draft.tell(clause);
+    let clause =
+        format!("every shot costs {}, to be had at {}", draft.with_article(ammo), draft.with_article(rack));
+    draft.add_fact(clause);
 }
 
 /// A charge explodes a few ticks after it is laid, in all four directions.
@@ -198,9 +199,9 @@ fn blast(draft: &mut Draft, sampler: &mut Sampler) {
     );
     draft.weapon = Some(Weapon::Blast(blast));
     draft.harm(blast, Harm::Lasting);
-    draft.outfit = format!("laying {}", draft.many(charge));
-    let clause = format!("every {} goes off to all four sides", draft.say(charge));
-    draft.tell(clause);
+    draft.outfit = format!("laying {}", draft.plural(charge));
+    let clause = format!("every {} goes off to all four sides", draft.spaced_name(charge));
+    draft.add_fact(clause);
 }
 
 fn flak(draft: &mut Draft, sampler: &mut Sampler) {
@@ -209,19 +210,19 @@ fn flak(draft: &mut Draft, sampler: &mut Sampler) {
     let bolt = draft.spawn(Role::Bolt, SpriteClass::Missile, Body::Shot, &params);
     draft.set_hero(SpriteClass::FlakAvatar, &[("stype", Value::Part(bolt))]);
     draft.weapon = Some(Weapon::Bolt(bolt));
-    draft.outfit = format!("shooting {} upwards", draft.many(bolt));
+    draft.outfit = format!("shooting {} upwards", draft.plural(bolt));
 }
 
 fn slide(draft: &mut Draft, _: &mut Sampler) {
     draft.set_hero(SpriteClass::HorizontalAvatar, &[]);
-    let clause = format!("the {} only moves left and right", draft.say(HERO));
-    draft.tell(clause);
+    let clause = format!("the {} only moves left and right", draft.spaced_name(HERO));
+    draft.add_fact(clause);
 }
 
 fn climb(draft: &mut Draft, _: &mut Sampler) {
     draft.set_hero(SpriteClass::VerticalAvatar, &[]);
-    let clause = format!("the {} only moves up and down", draft.say(HERO));
-    draft.tell(clause);
+    let clause = format!("the {} only moves up and down", draft.spaced_name(HERO));
+    draft.add_fact(clause);
 }
 
 /// A vehicle: it can be turned, but not stopped.

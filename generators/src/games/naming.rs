@@ -32,7 +32,7 @@ impl Naming {
         word.to_owned()
     }
 
-    pub(crate) fn title(&mut self, hero: &str, deed: &str) -> String {
-        self.theme.title(hero, deed, &mut self.sampler)
+    pub(crate) fn title(&mut self, hero: &str, title_word: &str) -> String {
+        self.theme.title(hero, title_word, &mut self.sampler)
     }
 }

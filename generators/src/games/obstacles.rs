@@ -61,25 +61,25 @@ fn lock(draft: &mut Draft, sampler: &mut Sampler) {
     let open = Effect::KillIfOtherHasMore { resource: key, limit: 1, subtract };
     draft.scored(Phase::Open, door, &[AVATAR], open, 2);
     let clause = if subtract {
-        format!("every {} takes {} to open", draft.say(door), draft.one(key))
+        format!("every {} takes {} to open", draft.spaced_name(door), draft.with_article(key))
     } else {
-        format!("whoever has {} can open every {}", draft.one(key), draft.say(door))
+        format!("whoever has {} can open every {}", draft.with_article(key), draft.spaced_name(door))
     };
-    draft.tell(clause);
+    draft.add_fact(clause);
 }
 
 fn dig(draft: &mut Draft, _: &mut Sampler) {
     let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Soft, &[]);
     draft.rule(Phase::Meet, soil, &[AVATAR], Effect::KillSprite);
-    let clause = format!("{} can be dug away", draft.say(soil));
-    draft.tell(clause);
+    let clause = format!("{} can be dug away", draft.spaced_name(soil));
+    draft.add_fact(clause);
 }
 
 fn break_through(draft: &mut Draft, _: &mut Sampler) {
     let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Solid, &[]);
     draft.prey(soil, 0);
-    let clause = format!("{} can be broken", draft.say(soil));
-    draft.tell(clause);
+    let clause = format!("{} can be broken", draft.spaced_name(soil));
+    draft.add_fact(clause);
 }
 
 fn lever(draft: &mut Draft, _: &mut Sampler) {
@@ -87,8 +87,8 @@ fn lever(draft: &mut Draft, _: &mut Sampler) {
     let gate = draft.place(Role::Gate, SpriteClass::Door, Body::Solid, &[]);
     draft.rule(Phase::Take, lever, &[AVATAR], Effect::KillAll { stype: gate });
     draft.scored(Phase::Take, lever, &[AVATAR], Effect::KillSprite, 2);
-    let clause = format!("{} opens every {}", draft.one(lever), draft.say(gate));
-    draft.tell(clause);
+    let clause = format!("{} opens every {}", draft.with_article(lever), draft.spaced_name(gate));
+    draft.add_fact(clause);
 }
 
 fn dark(draft: &mut Draft, _: &mut Sampler) {
@@ -97,24 +97,25 @@ fn dark(draft: &mut Draft, _: &mut Sampler) {
     draft.scored(Phase::Take, torch, &[AVATAR], Effect::CollectResource { stays: false }, 1);
     let open = Effect::KillIfOtherHasMore { resource: torch, limit: 1, subtract: true };
     draft.scored(Phase::Open, dark, &[AVATAR], open, 1);
-    let clause = format!("each patch of {} uses up {}", draft.say(dark), draft.one(torch));
-    draft.tell(clause);
+    let clause = format!("each patch of {} uses up {}", draft.spaced_name(dark), draft.with_article(torch));
+    draft.add_fact(clause);
 }
 
 fn portal(draft: &mut Draft, _: &mut Sampler) {
     let exit = draft.place(Role::PortalOut, SpriteClass::Immovable, Body::Spot, &[]);
     let entry = draft.place(Role::PortalIn, SpriteClass::Portal, Body::Spot, &[("stype", Value::Part(exit))]);
     draft.rule(Phase::Meet, AVATAR, &[entry], Effect::TeleportToExit);
-    let clause = format!("{} leads to {}", draft.one(entry), draft.one(exit));
-    draft.tell(clause);
+    let clause = format!("{} leads to {}", draft.with_article(entry), draft.with_article(exit));
+    draft.add_fact(clause);
 }
 
 fn collapse(draft: &mut Draft, _: &mut Sampler) {
     let arch = draft.place(Role::Archway, SpriteClass::Immovable, Body::Spot, &[]);
     let rubble = draft.spawn(Role::Rubble, SpriteClass::Immovable, Body::Solid, &[]);
     draft.rule(Phase::Meet, arch, &[AVATAR], Effect::SpawnBehind { stype: rubble });
-    let clause = format!("the way back from {} is closed by {}", draft.one(arch), draft.say(rubble));
-    draft.tell(clause);
+    let clause =
+        format!("the way back from {} is closed by {}", draft.with_article(arch), draft.spaced_name(rubble));
+    draft.add_fact(clause);
 }
 
 fn cart(draft: &mut Draft, sampler: &mut Sampler) {
@@ -122,15 +123,15 @@ fn cart(draft: &mut Draft, sampler: &mut Sampler) {
     let params = [("orientation", Value::Word(orientation)), ("cooldown", Value::Count(draw(sampler, 1, 2)))];
     let cart = draft.place(Role::Cart, SpriteClass::Missile, Body::Carrier, &params);
     draft.rule(Phase::Carry, AVATAR, &[cart], Effect::PullWithIt);
-    let clause = format!("{} carries whoever boards it", draft.one(cart));
-    draft.tell(clause);
+    let clause = format!("{} carries whoever boards it", draft.with_article(cart));
+    draft.add_fact(clause);
 }
 
 /// Crates that the hero can push, and that nothing else can pass.
 fn crates(draft: &mut Draft, _: &mut Sampler) {
     let block = pushable(draft);
-    let clause = format!("{} can be pushed", draft.many(block));
-    draft.tell(clause);
+    let clause = format!("{} can be pushed", draft.plural(block));
+    draft.add_fact(clause);
 }
 
 fn pushable(draft: &mut Draft) -> Part {
@@ -148,18 +149,22 @@ fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Take, coin, &[AVATAR], Effect::CollectResource { stays: false }, 1);
     let open = Effect::KillIfOtherHasMore { resource: coin, limit: price, subtract: true };
     draft.scored(Phase::Open, gate, &[AVATAR], open, 2);
-    let toll =
-        if price == 1 { draft.one(coin) } else { format!("{} {}", english::number(price), draft.many(coin)) };
-    let clause = format!("every {} takes {toll} to pass", draft.say(gate));
-    draft.tell(clause);
+    let toll = if price == 1 {
+        draft.with_article(coin)
+    } else {
+        format!("{} {}", english::number(price), draft.plural(coin))
+    };
+    let clause = format!("every {} takes {toll} to pass", draft.spaced_name(gate));
+    draft.add_fact(clause);
 }
 
 /// A crate pushed into the pool fills it and clears the way.
 fn ford(draft: &mut Draft, _: &mut Sampler) {
     let block = pushable(draft);
     let pool = draft.place(Role::Pool, SpriteClass::Immovable, Body::Solid, &[]);
-    draft.settle(block, pool);
+    draft.mark_handled(block, pool);
     draft.scored(Phase::Push, pool, &[block], Effect::KillBoth, 2);
-    let clause = format!("{} pushed into the {} fills it", draft.one(block), draft.say(pool));
-    draft.tell(clause);
+    let clause =
+        format!("{} pushed into the {} fills it", draft.with_article(block), draft.spaced_name(pool));
+    draft.add_fact(clause);
 }

@@ -25,7 +25,7 @@ impl GameGenome {
             }
         }
         let draft = self.draft().0;
-        let sites = draft.parts().filter(|&part| !draft.sprite(part).gone).map(|part| draft.site(part));
+        let sites = draft.parts().filter(|&part| !draft.sprite(part).removed).map(|part| draft.site(part));
         let types = sites.map(|of| Edit::Without { of });
         let rules = (0..draft.rules.len()).map(|rule| Edit::Drop { rule: RuleAt::of(&draft, rule, 0) });
         let pairs = draft.rules.iter().enumerate().filter(|(_, rule)| rule.second.len() > 1);
@@ -59,7 +59,7 @@ mod tests {
     use engine::Seed;
 
     #[test]
-    fn whatever_is_taken_away_the_rest_is_a_game() {
+    fn shrunk_games_are_games() {
         let variation = GameVariation::default();
         let seed = Seed::from_text("shrinking");
         for number in 0..12 {

@@ -10,10 +10,10 @@ pub(super) const RESERVED: [&str; 2] = ["wall", "avatar"];
 
 /// Returns the same rules with sprite types renamed, without comments and images. The order of all lines stays, so that
 /// the two play alike, state hashes included.
-pub(super) fn undressed(description: &Description, names: &BTreeMap<String, String>) -> Description {
+pub(super) fn without_surface(description: &Description, names: &BTreeMap<String, String>) -> Description {
     let mut bare = description.renamed(names);
     bare.header.trivia = Trivia::default();
-    undress(&mut bare.sprites);
+    strip_lines(&mut bare.sprites);
     bare.mapping.iter_mut().for_each(|line| line.trivia = Trivia::default());
     bare.interactions.iter_mut().for_each(|line| line.trivia = Trivia::default());
     bare.terminations.iter_mut().for_each(|line| line.trivia = Trivia::default());
@@ -23,11 +23,11 @@ pub(super) fn undressed(description: &Description, names: &BTreeMap<String, Stri
     bare
 }
 
-fn undress(lines: &mut [SpriteLine]) {
+fn strip_lines(lines: &mut [SpriteLine]) {
     for line in lines {
         line.trivia = Trivia::default();
         line.params.retain(|param| param.key.text != "img");
-        undress(&mut line.children);
+        strip_lines(&mut line.children);
     }
 }
 
@@ -66,7 +66,7 @@ fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
 
 /// The built-in characters whose types the file neither maps nor declares with a class, with these types. They stay as
 /// they are, because a line for them would add a rule.
-pub(super) fn silent(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
+pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
     let undeclared = |symbol: char| {
         let name = unmapped(symbol, description)?;
         builtin(symbol, description).is_none().then_some((symbol, name))
@@ -76,7 +76,7 @@ pub(super) fn silent(description: &Description) -> impl Iterator<Item = (char, &
 
 /// The built-in characters that this game maps itself. A twin has to map them too, or they would get a meaning that
 /// nothing has in this game.
-pub(super) fn overridden(description: &Description) -> impl Iterator<Item = char> {
+pub(super) fn mapped_builtins(description: &Description) -> impl Iterator<Item = char> {
     ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }
 

@@ -45,14 +45,14 @@ impl Theme {
     }
 
     /// Draws a title under the theme: one of the place, of the task there, or of the hero.
-    pub(crate) fn title(&self, hero: &str, deed: &str, sampler: &mut Sampler) -> String {
+    pub(crate) fn title(&self, hero: &str, title_word: &str, sampler: &mut Sampler) -> String {
         let adjectives: Vec<&str> = self.adjectives.split(' ').collect();
         let nouns: Vec<&str> = self.nouns.split(' ').collect();
         let (adjective, noun) = (sampler.choose(&adjectives), sampler.choose(&nouns));
         match sampler.below(4) {
             0 | 1 => format!("The {adjective} {noun}"),
-            2 => format!("{deed} at the {adjective} {noun}"),
-            _ => format!("The {hero}'s {deed}"),
+            2 => format!("{title_word} at the {adjective} {noun}"),
+            _ => format!("The {hero}'s {title_word}"),
         }
     }
 }

@@ -69,7 +69,7 @@ pub(crate) struct Sprite {
     /// The number of the pattern that it belongs to; `None` for floor, wall and hero.
     pub(crate) gene: Option<usize>,
     /// `true` if an edit has removed it.
-    pub(crate) gone: bool,
+    pub(crate) removed: bool,
 }
 
 /// The phase of a tick in which a rule applies: the order of the InteractionSet.
@@ -131,7 +131,7 @@ pub(crate) enum Claim {
 #[derive(Clone, Debug)]
 pub(crate) enum Ending {
     /// No sprite of these types is left.
-    Gone(Vec<Part>),
+    NoneLeft(Vec<Part>),
     /// The number of sprites of a type has reached this.
     Many(Part, u32),
     /// The time limit, in ticks.
@@ -142,7 +142,7 @@ impl Ending {
     /// The types that it counts.
     pub(crate) fn parts(&self) -> &[Part] {
         match self {
-            Ending::Gone(parts) => parts,
+            Ending::NoneLeft(parts) => parts,
             Ending::Many(part, _) => std::slice::from_ref(part),
             Ending::Timeout(_) => &[],
         }

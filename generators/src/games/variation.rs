@@ -3,7 +3,7 @@
 use super::changes::{Change, edit, pick};
 use super::composition::{self, family};
 use super::constructive::GameConfig;
-use super::genome::{Fiction, GameGenome, Gene};
+use super::genome::{GameGenome, Gene, ThemeDraw};
 use super::goals;
 use super::mechanics;
 use super::movement::MOVEMENTS;
@@ -16,7 +16,7 @@ const ATTEMPTS: usize = 40;
 /// The number of seeds to try for a candidate from nothing.
 const SEEDS: u64 = 8;
 /// The maximum number of edits of a game: beyond that, one has to be removed before another is added.
-const EDITS_AT_MOST: usize = 12;
+const MAX_EDITS: usize = 12;
 
 /// Games as candidates of a search: drawn like those of [`ConstructiveGames`](super::ConstructiveGames), changed by typed
 /// edits, crossed by their patterns.
@@ -40,7 +40,7 @@ impl GameVariation {
         let mut genome = parent.clone();
         match change {
             Change::Add => {
-                let number = pick(&composition::company().collect::<Vec<_>>(), sampler)?;
+                let number = pick(&composition::companions().collect::<Vec<_>>(), sampler)?;
                 genome.genes.push(Gene { pattern: number, seed: fresh(sampler) });
             }
             Change::Remove => {
@@ -56,13 +56,13 @@ impl GameVariation {
                 let (least, most) = genome.goal.ticks;
                 genome.time = sampler.between((least * 2 / 3).max(2) as usize, most as usize * 3 / 2) as u32;
             }
-            Change::Fiction => genome.fiction = Fiction::draw(genome.kind(), fresh(sampler)),
+            Change::ThemeDraw => genome.theme_draw = ThemeDraw::draw(genome.kind(), fresh(sampler)),
             Change::Undo => {
                 let at = pick(&(0..genome.edits.len()).collect::<Vec<_>>(), sampler)?;
                 genome.edits.remove(at);
             }
             _ => {
-                if genome.edits.len() >= EDITS_AT_MOST {
+                if genome.edits.len() >= MAX_EDITS {
                     return None;
                 }
                 let edit = edit(&genome.draft().0, change, sampler)?;
@@ -82,7 +82,7 @@ impl GameVariation {
                 goals::all().into_iter().filter(|goal| self.allows(goal)).collect();
             let goal = pick(&goals, sampler)?;
             genome.goal = goal;
-            genome.fiction.deed = goal.kind.deed(sampler);
+            genome.theme_draw.title_word = goal.kind.title_word(sampler);
             genome.genes[1] = Gene { pattern: &goal.pattern, seed: fresh(sampler) };
             let (least, most) = goal.ticks;
             genome.time = sampler.between(least as usize, most as usize) as u32;
@@ -95,7 +95,7 @@ impl GameVariation {
             let family =
                 |pattern: &&'static Pattern| family(pattern) == family(old) && pattern.name != old.name;
             let others: Vec<&'static Pattern> =
-                MOVEMENTS.iter().chain(composition::company()).filter(family).collect();
+                MOVEMENTS.iter().chain(composition::companions()).filter(family).collect();
             genome.genes[at] = Gene { pattern: pick(&others, sampler)?, seed: fresh(sampler) };
         }
         Some(())
@@ -115,7 +115,7 @@ impl GameVariation {
         join(&mut child, rest);
         child.edits.extend(&two.edits);
         child.edits.retain(|_| sampler.ratio(2, 3));
-        child.edits.truncate(EDITS_AT_MOST);
+        child.edits.truncate(MAX_EDITS);
         child
     }
 }
@@ -154,7 +154,7 @@ impl Variation for GameVariation {
         let changed = (0..ATTEMPTS).find_map(|_| {
             let change = Change::draw(sampler);
             let child = self.changed(parent, change, sampler)?;
-            settled(child, |child| *child != key)
+            validated(child, |child| *child != key)
         });
         changed.unwrap_or_else(|| parent.clone())
     }
@@ -166,14 +166,14 @@ impl Variation for GameVariation {
         let crossed = (0..ATTEMPTS).find_map(|_| {
             let (one, two) = if sampler.ratio(1, 2) { (one, two) } else { (two, one) };
             let child = self.crossed(one, two, sampler);
-            settled(child, |child| !keys.contains(child))
+            validated(child, |child| !keys.contains(child))
         });
         crossed.unwrap_or_else(|| self.mutate(one, sampler))
     }
 }
 
 /// Returns the genome without the edits that have no effect any more, if it is coherent, new and builds.
-fn settled(mut genome: GameGenome, is_new: impl Fn(&engine::Digest) -> bool) -> Option<GameGenome> {
+fn validated(mut genome: GameGenome, is_new: impl Fn(&engine::Digest) -> bool) -> Option<GameGenome> {
     if !composition::is_coherent(genome.goal, &genome.patterns()) {
         return None;
     }
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_varied_stays_a_game() {
+    fn varied_games_are_games() {
         let variation = GameVariation::default();
         let (mut same, mut total, mut keys) = (0, 0, BTreeSet::new());
         let mut names = BTreeSet::new();
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_draws_give_the_same() {
+    fn equal_draws_give_equal_games() {
         let walk = || {
             let variation = GameVariation::default();
             let mut sampler = seed("walk").sampler();

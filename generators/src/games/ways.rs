@@ -54,10 +54,10 @@ pub(crate) fn set_class(
     }
     draft.clauses.retain(|clause| clause.claim != Claim::Way(part));
     let whom = match after {
-        Some(other) if other != AVATAR => format!(" {}", draft.many(other)),
+        Some(other) if other != AVATAR => format!(" {}", draft.plural(other)),
         _ => String::new(),
     };
-    let many = draft.many(part);
+    let many = draft.plural(part);
     let text = match class {
         SpriteClass::Chaser if whom.is_empty() => format!("{many} give chase"),
         SpriteClass::Chaser => format!("{many} go after{whom}"),
@@ -67,7 +67,7 @@ pub(crate) fn set_class(
         _ => format!("{many} stray about"),
     };
     draft.gene = draft.sprite(part).gene;
-    draft.tell_way(part, text);
+    draft.add_motion_clause(part, text);
     Some(())
 }
 
@@ -98,7 +98,7 @@ pub(crate) fn effects(draft: &Draft, rule: &Rule) -> Vec<Effect> {
     let foes = [Role::Wanderer, Role::Chaser, Role::Patroller, Role::Rover];
     let others = draft.parts().filter(|&part| {
         let sprite = draft.sprite(part);
-        !sprite.gone && foes.contains(&sprite.role) && part != rule.first
+        !sprite.removed && foes.contains(&sprite.role) && part != rule.first
     });
     let is_foe = foes.contains(&draft.sprite(rule.first).role);
     match rule.effect {
@@ -113,9 +113,11 @@ pub(crate) fn effects(draft: &Draft, rule: &Rule) -> Vec<Effect> {
 /// The clause about a rule with a new effect.
 pub(crate) fn changed(draft: &Draft, rule: &Rule, effect: Effect) -> Option<String> {
     match effect {
-        Effect::TransformTo { stype, .. } => {
-            Some(format!("{} that is hit turns into {}", draft.one(rule.first), draft.one(stype)))
-        }
+        Effect::TransformTo { stype, .. } => Some(format!(
+            "{} that is hit turns into {}",
+            draft.with_article(rule.first),
+            draft.with_article(stype)
+        )),
         _ => None,
     }
 }

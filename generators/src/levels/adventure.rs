@@ -97,7 +97,7 @@ impl Builder<'_> {
     /// The weight of the footing. If avatars fall, most things stand on the ground; goods may hang in the air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
-            _ if !self.falls() => 1,
+            _ if !self.avatar_falls() => 1,
             Role::Spawner | Role::Cover | Role::Neutral => 1,
             _ if self.has_footing(cell) => 4,
             Role::Collectable => 1,
@@ -123,8 +123,12 @@ impl Builder<'_> {
                 let far = share >= 55 + (30.0 * self.difficulty()) as u32;
                 if zone != wanted || !(far || zone > 0) { 0 } else { (1 + walls) * share / 10 }
             }
-            Role::Enemy | Role::Boulder if from_start < self.respect(stype) => 0,
-            Role::Enemy | Role::Prey | Role::Spawner if self.apart_from(cell, Role::Ward) < self.guard() => 0,
+            Role::Enemy | Role::Boulder if from_start < self.min_distance(stype) => 0,
+            Role::Enemy | Role::Prey | Role::Spawner
+                if self.apart_from(cell, Role::Ward) < self.ward_distance() =>
+            {
+                0
+            }
             Role::Enemy if self.is_on_prey(cell, stype) => 0,
             Role::Enemy => self.weigh_mover(cell, stype, share),
             Role::Prey if from_start < 3 => 0,
@@ -135,7 +139,7 @@ impl Builder<'_> {
             Role::Hazard
                 if self.target.is_some()
                     && self.analysis.makes_harm(stype)
-                    && from_start < self.spawn_respect(stype) =>
+                    && from_start < self.min_spawn_distance(stype) =>
             {
                 0
             }
@@ -180,7 +184,7 @@ impl Builder<'_> {
     }
 
     /// The minimum distance of threats from a protected thing, in cells.
-    fn guard(&self) -> usize {
+    fn ward_distance(&self) -> usize {
         let grid = self.board.grid;
         if self.target.is_some() { ((grid.columns + grid.rows) / 5).max(4) } else { 4 }
     }
@@ -192,7 +196,7 @@ impl Builder<'_> {
         let hunted = |other: SpriteType| {
             self.analysis.applies(target, other) && self.analysis.role(other) != Role::Avatar
         };
-        self.apart(cell, hunted) < self.respect(stype).max(4)
+        self.apart(cell, hunted) < self.min_distance(stype).max(4)
     }
 
     /// The weight of a cell for a mover: it needs room to move, and must not move straight at the avatar.
@@ -226,14 +230,14 @@ impl Builder<'_> {
                 let backed = self.run(cell, back(way)) == 0;
                 others * if backed { 20 } else { 1 }
             }
-            None if from_start < self.spawn_respect(stype) => 0,
+            None if from_start < self.min_spawn_distance(stype) => 0,
             None => others * (1 + walls),
         }
     }
 
     /// The minimum distance of a spawner from the avatar's start, so that its sprites do not reach the avatar at once.
-    fn spawn_respect(&self, stype: SpriteType) -> usize {
-        let made = self.analysis.facts(stype).makes.iter().map(|&made| self.respect(made));
+    fn min_spawn_distance(&self, stype: SpriteType) -> usize {
+        let made = self.analysis.facts(stype).makes.iter().map(|&made| self.min_distance(made));
         made.max().unwrap_or(2).max(4)
     }
 
@@ -252,8 +256,8 @@ impl Builder<'_> {
         let centre = grid.at(grid.columns / 2, grid.rows / 2);
         if self.target.is_some() {
             let avatar = self.palette.avatars[0].0;
-            let suits = |cell: usize| !self.falls() || self.has_footing(cell);
-            let weight = |&cell: &usize| if suits(cell) { self.habit(cell, avatar) } else { 0 };
+            let suits = |cell: usize| !self.avatar_falls() || self.has_footing(cell);
+            let weight = |&cell: &usize| if suits(cell) { self.example_weight(cell, avatar) } else { 0 };
             let weights: Vec<u32> = cells.iter().map(weight).collect();
             if let Some(at) = self.sampler.weighted(&weights) {
                 return cells[at];
@@ -268,7 +272,7 @@ impl Builder<'_> {
             far.unwrap_or(some)
         };
         // Not always the very end. If avatars fall, on the ground next to it.
-        let grounded = |cell: &usize| !self.falls() || self.has_footing(*cell);
+        let grounded = |cell: &usize| !self.avatar_falls() || self.has_footing(*cell);
         let near = |cell: &usize| grid.manhattan(*cell, target) <= 1;
         let close: Vec<usize> = cells.iter().copied().filter(|cell| near(cell) && grounded(cell)).collect();
         if !close.is_empty() {
@@ -465,13 +469,13 @@ impl Builder<'_> {
             }
         }
         // At the start, nothing hangs over the avatar or without support.
-        let falls: Vec<usize> = self
+        let avatar_falls: Vec<usize> = self
             .log
             .iter()
             .filter(|(_, kind)| self.analysis.facts(*kind).motion == Motion::Straight(Direction::DOWN))
             .map(|(cell, _)| *cell)
             .collect();
-        for cell in falls {
+        for cell in avatar_falls {
             let Some(under) = self.board.grid.shift(cell, (0, 1)) else { continue };
             if self.fits(under, stype) && self.sampler.ratio(4, 5) {
                 self.put(under, stype);

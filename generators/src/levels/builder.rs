@@ -5,15 +5,15 @@ use super::config::LevelConfig;
 use super::examples::{Examples, Target};
 use super::grid::{FAR, WAYS};
 use super::palette::{Palette, Walk};
+use super::placement::{NICHE, nook};
 use super::plan::{self, Wish};
-use super::stance::{NICHE, nook};
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, Sampler, SpriteType};
 
 /// The weight factor of a cell next to a companion that such a sprite almost always has in the examples.
-const COMPANY: u32 = 1000;
+const COMPANION_WEIGHT: u32 = 1000;
 /// The weight factor of a cell in a row with others of the type, if those stand in rows.
-const LINE: u32 = 40;
+const LINE_WEIGHT: u32 = 40;
 
 /// A level under construction, with everything that decisions about it need.
 pub(crate) struct Builder<'a> {
@@ -80,12 +80,12 @@ impl Builder<'_> {
     ) -> Option<usize> {
         if self
             .examples()
-            .is_some_and(|examples| examples.is_closed() && examples.stance(stype).is_on_border())
+            .is_some_and(|examples| examples.is_closed() && examples.placement(stype).is_on_border())
             && let Some(cell) = self.put_in_border(stype)
         {
             return Some(cell);
         }
-        if self.examples().is_some_and(|examples| examples.stance(stype).is_in_niches())
+        if self.examples().is_some_and(|examples| examples.placement(stype).is_in_niches())
             && let Some(cell) = self.put_in_niche(stype)
         {
             return Some(cell);
@@ -95,7 +95,7 @@ impl Builder<'_> {
             .iter()
             .map(|&cell| match weight(self, cell) {
                 0 => 0,
-                weight => weight.saturating_mul(self.habit(cell, stype)),
+                weight => weight.saturating_mul(self.example_weight(cell, stype)),
             })
             .collect();
         let cell = cells[self.sampler.weighted(&weights)?];
@@ -110,9 +110,11 @@ impl Builder<'_> {
         let suits =
             |cell: usize| grid.on_border(cell) && self.board.wall[cell] && grid.beside(cell).any(open);
         let cells: Vec<usize> = (0..grid.len()).filter(|&cell| suits(cell)).collect();
-        let sides =
-            |cell: usize| self.examples().map_or(0, |examples| examples.stance(stype).on_border(grid, cell));
-        let weights: Vec<u32> = cells.iter().map(|&cell| sides(cell) * self.habit(cell, stype)).collect();
+        let sides = |cell: usize| {
+            self.examples().map_or(0, |examples| examples.placement(stype).on_border(grid, cell))
+        };
+        let weights: Vec<u32> =
+            cells.iter().map(|&cell| sides(cell) * self.example_weight(cell, stype)).collect();
         let cell = cells[self.sampler.weighted(&weights)?];
         self.board.wall[cell] = false;
         self.put(cell, stype);
@@ -136,7 +138,7 @@ impl Builder<'_> {
         let weight = |&cell: &usize| {
             let wards = self.apart_from(cell, Role::Ward) >= 4;
             let apart = self.apart(cell, |other| other == stype).min(8) as u32;
-            if wards { self.habit(cell, stype).saturating_mul(apart) } else { 0 }
+            if wards { self.example_weight(cell, stype).saturating_mul(apart) } else { 0 }
         };
         let weights: Vec<u32> = cells.iter().map(weight).collect();
         let cell = cells[self.sampler.weighted(&weights)?];
@@ -151,14 +153,14 @@ impl Builder<'_> {
     }
 
     /// The weight of a cell according to the places of such sprites in the examples.
-    pub(crate) fn habit(&self, cell: usize, stype: SpriteType) -> u32 {
+    pub(crate) fn example_weight(&self, cell: usize, stype: SpriteType) -> u32 {
         let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
         let grid = self.board.grid;
-        let stance = examples.stance(stype);
-        let mut weight = stance.weigh(grid, &self.board.wall, cell, examples.nooks(), target.model);
-        for (way, other) in stance.companions() {
+        let placement = examples.placement(stype);
+        let mut weight = placement.weigh(grid, &self.board.wall, cell, examples.nooks(), target.model);
+        for (way, other) in placement.companions() {
             if grid.shift(cell, way).is_some_and(|next| self.log.contains(&(next, other))) {
-                weight = weight.saturating_mul(COMPANY);
+                weight = weight.saturating_mul(COMPANION_WEIGHT);
             }
         }
         // Sprites that are already there may want this one next to them.
@@ -166,15 +168,15 @@ impl Builder<'_> {
             let wants = |&(way, other): &((i32, i32), SpriteType)| {
                 other == stype && grid.shift(there, way) == Some(cell)
             };
-            if examples.stance(kind).companions().any(|companion| wants(&companion)) {
-                weight = weight.saturating_mul(COMPANY);
+            if examples.placement(kind).companions().any(|companion| wants(&companion)) {
+                weight = weight.saturating_mul(COMPANION_WEIGHT);
             }
         }
-        if stance.is_lined_up() {
+        if placement.is_lined_up() {
             let in_row =
                 |&(other, kind): &(usize, SpriteType)| kind == stype && grid.y(other) == grid.y(cell);
             if self.log.iter().any(in_row) {
-                weight = weight.saturating_mul(LINE);
+                weight = weight.saturating_mul(LINE_WEIGHT);
             }
         }
         weight
@@ -189,14 +191,14 @@ impl Builder<'_> {
     /// Draws whether a sprite is to stand next to another of its type, as often as in the examples; `None` if it does not
     /// matter.
     pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
-        let share = self.examples()?.stance(stype).grouped();
+        let share = self.examples()?.placement(stype).grouped();
         let first = self.log.iter().all(|(_, kind)| *kind != stype);
         (!first).then(|| self.sampler.unit() < 0.8 * share)
     }
 
     /// The mirrored cell, left and right, if examples have such sprites in pairs and there is room.
     pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
-        self.examples().filter(|examples| examples.stance(stype).is_mirrored())?;
+        self.examples().filter(|examples| examples.placement(stype).is_mirrored())?;
         let grid = self.board.grid;
         let twin = grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
         (self.fits(twin, stype) && !self.cuts(twin, stype)).then_some(twin)
@@ -223,7 +225,7 @@ impl Builder<'_> {
     }
 
     /// Returns `true` if the avatar falls, so that things are best put on the ground.
-    pub(crate) fn falls(&self) -> bool {
+    pub(crate) fn avatar_falls(&self) -> bool {
         self.analysis.start_avatar().is_some_and(|avatar| avatar.steering == Steering::Jumping)
     }
 
@@ -303,7 +305,7 @@ impl Builder<'_> {
     }
 
     /// The minimum distance from the avatar's start of something that can harm it, in cells.
-    pub(crate) fn respect(&self, stype: SpriteType) -> usize {
+    pub(crate) fn min_distance(&self, stype: SpriteType) -> usize {
         let facts = self.analysis.facts(stype);
         let near = match facts.motion {
             Motion::Still => 2.0,

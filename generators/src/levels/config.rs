@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The minimum of columns and rows: with fewer, a border leaves no room.
-const LEAST: usize = 4;
+const MIN_SIDE: usize = 4;
 /// The maximum of columns and rows: the cost of a level grows with the square of its cells.
-const MOST: usize = 64;
+const MAX_SIDE: usize = 64;
 
 /// The configuration of a level generator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,7 +47,8 @@ impl Default for LevelConfig {
 impl LevelConfig {
     /// Levels that resemble these in size, cover, numbers of each type, placement and walls.
     pub fn like(examples: Arc<Examples>) -> LevelConfig {
-        let side = |(low, high): (usize, usize)| (low.clamp(LEAST, MOST), high.clamp(LEAST, MOST));
+        let side =
+            |(low, high): (usize, usize)| (low.clamp(MIN_SIDE, MAX_SIDE), high.clamp(MIN_SIDE, MAX_SIDE));
         LevelConfig {
             columns: side(examples.columns()),
             rows: side(examples.rows()),
@@ -60,19 +61,21 @@ impl LevelConfig {
     /// Returns a description of the first problem, if there is any.
     pub(crate) fn problem(&self) -> Option<String> {
         for (name, (low, high)) in [("columns", self.columns), ("rows", self.rows)] {
-            if low < LEAST || low > high || high > MOST {
+            if low < MIN_SIDE || low > high || high > MAX_SIDE {
                 return Some(format!(
-                    "{name} from {low} to {high} asked; both lie between {LEAST} and {MOST}, in order"
+                    "{name} from {low} to {high}: both must be between {MIN_SIDE} and {MAX_SIDE}, in ascending order"
                 ));
             }
         }
         if !(0.0..=1.0).contains(&self.difficulty) {
-            return Some(format!("difficulty {} asked; it lies between 0 and 1", self.difficulty));
+            return Some(format!("difficulty {}: it must be between 0 and 1", self.difficulty));
         }
         if let Some((low, high)) = self.cover
             && !(0.0 <= low && low <= high && high <= 1.0)
         {
-            return Some(format!("cover from {low} to {high} asked; both lie between 0 and 1, in order"));
+            return Some(format!(
+                "cover from {low} to {high}: both must be between 0 and 1, in ascending order"
+            ));
         }
         None
     }

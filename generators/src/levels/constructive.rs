@@ -86,13 +86,12 @@ impl<'a> ConstructiveLevels<'a> {
         }
         let analysis = Analysis::of(game);
         if !analysis.can_win() {
-            let problem = "no termination that wins can ever hold in play, whatever the level".to_owned();
+            let problem = "no winning termination can hold during play, in any level".to_owned();
             return Err(GenerateError::Unsuitable(problem));
         }
         let waits = |goal: &Goal| !goal.win || matches!(goal.condition, Condition::Tick(_));
         if !analysis.can_lose() && analysis.goals().iter().all(waits) {
-            let problem =
-                "every level is won by waiting: nothing in the rules can keep the player from it".to_owned();
+            let problem = "every level is won by waiting: nothing in the rules can prevent it".to_owned();
             return Err(GenerateError::Unsuitable(problem));
         }
         let base = config.like.as_ref().and_then(|examples| examples.base());
@@ -147,12 +146,12 @@ impl<'a> ConstructiveLevels<'a> {
                         .cover
                         .is_none_or(|(low, high)| (low..=high).contains(&cover(&self.analysis, &level)));
                     let cells = level.cells().len() as u64;
-                    let company = self.keeps_company(&made)
-                        && (self.config.like.is_none() || self.is_served(&made.board));
+                    let has_companions = self.has_companions(&made)
+                        && (self.config.like.is_none() || self.chasers_reach_targets(&made.board));
                     let trivial = self.config.like.is_some() && self.is_trivial(&level, seed);
                     let solved = Solved { level, solution: made.solution };
                     // The most important wish first.
-                    let rank = [survivable, covered, !trivial, company];
+                    let rank = [survivable, covered, !trivial, has_companions];
                     let rank = rank.into_iter().fold(0, |rank, met| 2 * rank + u32::from(met));
                     if rank == ALL {
                         return Ok(solved);
@@ -188,7 +187,7 @@ impl<'a> ConstructiveLevels<'a> {
             let wall = layout::walls(Family::Field, grid, ring, 0.0, &mut layout);
             let mut builder = self.builder(Board::new(grid, wall), sampler, target);
             builder.gallery(steering, ring);
-            builder.settle();
+            builder.adjust_cover();
             return Some(Made::plain(builder));
         }
         if attempt < PUZZLES {
@@ -217,7 +216,7 @@ impl<'a> ConstructiveLevels<'a> {
             let rows = builder.rows(grid, closed, &traffic);
             builder.board = Board::new(grid, Builder::lane_walls(grid, &rows, closed, &traffic));
             builder.crossing(&rows, &traffic);
-            builder.settle();
+            builder.adjust_cover();
             return Some(Made::plain(builder));
         }
         let mut family = self.family(&mut layout);
@@ -252,7 +251,7 @@ impl<'a> ConstructiveLevels<'a> {
             return None;
         }
         builder.adventure();
-        builder.settle();
+        builder.adjust_cover();
         Some(Made::plain(builder))
     }
 
@@ -346,15 +345,15 @@ impl<'a> ConstructiveLevels<'a> {
         let ways = builder.warehouse(plan)?;
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
         let puzzle = builder.board.clone();
-        builder.garnish(plan);
-        builder.settle();
+        builder.furnish_rest(plan);
+        builder.adjust_cover();
         let expected = builder.expected();
         if !self.analysis.is_deterministic() {
             return Some(Made { board: builder.board, solution: None, played: true, expected });
         }
-        let garnished = self.play(&builder.board, &ways, plan.is_all, seed);
+        let furnished = self.play(&builder.board, &ways, plan.is_all, seed);
         // If later furniture blocks the puzzle, the level omits it, unless it only spoils the timing.
-        let (board, actions) = match garnished {
+        let (board, actions) = match furnished {
             None if self.analysis.is_turn_based() => (puzzle, Some(bare)),
             actions => (builder.board, actions),
         };
@@ -379,16 +378,17 @@ fn unmet_count(analysis: &Analysis, palette: &Palette, config: &LevelConfig) -> 
     let room = config.columns.1 * config.rows.1;
     let sum: usize = config.counts.iter().fold(0, |sum, (_, count)| sum.saturating_add(*count));
     if sum > room {
-        return Some(format!("{sum} sprites asked for, and a level has {room} cells at most"));
+        return Some(format!("{sum} sprites requested, but a level has at most {room} cells"));
     }
     config.counts.iter().find_map(|&(stype, count)| {
         let name = analysis.game().name(stype);
         if analysis.role(stype) == Role::Avatar {
-            return (count != 1).then(|| format!("{count} of `{name}` asked for; a level has one avatar"));
+            return (count != 1)
+                .then(|| format!("{count} of `{name}` requested, but a level has exactly one avatar"));
         }
         let lies = palette.symbol(stype).is_some();
         (count > 0 && !lies)
-            .then(|| format!("{count} of `{name}` asked for, which no character can place alone"))
+            .then(|| format!("{count} of `{name}` requested, but no level character places it alone"))
     })
 }
 

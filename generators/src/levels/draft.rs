@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 /// The number of levels from which the usual counts are taken.
 const SAMPLES: u64 = 16;
 /// The minimum distance of harmful things from the avatar's start, in cells.
-const RESPECT: usize = 3;
+const MIN_DISTANCE: usize = 3;
 /// Unreachable regions of empty cells with fewer cells than this become wall.
 const POCKET: usize = 4;
 
@@ -130,35 +130,35 @@ impl Vocabulary {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Faults {
     /// The number of sprites by which the level misses the requirements of the game, or the usual numbers.
-    pub(crate) amiss: usize,
+    pub(crate) count_deviation: usize,
     /// The number of cells without wall that cannot be reached through cells without wall.
     pub(crate) stranded: usize,
     /// The total amount by which harmful things are too close to the avatar.
     pub(crate) crowded: usize,
     /// The number of isolated wall blocks, gates in the open, and things in unusual positions.
-    pub(crate) untidy: usize,
+    pub(crate) misplaced: usize,
     /// The number of cells with more than floor that are too many or too few.
-    pub(crate) uncovered: usize,
+    pub(crate) cover_deviation: usize,
 }
 
 impl Faults {
     /// Returns `true` if no fault is worse than in the other.
     pub(crate) fn no_worse_than(&self, other: &Faults) -> bool {
-        self.amiss <= other.amiss
+        self.count_deviation <= other.count_deviation
             && self.stranded <= other.stranded
             && self.crowded <= other.crowded
-            && self.untidy <= other.untidy
-            && self.uncovered <= other.uncovered
+            && self.misplaced <= other.misplaced
+            && self.cover_deviation <= other.cover_deviation
     }
 
     /// The worse of the two for each fault.
     pub(crate) fn or(&self, other: &Faults) -> Faults {
         Faults {
-            amiss: self.amiss.max(other.amiss),
+            count_deviation: self.count_deviation.max(other.count_deviation),
             stranded: self.stranded.max(other.stranded),
             crowded: self.crowded.max(other.crowded),
-            untidy: self.untidy.max(other.untidy),
-            uncovered: self.uncovered.max(other.uncovered),
+            misplaced: self.misplaced.max(other.misplaced),
+            cover_deviation: self.cover_deviation.max(other.cover_deviation),
         }
     }
 }
@@ -167,7 +167,7 @@ impl Faults {
 #[derive(Clone)]
 pub(crate) struct Draft<'v> {
     pub(crate) levels: &'v ConstructiveLevels<'v>,
-    pub(crate) words: &'v Vocabulary,
+    pub(crate) vocabulary: &'v Vocabulary,
     pub(crate) grid: Grid,
     /// Row-major characters.
     pub(crate) cells: Vec<u8>,
@@ -176,16 +176,20 @@ pub(crate) struct Draft<'v> {
 }
 
 impl<'v> Draft<'v> {
-    pub(crate) fn of(levels: &'v ConstructiveLevels<'v>, words: &'v Vocabulary, level: &Level) -> Draft<'v> {
+    pub(crate) fn of(
+        levels: &'v ConstructiveLevels<'v>,
+        vocabulary: &'v Vocabulary,
+        level: &Level,
+    ) -> Draft<'v> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
         let cells = level.cells().to_vec();
         let mut border = (0..grid.len()).filter(|&cell| grid.on_border(cell));
-        let closed = border.all(|cell| words.kind(cells[cell]) == Kind::Wall);
-        Draft { levels, words, grid, cells, closed }
+        let closed = border.all(|cell| vocabulary.kind(cells[cell]) == Kind::Wall);
+        Draft { levels, vocabulary, grid, cells, closed }
     }
 
     pub(crate) fn kind(&self, cell: usize) -> Kind {
-        self.words.kind(self.cells[cell])
+        self.vocabulary.kind(self.cells[cell])
     }
 
     pub(crate) fn is_wall(&self, cell: usize) -> bool {
@@ -243,17 +247,17 @@ impl<'v> Draft<'v> {
     /// Computes the faults.
     pub(crate) fn faults(&self) -> Faults {
         Faults {
-            amiss: self.amiss(),
+            count_deviation: self.count_deviation(),
             stranded: self.stranded().len(),
             crowded: self.crowded(),
-            untidy: self.untidy(),
-            uncovered: self.uncovered(),
+            misplaced: self.misplaced(),
+            cover_deviation: self.cover_deviation(),
         }
     }
 
-    fn amiss(&self) -> usize {
+    fn count_deviation(&self) -> usize {
         let analysis = &self.levels.analysis;
-        let mut amiss = 0;
+        let mut count_deviation = 0;
         for requirement in analysis.requirements() {
             let asked = match requirement.reason {
                 Reason::Avatar => false,
@@ -265,20 +269,20 @@ impl<'v> Draft<'v> {
             };
             if asked {
                 let count: usize = requirement.types.iter().map(|&stype| self.sprites(stype)).sum();
-                amiss += (requirement.at_least as usize).saturating_sub(count);
-                amiss += requirement.at_most.map_or(0, |most| count.saturating_sub(most as usize));
+                count_deviation += (requirement.at_least as usize).saturating_sub(count);
+                count_deviation += requirement.at_most.map_or(0, |most| count.saturating_sub(most as usize));
             }
         }
-        amiss += self.homeless();
+        count_deviation += self.pushables_without_target();
         let unusual = |symbol: u8| {
-            let ((low, high), count) = (self.words.bounds(symbol), self.count(symbol));
+            let ((low, high), count) = (self.vocabulary.bounds(symbol), self.count(symbol));
             low.saturating_sub(count) + count.saturating_sub(high)
         };
-        amiss + self.words.things().map(unusual).sum::<usize>()
+        count_deviation + self.vocabulary.things().map(unusual).sum::<usize>()
     }
 
     /// The number of pushed things that have to go and have no place to go to.
-    fn homeless(&self) -> usize {
+    fn pushables_without_target(&self) -> usize {
         let analysis = &self.levels.analysis;
         let wanted = |stype: &SpriteType| analysis.aims().remove.contains(stype);
         let pushed = analysis.pushables().iter().filter(|pushable| wanted(&pushable.stype));
@@ -303,25 +307,26 @@ impl<'v> Draft<'v> {
 
     fn crowded(&self) -> usize {
         let Some(avatar) = self.avatar() else { return 0 };
-        let harmful = (0..self.grid.len()).filter(|&cell| self.words.harmful[usize::from(self.cells[cell])]);
-        harmful.map(|cell| RESPECT.saturating_sub(self.grid.manhattan(cell, avatar))).sum()
+        let harmful =
+            (0..self.grid.len()).filter(|&cell| self.vocabulary.harmful[usize::from(self.cells[cell])]);
+        harmful.map(|cell| MIN_DISTANCE.saturating_sub(self.grid.manhattan(cell, avatar))).sum()
     }
 
-    fn untidy(&self) -> usize {
+    fn misplaced(&self) -> usize {
         let lonely = |cell: usize| {
             let mut around = self.grid.around(cell).into_iter();
             around.all(|next| next.is_some_and(|next| !self.is_wall(next)))
         };
-        let untidy = |&cell: &usize| match self.kind(cell) {
+        let misplaced = |&cell: &usize| match self.kind(cell) {
             Kind::Wall => lonely(cell),
-            Kind::Thing(_) => !self.belongs(self.cells[cell], cell),
+            Kind::Thing(_) => !self.is_in_place(self.cells[cell], cell),
             _ => false,
         };
-        (0..self.grid.len()).filter(untidy).count()
+        (0..self.grid.len()).filter(misplaced).count()
     }
 
-    fn uncovered(&self) -> usize {
-        let Some((low, high)) = self.words.cover else { return 0 };
+    fn cover_deviation(&self) -> usize {
+        let Some((low, high)) = self.vocabulary.cover else { return 0 };
         let covered = self.cells.iter().filter(|&&symbol| is_cover(&self.levels.analysis, symbol)).count();
         let at = |share: f64| share * self.grid.len() as f64;
         let over = (covered as f64 - at(high)).max(at(low) - covered as f64).max(0.0);
@@ -340,17 +345,17 @@ impl<'v> Draft<'v> {
 
     /// Returns `true` if a character belongs in a cell: gates need walls on both sides, and if the avatar moves along a
     /// line, everything keeps its usual distance from that line.
-    pub(crate) fn belongs(&self, symbol: u8, cell: usize) -> bool {
-        let gate = self.words.kind(symbol) == Kind::Thing(Role::Gate);
+    pub(crate) fn is_in_place(&self, symbol: u8, cell: usize) -> bool {
+        let gate = self.vocabulary.kind(symbol) == Kind::Thing(Role::Gate);
         let place = || across(self.levels, self.grid, cell);
-        let band = self.words.bands.get(usize::from(symbol));
+        let band = self.vocabulary.bands.get(usize::from(symbol));
         let in_band = band.is_none_or(|&(low, high)| low > high || (low..=high).contains(&place()));
         in_band && (!gate || self.is_between(cell))
     }
 
     /// Returns `true` if the cell is ground where a character belongs.
     pub(crate) fn suits(&self, symbol: u8, cell: usize) -> bool {
-        self.is_ground(cell) && self.belongs(symbol, cell)
+        self.is_ground(cell) && self.is_in_place(symbol, cell)
     }
 
     /// Opens the fewest possible walls to unreachable regions, and fills small empty ones.
@@ -399,8 +404,8 @@ impl<'v> Draft<'v> {
 
     /// Adds and removes things until the numbers are usual, as far as there is room.
     pub(crate) fn recount(&mut self, sampler: &mut Sampler) {
-        for symbol in self.words.things() {
-            let (low, high) = self.words.bounds(symbol);
+        for symbol in self.vocabulary.things() {
+            let (low, high) = self.vocabulary.bounds(symbol);
             let mut count = self.count(symbol);
             while count < low || count > high {
                 let surplus = count > high;

@@ -117,21 +117,21 @@ impl Draft<'_> {
     fn nudge(&mut self, sampler: &mut Sampler) -> Option<()> {
         let thing = pick(&self.things(), sampler)?;
         let grid = self.grid;
-        let (lane, flock) = (self.lane(thing), self.flock(thing));
+        let (line_of_motion, cluster) = (self.line_of_motion(thing), self.cluster(thing));
         let cells = self.cells_where(|draft, cell| {
-            let in_lane = match lane {
+            let in_lane = match line_of_motion {
                 Some((_, 0)) => grid.y(cell) == grid.y(thing),
                 Some(_) => grid.x(cell) == grid.x(thing),
                 None => grid.manhattan(cell, thing) <= NEAR,
             };
-            in_lane && draft.suits(draft.cells[thing], cell) && draft.joins(&flock, cell)
+            in_lane && draft.suits(draft.cells[thing], cell) && draft.joins(&cluster, cell)
         });
         self.exchange(thing, pick(&cells, sampler)?);
         Some(())
     }
 
     /// The direction of a thing that moves straight ahead, and so the line to which it belongs.
-    fn lane(&self, cell: usize) -> Option<(i32, i32)> {
+    fn line_of_motion(&self, cell: usize) -> Option<(i32, i32)> {
         let analysis = &self.levels.analysis;
         self.levels.game.places(self.cells[cell]).iter().find_map(|&stype| {
             match analysis.facts(stype).motion {
@@ -143,33 +143,33 @@ impl Draft<'_> {
 
     fn carry(&mut self, sampler: &mut Sampler) -> Option<()> {
         let thing = pick(&self.things(), sampler)?;
-        let flock = self.flock(thing);
+        let cluster = self.cluster(thing);
         let cells = self
-            .cells_where(|draft, cell| draft.suits(draft.cells[thing], cell) && draft.joins(&flock, cell));
+            .cells_where(|draft, cell| draft.suits(draft.cells[thing], cell) && draft.joins(&cluster, cell));
         self.exchange(thing, pick(&cells, sampler)?);
         Some(())
     }
 
     /// The other things of the same character, if it gives shelter or is breakable: such things lie together.
-    fn flock(&self, thing: usize) -> Vec<usize> {
+    fn cluster(&self, thing: usize) -> Vec<usize> {
         let symbol = self.cells[thing];
         let lies =
-            matches!(self.words.kind(symbol), Kind::Thing(Role::Cover | Role::Breakable | Role::Refuge));
+            matches!(self.vocabulary.kind(symbol), Kind::Thing(Role::Cover | Role::Breakable | Role::Refuge));
         self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol)
     }
 
     /// Returns `true` if a cell is next to a member of the flock, or if the flock is empty.
-    fn joins(&self, flock: &[usize], cell: usize) -> bool {
-        flock.is_empty() || flock.iter().any(|&other| self.grid.manhattan(other, cell) == 1)
+    fn joins(&self, cluster: &[usize], cell: usize) -> bool {
+        cluster.is_empty() || cluster.iter().any(|&other| self.grid.manhattan(other, cell) == 1)
     }
 
     fn add(&mut self, sampler: &mut Sampler) -> Option<()> {
-        let words = self.words;
+        let vocabulary = self.vocabulary;
         let symbols: Vec<u8> =
-            words.things().filter(|&symbol| self.count(symbol) < words.bounds(symbol).1).collect();
+            vocabulary.things().filter(|&symbol| self.count(symbol) < vocabulary.bounds(symbol).1).collect();
         let symbol = pick(&symbols, sampler)?;
         self.put(symbol, sampler)?;
-        if words.kind(symbol) == Kind::Thing(Role::Pushable) {
+        if vocabulary.kind(symbol) == Kind::Thing(Role::Pushable) {
             let partners = self.partners(symbol);
             if let Some(partner) = pick(&partners, sampler) {
                 self.put(partner, sampler)?;
@@ -195,7 +195,7 @@ impl Draft<'_> {
         let things = self.things();
         let spare = |&&cell: &&usize| {
             let symbol = self.cells[cell];
-            self.count(symbol) > self.words.bounds(symbol).0
+            self.count(symbol) > self.vocabulary.bounds(symbol).0
         };
         let things: Vec<usize> = things.iter().filter(spare).copied().collect();
         let cell = pick(&things, sampler)?;
@@ -231,7 +231,9 @@ impl Draft<'_> {
         let one = pick(&things, sampler)?;
         let others: Vec<usize> =
             things.into_iter().filter(|&cell| self.cells[cell] != self.cells[one]).collect();
-        let fit = |&cell: &usize| self.belongs(self.cells[one], cell) && self.belongs(self.cells[cell], one);
+        let fit = |&cell: &usize| {
+            self.is_in_place(self.cells[one], cell) && self.is_in_place(self.cells[cell], one)
+        };
         let others: Vec<usize> = others.into_iter().filter(fit).collect();
         self.exchange(one, pick(&others, sampler)?);
         Some(())

@@ -3,7 +3,7 @@
 use super::grid::Grid;
 use super::layout::Patterns;
 use super::palette::Palette;
-use super::stance::{NOOKS, Scene, Stance, nook};
+use super::placement::{NOOKS, Placement, Scene, nook};
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, Game, Level, Sampler, SpriteType};
 
@@ -12,7 +12,7 @@ use engine::{Analysis, Game, Level, Sampler, SpriteType};
 pub struct Examples {
     boards: Vec<Sketch>,
     /// By type: its placement.
-    stances: Vec<Stance>,
+    placements: Vec<Placement>,
     /// The structure of the walls.
     patterns: Patterns,
     /// `true` if the border is wall.
@@ -71,7 +71,7 @@ impl Examples {
         let decor = decor(&analysis, &palette, levels);
         let mut examples = Examples {
             boards: Vec::new(),
-            stances: vec![Stance::default(); game.sprite_types().count()],
+            placements: vec![Placement::default(); game.sprite_types().count()],
             patterns: Patterns::default(),
             closed: false,
             mirrored: 0,
@@ -85,8 +85,8 @@ impl Examples {
         let cells: usize = levels.iter().map(|level| level.cells().len()).sum();
         let boards = &examples.boards;
         let total = |stype: SpriteType| boards.iter().map(|board| board.counts[stype.index()]).sum::<usize>();
-        for stance in &mut examples.stances {
-            stance.conclude(cells, &total, |stype| {
+        for placement in &mut examples.placements {
+            placement.conclude(cells, &total, |stype| {
                 let still = analysis.facts(stype).motion == Motion::Still;
                 let plain = matches!(analysis.role(stype), Role::Wall | Role::Floor);
                 !still || plain || palette.ground.contains(&stype)
@@ -119,12 +119,12 @@ impl Examples {
         }
         let scene = Scene { grid, wall: &wall, closed, game, cells };
         for stype in game.sprite_types() {
-            self.stances[stype.index()].see(&scene, stype);
+            self.placements[stype.index()].see(&scene, stype);
         }
         let turned = |cell: usize| grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
         let alike = (0..grid.len()).filter(|&cell| wall[cell] == wall[turned(cell)]).count();
         self.mirrored += usize::from(alike * 20 >= grid.len() * 19);
-        let mut counts = vec![0; self.stances.len()];
+        let mut counts = vec![0; self.placements.len()];
         for &stype in cells.iter().flat_map(|&symbol| game.places(symbol)) {
             counts[stype.index()] += 1;
         }
@@ -179,7 +179,7 @@ impl Examples {
     /// Returns `true` if sprites of the one type stand lower than those of the other, by a third of the board on average,
     /// or if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
-        match (self.stance(one).height(), self.stance(two).height()) {
+        match (self.placement(one).height(), self.placement(two).height()) {
             (Some(one), Some(two)) => one > two + 1.0 / 3.0,
             _ => true,
         }
@@ -195,8 +195,8 @@ impl Examples {
         sampler.ratio(self.mirrored, self.boards.len())
     }
 
-    pub(crate) fn stance(&self, stype: SpriteType) -> &Stance {
-        &self.stances[stype.index()]
+    pub(crate) fn placement(&self, stype: SpriteType) -> &Placement {
+        &self.placements[stype.index()]
     }
 
     /// The number of open cells by the arrangement of walls around them.
@@ -229,7 +229,7 @@ impl Examples {
         let scale = if own > 0.0 { grid.len() as f64 / own } else { 1.0 };
         let scale = if (0.8..=1.25).contains(&scale) { 1.0 } else { scale };
         let scaled = |count: usize| (count as f64 * scale + 0.5) as usize;
-        let counts = (0..self.stances.len()).map(|at| {
+        let counts = (0..self.placements.len()).map(|at| {
             let count = nearest(one.counts[at], two.counts[at]);
             let (least, usual, most) = self.count(SpriteType(at as u16));
             let drawn = scaled(count).max(usize::from(count > 0));

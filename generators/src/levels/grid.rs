@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_cuts_if_there_is_no_other_way() {
+    fn a_cell_cuts_without_another_path() {
         let (grid, cells) = open("...\n#.#\n...");
         assert!(grid.is_cut(grid.at(1, 1), |cell| cells[cell]));
         assert!(!grid.is_cut(grid.at(0, 0), |cell| cells[cell]));
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn ways_are_shortest() {
+    fn paths_are_shortest() {
         let (grid, cells) = open("...\n.#.\n...");
         let way = grid.way(0, 8, |cell| cells[cell]).unwrap();
         assert_eq!((way.len(), way[0], way[4]), (5, 0, 8));

@@ -6,13 +6,13 @@ use engine::analysis::{Harm, Motion, Reason, Role, Steering};
 use engine::{Action, Level, Outcome, Seed, SpriteType, State};
 
 /// The number of ticks that a player who does nothing should survive.
-const GRACE: usize = 12;
+const GRACE_TICKS: usize = 12;
 /// The number of futures in which that is tested.
 const FUTURES: u64 = 4;
 /// The number of ticks in which a game should not be won by doing nothing.
-const PATIENCE: usize = 300;
+const MAX_IDLE_TICKS: usize = 300;
 /// The upper limit of the same if survival wins, and the number of random steps if chance plays no part.
-const ENDURANCE: usize = 1000;
+const MAX_TICKS: usize = 1000;
 
 impl ConstructiveLevels<'_> {
     /// Makes the level of a board, or returns its fault; the `bool` is `true` if an idle player survives the first ticks.
@@ -28,7 +28,7 @@ impl ConstructiveLevels<'_> {
             let there = board.count(&self.analysis, stype);
             if there != asked {
                 let name = self.game.name(stype);
-                return Err(format!("{asked} of {name} are asked for, and {there} are there"));
+                return Err(format!("requested {asked} of {name}, placed {there}"));
             }
         }
         if made.played {
@@ -42,7 +42,7 @@ impl ConstructiveLevels<'_> {
             goal && !near(cell)
         });
         if let Some(cell) = missing {
-            return Err(format!("what is at row {} cannot be reached", board.grid.y(cell) + 1));
+            return Err(format!("a goal in row {} cannot be reached", board.grid.y(cell) + 1));
         }
         let short = self.analysis.requirements().iter().any(|requirement| {
             let count = |stype: &SpriteType| board.count(&self.analysis, *stype);
@@ -59,7 +59,7 @@ impl ConstructiveLevels<'_> {
                 && requirement.types.iter().map(count).sum::<usize>() < requirement.at_least as usize
         });
         if short {
-            return Err("there are too few keys for a lock".to_owned());
+            return Err("a lock has too few keys".to_owned());
         }
         Ok((level, self.is_survivable(&state, seed)))
     }
@@ -75,14 +75,14 @@ impl ConstructiveLevels<'_> {
             })
         };
         let survive = self.analysis.aims().survive.and_then(|tick| usize::try_from(tick).ok());
-        let patience = survive.map_or(PATIENCE, |tick| (tick + 1).min(ENDURANCE));
+        let patience = survive.map_or(MAX_IDLE_TICKS, |tick| (tick + 1).min(MAX_TICKS));
         if wins(patience, seed.child("idle", 0), &mut |_| Action::Nil) {
             return true;
         }
         let mut sampler = seed.child("steps", 0).sampler();
         self.analysis.is_deterministic_from(&start)
             && (0..2).any(|future| {
-                wins(ENDURANCE, seed.child("steps of", future), &mut |state| {
+                wins(MAX_TICKS, seed.child("steps of", future), &mut |state| {
                     *sampler.choose(self.game.actions(state))
                 })
             })
@@ -90,7 +90,7 @@ impl ConstructiveLevels<'_> {
 
     /// Returns `true` if the types on a board, or expected there, have the companions that they almost always have in the
     /// examples.
-    pub(super) fn keeps_company(&self, made: &Made) -> bool {
+    pub(super) fn has_companions(&self, made: &Made) -> bool {
         let Some(examples) = self.config.like.as_deref() else { return true };
         let board = &made.board;
         let holds = |cell: usize, stype: SpriteType| {
@@ -98,13 +98,13 @@ impl ConstructiveLevels<'_> {
         };
         let cells = || 0..board.grid.len();
         self.game.sprite_types().all(|stype| {
-            let stance = examples.stance(stype);
-            if stance.companions().next().is_none() {
+            let placement = examples.placement(stype);
+            if placement.companions().next().is_none() {
                 return true;
             }
             let own: Vec<usize> = cells().filter(|&cell| holds(cell, stype)).collect();
             let kept = own.iter().filter(|&&cell| {
-                stance
+                placement
                     .companions()
                     .all(|(way, other)| board.grid.shift(cell, way).is_some_and(|next| holds(next, other)))
             });
@@ -115,7 +115,7 @@ impl ConstructiveLevels<'_> {
 
     /// Returns `true` if all harmless spawned chasers of something other than the avatar can reach their targets by steps
     /// that each bring them nearer, since chasers make no others.
-    pub(super) fn is_served(&self, board: &Board) -> bool {
+    pub(super) fn chasers_reach_targets(&self, board: &Board) -> bool {
         let grid = board.grid;
         let types = |cell: usize| {
             let symbol = if board.wall[cell] { self.palette.wall } else { board.placed[cell] };
@@ -173,7 +173,7 @@ impl ConstructiveLevels<'_> {
     fn is_survivable(&self, state: &State, seed: Seed) -> bool {
         (0..FUTURES).all(|future| {
             let mut state = state.fork(seed.child("future", future));
-            (0..GRACE).all(|_| {
+            (0..GRACE_TICKS).all(|_| {
                 !matches!(self.game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_))
             })
         })

@@ -2,7 +2,7 @@
 
 use super::grid::{FAR, Grid};
 use super::palette::{Palette, Walk};
-use super::symmetry::{Likeness, Mirror};
+use super::symmetry::{LevelSimilarity, Mirror};
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Level};
 
@@ -31,7 +31,7 @@ pub enum LevelMeasure {
     /// The number of goal things: n / (n + 4), where n counts cells with things that must be removed for a win or must be
     /// protected, or with an exit.
     Goals,
-    /// The left-right symmetry: 1.0 minus the distance ([`Likeness::distance`]) of the level, unmoved, to its mirror
+    /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) of the level, unmoved, to its mirror
     /// image.
     LeftRight,
     /// The up-down symmetry, likewise.
@@ -74,7 +74,7 @@ impl LevelMeasure {
 /// Computes the measures of the levels of one game.
 #[derive(Clone, Debug)]
 pub struct LevelMeasures {
-    likeness: Likeness,
+    similarity: LevelSimilarity,
     /// By character.
     marks: Vec<Mark>,
 }
@@ -97,7 +97,7 @@ impl LevelMeasures {
     pub fn new(analysis: &Analysis) -> Option<LevelMeasures> {
         let palette = Palette::of(analysis)?;
         let marks = (0..128).map(|symbol| Mark::of(analysis, &palette, symbol)).collect();
-        Some(LevelMeasures { likeness: Likeness::of(analysis), marks })
+        Some(LevelMeasures { similarity: LevelSimilarity::of(analysis), marks })
     }
 
     /// Returns all measures of a level of that game, in the order of [`LevelMeasure::ALL`]. Cost: O(cells).
@@ -114,8 +114,8 @@ impl LevelMeasures {
             LevelMeasure::Linearity => linearity,
             LevelMeasure::Pressure => board.pressure(),
             LevelMeasure::Goals => saturate(board.count(|mark| mark.is_goal) as f64),
-            LevelMeasure::LeftRight => self.likeness.mirror(level, Mirror::LeftRight),
-            LevelMeasure::UpDown => self.likeness.mirror(level, Mirror::UpDown),
+            LevelMeasure::LeftRight => self.similarity.mirror(level, Mirror::LeftRight),
+            LevelMeasure::UpDown => self.similarity.mirror(level, Mirror::UpDown),
             LevelMeasure::Sprinkle => board.sprinkle(),
         })
     }
@@ -293,14 +293,14 @@ BasicGame
     }
 
     #[test]
-    fn only_what_can_be_reached_has_a_shape() {
+    fn unreachable_cells_have_no_shape() {
         use LevelMeasure::*;
         check("A.wg./..w..", &[(Openness, 8.0 / 16.0), (Linearity, 2.0 / 3.0)]);
         check("A.tg./..t..", &[(Openness, 8.0 / 16.0), (Linearity, 2.0 / 3.0)]);
     }
 
     #[test]
-    fn harm_presses_where_it_is_near() {
+    fn pressure_grows_with_near_harm() {
         use LevelMeasure::Pressure;
         let near = |steps: f64| 4.0 / (4.0 + steps);
         let one = (near(1.0) + near(4.0)) / 2.0;
@@ -312,7 +312,7 @@ BasicGame
     }
 
     #[test]
-    fn walls_by_themselves_are_sprinkled() {
+    fn isolated_walls_are_scattered() {
         use LevelMeasure::Sprinkle;
         check("A...../.w..w./....w./.....g", &[(Sprinkle, 1.0 / 3.0)]);
         check("wwwwww/wA...w/w.w.ww/wwwwww", &[(Sprinkle, 0.0)]);

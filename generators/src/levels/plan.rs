@@ -34,7 +34,7 @@ pub(crate) fn wishes(
         let total = round(total, sampler).max(least(role, types.len()));
         wishes.extend(share(types, role, total, sampler));
     }
-    settle(analysis, area, &mut wishes);
+    make_feasible(analysis, area, &mut wishes);
     wishes
 }
 
@@ -85,13 +85,13 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role: Role::Neutral, count });
         }
     }
-    settle(analysis, area, &mut wishes);
+    make_feasible(analysis, area, &mut wishes);
     wishes.retain(|wish| wish.count > 0);
     wishes
 }
 
 /// Adjusts numbers to possible ones.
-fn settle(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
+fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for wish in wishes.iter_mut().filter(|wish| analysis.facts(wish.stype).singleton) {
         wish.count = wish.count.min(1);
     }

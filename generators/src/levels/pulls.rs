@@ -73,7 +73,7 @@ impl Pulls {
     }
 
     /// The distances of the cells that the avatar can reach.
-    pub(crate) fn roam(&self) -> Vec<u32> {
+    pub(crate) fn reachable(&self) -> Vec<u32> {
         match self.avatar {
             Some(cell) => self.grid.flood(&[cell], |next| self.stands(next)),
             None => (0..self.grid.len()).map(|cell| if self.stands(cell) { 0 } else { FAR }).collect(),
@@ -82,8 +82,8 @@ impl Pulls {
 
     /// Undoes the last push of a job onto the partner at `cell`, and pulls the thing away by about `pulls` pulls.
     pub(crate) fn undo(&mut self, job: &Job, cell: usize, pulls: usize, sampler: &mut Sampler) -> Option<()> {
-        let roam = self.roam();
-        let reaches = |cell: usize| roam[cell] != FAR;
+        let reachable = self.reachable();
+        let reaches = |cell: usize| reachable[cell] != FAR;
         let options: Vec<((i32, i32), usize, usize)> = WAYS
             .into_iter()
             .filter_map(|way| {
@@ -124,13 +124,13 @@ impl Pulls {
             let Node { thing, avatar, depth, .. } = nodes[at];
             self.things[from] = None;
             self.things[thing] = Some(stype);
-            let roam = self.grid.flood(&[avatar], |cell| self.stands(cell));
-            nodes[at].room = roam.iter().filter(|&&steps| steps != FAR).count();
+            let reachable = self.grid.flood(&[avatar], |cell| self.stands(cell));
+            nodes[at].room = reachable.iter().filter(|&&steps| steps != FAR).count();
             for way in WAYS {
                 let Some(near) = self.grid.shift(thing, way) else { continue };
                 let Some(far) = self.grid.shift(near, way) else { continue };
                 let new = depth < pulls + 2 && !seen.contains(&(near, far));
-                if new && roam[near] != FAR && self.lies(near) && self.stands(far) {
+                if new && reachable[near] != FAR && self.lies(near) && self.stands(far) {
                     seen.push((near, far));
                     nodes.push(Node { thing: near, avatar: far, depth: depth + 1, before: at, room: 0 });
                     queue.push_back(nodes.len() - 1);
@@ -255,7 +255,7 @@ mod tests {
     use engine::Seed;
 
     #[test]
-    fn what_was_pulled_can_be_pushed_back() {
+    fn pulled_things_can_be_pushed_back() {
         let grid = Grid { columns: 9, rows: 8 };
         let wall: Vec<bool> = (0..grid.len()).map(|cell| grid.on_border(cell)).collect();
         let job = Job {

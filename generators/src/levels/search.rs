@@ -68,7 +68,7 @@ mod tests {
     use crate::levels::tests::{game_in, workspace};
 
     #[test]
-    fn the_way_to_vary_suits_the_game() {
+    fn the_kind_of_search_suits_the_game() {
         for (folder, puzzles) in [("quiet-jars", true), ("hailglass", false), ("tinkers-attic", false)] {
             let game = game_in(&workspace().join("corpora").join(folder)).unwrap();
             let puzzle = PuzzleConfig { floor_plans: 8, ..PuzzleConfig::default() };

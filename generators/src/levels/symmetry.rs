@@ -15,7 +15,7 @@ const OUTSIDE: u8 = 0;
 /// Rules may distinguish directions (things that fall, or drive from left to right), so the image of a level need not
 /// play like the level; it still does not count as a new level.
 #[derive(Clone, Debug)]
-pub struct Likeness {
+pub struct LevelSimilarity {
     /// By character: the first character that places the same sprites.
     class: [u8; 128],
     /// By character: the index of the set of sprites that it places, which does not depend on characters.
@@ -26,9 +26,9 @@ pub struct Likeness {
     structure: [bool; 128],
 }
 
-impl Likeness {
+impl LevelSimilarity {
     /// Creates the comparison for a game. Cost: O(characters²).
-    pub fn of(analysis: &Analysis) -> Likeness {
+    pub fn of(analysis: &Analysis) -> LevelSimilarity {
         let palette = Palette::of(analysis);
         let places = |symbol: u8| {
             let mut types = analysis.game().places(symbol).to_vec();
@@ -62,7 +62,7 @@ impl Likeness {
             () if is_ground(symbol) => 0,
             () => 2,
         });
-        Likeness { class, rank, weight, structure }
+        LevelSimilarity { class, rank, weight, structure }
     }
 
     /// A digest that is the same for levels that are equal up to the eight symmetries of the board, and up to characters
@@ -164,16 +164,20 @@ mod tests {
     #[track_caller]
     fn distance(one: &str, two: &str) -> f64 {
         let game = cellar();
-        let likeness = Likeness::of(&Analysis::of(&game));
+        let similarity = LevelSimilarity::of(&Analysis::of(&game));
         let (one, two) = (level(&game, one), level(&game, two));
-        let distance = likeness.distance(&one, &two);
-        assert_eq!(distance, likeness.distance(&two, &one), "it is symmetric");
-        assert_eq!(distance == 0.0, likeness.digest(&one) == likeness.digest(&two), "distance {distance}");
+        let distance = similarity.distance(&one, &two);
+        assert_eq!(distance, similarity.distance(&two, &one), "it is symmetric");
+        assert_eq!(
+            distance == 0.0,
+            similarity.digest(&one) == similarity.digest(&two),
+            "distance {distance}"
+        );
         distance
     }
 
     #[test]
-    fn images_are_the_same() {
+    fn mirror_images_have_equal_digests() {
         let seen = "wwwww/wA.gw/w.w.w/wwwww";
         for image in ["wwwww/wg.Aw/w.w.w/wwwww", "wwwww/w.w.w/wA.gw/wwwww", "wwww/w.Aw/ww.w/w.gw/wwww"] {
             assert_eq!(distance(seen, image), 0.0);
@@ -184,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn images_are_images_and_all_different() {
+    fn all_eight_images_differ() {
         let grid = Grid { columns: 3, rows: 2 };
         let mut images: Vec<(usize, Vec<u8>)> = (0..SYMMETRIES)
             .map(|symmetry| image(grid, b"abcdef", symmetry))
@@ -197,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_stands_on_the_ground_counts() {
+    fn ground_does_not_count() {
         // An avatar and a gem in common out of the five places with things: one moved gem counts as two places of weight
         // 2.
         assert_eq!(distance("A....g/g.....", "A....g/.g...."), 4.0 / 8.0);
@@ -208,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn levels_without_anything_in_common_are_as_far_apart_as_can_be() {
+    fn levels_without_common_cells_have_distance_one() {
         assert_eq!(distance("A.........../......g.....", "....A......./ggg........."), 1.0);
     }
 }

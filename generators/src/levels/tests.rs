@@ -98,7 +98,7 @@ fn every_public_game_gets_levels_or_a_reason() {
 }
 
 #[test]
-fn what_no_level_can_serve_is_refused() {
+fn impossible_games_are_rejected() {
     let source = |mapping: &str, goal: &str| {
         format!(
             "BasicGame\n  SpriteSet\n    wall > Immovable\n    gem > Immovable\n    ghost > Immovable\n    \
@@ -119,7 +119,7 @@ fn what_no_level_can_serve_is_refused() {
     let waited = source("g > gem", "gem").replace("SpriteCounter stype=gem", "Timeout limit=50");
     refuse(waited, LevelConfig::default(), "won by waiting");
     let never = source("g > gem", "gem").replace("win=True", "win=False");
-    refuse(never, LevelConfig::default(), "no termination that wins");
+    refuse(never, LevelConfig::default(), "no winning termination");
     let narrow = LevelConfig { columns: (3, 9), ..LevelConfig::default() };
     refuse(source("g > gem", "gem"), narrow, "columns from 3 to 9");
     let hard = LevelConfig { difficulty: 1.5, ..LevelConfig::default() };
@@ -128,7 +128,7 @@ fn what_no_level_can_serve_is_refused() {
 
 /// Numbers that no level can meet cost no time and break nothing.
 #[test]
-fn absurd_numbers_are_survived() {
+fn extreme_configurations_do_not_panic() {
     let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gem > Resource limit=2147483647 value=1\n    \
                   door > Door\n    gate > Door\n    foe > Chaser stype=hero speed=1e300 cooldown=2147483647\n    \
                   hero > MovingAvatar\n  LevelMapping\n    w > wall\n    g > gem\n    d > door\n    t > gate\n    \
@@ -146,7 +146,7 @@ fn absurd_numbers_are_survived() {
 }
 
 #[test]
-fn harder_levels_hold_more_that_harms() {
+fn harder_levels_hold_more_harmful_things() {
     let source = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    pit > Immovable\n    \
                   ghoul > RandomNPC\n    door > Door\n    hero > MovingAvatar\n  LevelMapping\n    . > floor\n    \
                   w > wall\n    p > floor pit\n    g > floor ghoul\n    d > floor door\n    h > floor hero\n  \
@@ -167,7 +167,7 @@ fn harder_levels_hold_more_that_harms() {
 
 /// Generates levels that resemble a game's own, for each of our games.
 #[test]
-fn levels_are_like_examples() {
+fn levels_resemble_their_examples() {
     for folder in folders(&workspace().join("corpora")) {
         let Some(game) = game_in(&folder) else { continue };
         let name = name_of(&folder);
@@ -214,7 +214,7 @@ fn the_smallest_boards_are_levels_or_none() {
 
 /// Exact numbers are met, or the level is refused.
 #[test]
-fn as_many_are_placed_as_asked_for() {
+fn exact_numbers_are_placed() {
     let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    drain > Immovable\n    coin > Immovable\n    \
                   crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    o > drain\n    c > crate\n    \
                   $ > coin\n  InteractionSet\n    avatar wall > stepBack\n    coin avatar > killSprite\n    \

@@ -24,7 +24,7 @@ const ATTEMPTS: usize = 12;
 /// Cost: some tens of microseconds for a mutation of a level of usual size.
 pub struct LevelVariation<'a> {
     levels: ConstructiveLevels<'a>,
-    words: Vocabulary,
+    vocabulary: Vocabulary,
 }
 
 impl<'a> LevelVariation<'a> {
@@ -34,7 +34,7 @@ impl<'a> LevelVariation<'a> {
     /// As [`ConstructiveLevels::new`].
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<LevelVariation<'a>, GenerateError> {
         let levels = ConstructiveLevels::new(game, config.clone())?;
-        Ok(LevelVariation { words: Vocabulary::of(&levels, &config), levels })
+        Ok(LevelVariation { vocabulary: Vocabulary::of(&levels, &config), levels })
     }
 
     /// The constructive generator of the initial levels of a search.
@@ -43,7 +43,7 @@ impl<'a> LevelVariation<'a> {
     }
 
     fn draft(&self, level: &Level) -> Draft<'_> {
-        Draft::of(&self.levels, &self.words, level)
+        Draft::of(&self.levels, &self.vocabulary, level)
     }
 
     /// Returns a draft with one more edit; `None` if a few draws of its kind all cause faults or change nothing.
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_varied_stays_a_level() {
+    fn varied_levels_are_levels() {
         for folder in folders(&workspace().join("corpora")) {
             let Some(game) = game_in(&folder) else { continue };
             let name = name_of(&folder);
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_draws_give_the_same() {
+    fn equal_draws_give_equal_levels() {
         for folder in folders(&workspace().join("corpora")) {
             let Some(game) = game_in(&folder) else { continue };
             let walk = || {

@@ -140,7 +140,7 @@ impl Builder<'_> {
     fn scatter(&mut self, plan: &Jobs, sockets: &[usize], pulls: &mut Pulls) {
         let grid = self.board.grid;
         for &stype in &plan.loose {
-            let roam = pulls.roam();
+            let reachable = pulls.reachable();
             let cells: Vec<usize> = (0..grid.len())
                 .filter(|&cell| {
                     let clear = pulls.stands(cell) && !pulls.barred[cell] && pulls.partners[cell].is_none();
@@ -149,7 +149,7 @@ impl Builder<'_> {
                     clear
                         && aside
                         && Some(cell) != pulls.avatar
-                        && roam[cell] != FAR
+                        && reachable[cell] != FAR
                         && !grid.is_cut(cell, open)
                 })
                 .collect();
@@ -164,13 +164,13 @@ impl Builder<'_> {
         let goal = pulls.avatar;
         let least = 3 + round(3.0 * self.difficulty(), &mut self.sampler);
         for turn in 0..14 {
-            let roam = pulls.roam();
+            let reachable = pulls.reachable();
             // Enough once the way to the goal is blocked.
-            if turn >= least && goal.is_none_or(|goal| roam[goal] == FAR) {
+            if turn >= least && goal.is_none_or(|goal| reachable[goal] == FAR) {
                 return;
             }
             let weights: Vec<u32> =
-                roam.iter().map(|&steps| if steps == FAR { 0 } else { steps * steps }).collect();
+                reachable.iter().map(|&steps| if steps == FAR { 0 } else { steps * steps }).collect();
             let Some(to) = self.sampler.weighted(&weights) else { return };
             pulls.wander(to, 8, &mut self.sampler);
         }
@@ -178,21 +178,21 @@ impl Builder<'_> {
 
     /// Draws the avatar's start from the cells that it can reach, preferably far from the first push.
     fn choose_stand(&mut self, pulls: &Pulls, behind: &dyn Fn(usize) -> bool) -> Option<usize> {
-        let roam = pulls.roam();
+        let reachable = pulls.reachable();
         let weight = |cell: usize| {
             let free = pulls.partners[cell].is_none() && self.board.placed[cell].is_none() && !behind(cell);
-            match roam[cell] {
+            match reachable[cell] {
                 steps if steps == FAR || !free => 0,
                 // As in the examples, and preferably far from the last pull and from the exit.
                 steps if self.target.is_some() => {
                     let exit = self.apart_from(cell, Role::Exit).min(12) as u32;
                     let far = (1 + steps * steps).saturating_mul(1 + exit * exit);
-                    far.saturating_mul(self.habit(cell, self.palette.avatars[0].0))
+                    far.saturating_mul(self.example_weight(cell, self.palette.avatars[0].0))
                 }
                 steps => 1 + steps.min(12),
             }
         };
-        let weights: Vec<u32> = (0..roam.len()).map(weight).collect();
+        let weights: Vec<u32> = (0..reachable.len()).map(weight).collect();
         // Without a suitable cell, the avatar stays at the end of the last pull.
         self.sampler.weighted(&weights).or(pulls.avatar)
     }
@@ -253,7 +253,7 @@ impl Builder<'_> {
     }
 
     /// Adds the other things of the game after the puzzle, out of its way.
-    pub(crate) fn garnish(&mut self, plan: &Jobs) {
+    pub(crate) fn furnish_rest(&mut self, plan: &Jobs) {
         self.board.pushing = true;
         if plan.gate.is_none() {
             let gates = self.gates();

@@ -2,7 +2,7 @@
 //! generator.
 
 use engine::{Analysis, Digest, Game, Level, Seed};
-use generators::levels::{LevelConfig, LevelMeasure, LevelMeasures, LevelVariation, Likeness};
+use generators::levels::{LevelConfig, LevelMeasure, LevelMeasures, LevelSimilarity, LevelVariation};
 use generators::{
     Archive, Axis, Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, MapElites, MapElitesConfig,
     Search, Variation,
@@ -180,7 +180,7 @@ impl Contest {
         let variation = LevelVariation::new(&game, config).expect("levels can be made for the game");
         let measures = LevelMeasures::new(&analysis).expect("a diver can be placed");
         let judge = Judge { measures, symmetry, steps };
-        let likeness = Likeness::of(&analysis);
+        let likeness = LevelSimilarity::of(&analysis);
         let key = |level: &Level| -> Digest { likeness.digest(level) };
         let constructive = |seed: Seed| {
             let mut created = 0..;
@@ -234,7 +234,7 @@ fn evolution_beats_as_many_levels_from_the_constructive_generator() {
 
 /// Long ways on boards that are nearly symmetric.
 #[test]
-fn where_hardly_anything_feasible_is_made_infeasible_parents_lead_to_it() {
+fn infeasible_parents_lead_to_rare_feasible_levels() {
     let contest = Contest::of(0.7, 24);
     let feasible = |runs: &[Figures]| mean(runs, |run| run.feasible.iter().sum::<usize>() as f64);
     for runs in [&contest.two_populations, &contest.elites] {

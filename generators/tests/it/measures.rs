@@ -1,7 +1,7 @@
 //! Measures and similarity of the levels that games come with: our own and, if they are available, public ones.
 
 use engine::{Analysis, Game, Level};
-use generators::levels::{LevelMeasures, Likeness};
+use generators::levels::{LevelMeasures, LevelSimilarity};
 use std::path::{Path, PathBuf};
 
 /// The folders in a folder beside this crate, sorted; empty, with a message, if it is missing.
@@ -39,7 +39,7 @@ fn check(folders: Vec<PathBuf>) {
     for folder in folders {
         let Some((game, levels)) = game_in(&folder) else { continue };
         let analysis = Analysis::of(&game);
-        let likeness = Likeness::of(&analysis);
+        let likeness = LevelSimilarity::of(&analysis);
         let name = folder.display();
         for level in &levels {
             if let Some(measures) = LevelMeasures::new(&analysis) {

@@ -13,7 +13,7 @@ use forge::card::Origin;
 use forge::games::Step;
 use forge::games::{Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, make_games, make_one};
 use forge::levels::Method;
-use generators::games::Retold;
+use generators::games::Rethemed;
 use generators::levels::{Examples, LevelConfig};
 use report::canonical::to_canonical_json;
 use std::sync::Arc;
@@ -273,7 +273,7 @@ impl<'a> Plan<'a> {
     fn new_levels(&self, at: usize, seed: Seed) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
-        let Ok(retold) = Retold::of(&self.games[at], seed.child("fiction", 0)) else {
+        let Ok(retold) = Rethemed::of(&self.games[at], seed.child("fiction", 0)) else {
             tally.game_rejected("no fiction fits");
             return (Vec::new(), tally);
         };

@@ -13,7 +13,7 @@ use crate::recipe::Recipe;
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::reasons;
-use generators::levels::Likeness;
+use generators::levels::LevelSimilarity;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,7 +44,7 @@ impl Contender {
         let analysis = Analysis::of(&game);
         let kind = GameKind::of(&analysis);
         let form = GameForm::of(&game);
-        let likeness = Likeness::of(&analysis);
+        let likeness = LevelSimilarity::of(&analysis);
         let canonical = |text: &String| {
             let level = game.level(text).ok()?;
             Some(item(&form, &likeness, &level))

@@ -10,7 +10,7 @@ use engine::describe::Guide;
 
 use engine::{Action, Analysis, Description, Diagnostics, Episode, Game, Level, Outcome, Seed, syntax};
 use generators::GenerateError;
-use generators::games::{Masked, Retold};
+use generators::games::{Masked, Rethemed};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -93,7 +93,7 @@ pub enum TwinError {
     Unmirrorable(String),
     /// There is no other theme.
     #[error(transparent)]
-    Untold(#[from] GenerateError),
+    NoTheme(#[from] GenerateError),
 }
 
 /// Makes the twin of a game: the same mechanics, level by level. `witnesses` are episodes that win the levels, in the
@@ -163,12 +163,12 @@ impl Original<'_> {
     }
 
     fn renamed(&self) -> Result<TwinGame, TwinError> {
-        let retold = Retold::of(&self.game, self.seed(Twin::Renamed))?;
-        let levels = self.levels.iter().map(|level| retold.level(level)).collect();
-        let mut made = Made::of(self, &retold.description, levels, |action| action)?;
-        made.twin.title = retold.title;
-        made.twin.description = retold.summary;
-        made.twin.goal = retold.goal;
+        let rethemed = Rethemed::of(&self.game, self.seed(Twin::Renamed))?;
+        let levels = self.levels.iter().map(|level| rethemed.level(level)).collect();
+        let mut made = Made::of(self, &rethemed.description, levels, |action| action)?;
+        made.twin.title = rethemed.title;
+        made.twin.description = rethemed.summary;
+        made.twin.goal = rethemed.goal;
         Ok(made.headed(self))
     }
 }

@@ -3,7 +3,7 @@
 
 use engine::{Game, Seed};
 use generators::Generator;
-use generators::games::{ConstructiveGames, Masked, Retold};
+use generators::games::{ConstructiveGames, Masked, Rethemed};
 use std::path::Path;
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
@@ -79,8 +79,8 @@ fn twins_are_the_same_game() {
         for number in 0..8 {
             let seed = Seed::from_text(&name).child("twin", number);
             let masked = Masked::of(game.description(), seed).description().clone();
-            let retold = Retold::of(&game, seed).ok().map(|retold| retold.description);
-            for twin in [masked].into_iter().chain(retold) {
+            let rethemed = Rethemed::of(&game, seed).ok().map(|rethemed| rethemed.description);
+            for twin in [masked].into_iter().chain(rethemed) {
                 let text = engine::syntax::print(&twin);
                 let twin =
                     Game::compile(&twin).unwrap_or_else(|problems| panic!("{name}: {problems}\n{text}"));

@@ -4,7 +4,7 @@ use super::Made;
 use agents::{Budget, DoNothing, Limits, Planner, PortfolioConfig, Random, Solution, play, solve};
 use engine::analysis::{Condition, Reason, Role};
 use engine::{Analysis, Digest, Level, Outcome, Seed, SpriteType};
-use generators::levels::{Likeness, cover};
+use generators::levels::{LevelSimilarity, cover};
 use std::collections::BTreeSet;
 
 /// The result of the search for a win.
@@ -38,7 +38,7 @@ pub(super) struct Judged {
 /// The judge, which takes the measurements.
 pub(super) struct Judge<'a> {
     pub(super) analysis: &'a Analysis,
-    pub(super) likeness: &'a Likeness,
+    pub(super) likeness: &'a LevelSimilarity,
     pub(super) own: &'a [Level],
     pub(super) config: PortfolioConfig,
     pub(super) plays: u64,

@@ -9,7 +9,7 @@ use anyhow::{Context, bail};
 use cpu_time::ThreadTime;
 use engine::{Analysis, Level, Seed};
 use generators::Generator;
-use generators::levels::{ConstructiveLevels, Examples, LevelConfig, Likeness};
+use generators::levels::{ConstructiveLevels, Examples, LevelConfig, LevelSimilarity};
 use judged::{Judge, Judged};
 use rayon::prelude::*;
 use render::{Looks, Style};
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             make(subject, args)
         };
         let config = PortfolioConfig { budget: args.budget, ..PortfolioConfig::default() };
-        let likeness = Likeness::of(&subject.analysis);
+        let likeness = LevelSimilarity::of(&subject.analysis);
         let judge = Judge {
             analysis: &subject.analysis,
             likeness: &likeness,

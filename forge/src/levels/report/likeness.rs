@@ -2,7 +2,7 @@
 
 use super::Judged;
 use engine::Digest;
-use generators::levels::Likeness;
+use generators::levels::LevelSimilarity;
 use rayon::prelude::*;
 use report::{Estimate, Quantiles, Share};
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ pub struct Diversity {
 
 impl Diversity {
     /// Also the distance of each level to its nearest neighbour.
-    pub(super) fn of(levels: &[Judged], likeness: &Likeness) -> (Diversity, Vec<Option<f64>>) {
+    pub(super) fn of(levels: &[Judged], likeness: &LevelSimilarity) -> (Diversity, Vec<Option<f64>>) {
         let row = |at: usize| -> Vec<f64> {
             let others = levels.iter().enumerate().filter(|(other, _)| *other != at);
             others.map(|(_, other)| likeness.distance(&levels[at].level, &other.level)).collect()
@@ -64,7 +64,7 @@ pub struct Novelty {
 }
 
 impl Novelty {
-    pub(super) fn of(levels: &[Judged], examples: &[Judged], likeness: &Likeness) -> Option<Novelty> {
+    pub(super) fn of(levels: &[Judged], examples: &[Judged], likeness: &LevelSimilarity) -> Option<Novelty> {
         if examples.is_empty() {
             return None;
         }

@@ -20,7 +20,7 @@ pub use survey::Survey;
 
 use super::make::Cost;
 use engine::{Analysis, Digest, Level};
-use generators::levels::Likeness;
+use generators::levels::LevelSimilarity;
 use report::canonical::{CanonicalError, to_canonical_json};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -156,7 +156,7 @@ impl LevelSetReport {
     /// The report on a set. Cost: a comparison for each pair of levels, on all threads; the rest is summing up.
     pub fn of(sample: &Sample<'_>) -> LevelSetReport {
         let Sample { analysis, method, levels, examples, pool, cost } = *sample;
-        let (game, likeness) = (analysis.game(), Likeness::of(analysis));
+        let (game, likeness) = (analysis.game(), LevelSimilarity::of(analysis));
         let (diversity, nearest) = Diversity::of(levels, &likeness);
         LevelSetReport {
             format: REPORT_FORMAT,

@@ -43,7 +43,7 @@ fn reach(draft: &mut Draft, _: &mut Sampler) {
     let exit = exit(draft, Body::Spot);
     draft.scored(Phase::Arrive, exit, &[AVATAR], Effect::KillSprite, 10);
     draft.win_without(&[exit]);
-    draft.goal = format!("reach the {}", draft.say(exit));
+    draft.goal = format!("reach the {}", draft.spaced_name(exit));
 }
 
 fn unseal(draft: &mut Draft, _: &mut Sampler) {
@@ -53,8 +53,11 @@ fn unseal(draft: &mut Draft, _: &mut Sampler) {
     draft.scored(Phase::Take, lever, &[AVATAR], Effect::KillSprite, 3);
     draft.scored(Phase::Arrive, open, &[AVATAR], Effect::KillSprite, 10);
     draft.win_without(&[shut, open]);
-    draft.goal =
-        format!("throw the {} that unseals the {}, then leave by it", draft.say(lever), draft.say(open));
+    draft.goal = format!(
+        "throw the {} that unseals the {}, then leave by it",
+        draft.spaced_name(lever),
+        draft.spaced_name(open)
+    );
 }
 
 /// Taking the relic wakes its guards.
@@ -72,9 +75,14 @@ fn heist(draft: &mut Draft, sampler: &mut Sampler) {
     draft.harm(woken, Harm::Spent);
     draft.prey(woken, 2);
     draft.win_without(&[exit]);
-    draft.goal = format!("take the {} and carry it out through the {}", draft.say(relic), draft.say(exit));
-    let clause = format!("every {} wakes when the {} is taken", draft.say(statue), draft.say(relic));
-    draft.tell(clause);
+    draft.goal = format!(
+        "take the {} and carry it out through the {}",
+        draft.spaced_name(relic),
+        draft.spaced_name(exit)
+    );
+    let clause =
+        format!("every {} wakes when the {} is taken", draft.spaced_name(statue), draft.spaced_name(relic));
+    draft.add_fact(clause);
 }
 
 fn cross(draft: &mut Draft, sampler: &mut Sampler) {
@@ -82,7 +90,7 @@ fn cross(draft: &mut Draft, sampler: &mut Sampler) {
     let exit = exit(draft, Body::Spot);
     draft.scored(Phase::Arrive, exit, &[AVATAR], Effect::KillSprite, 10);
     draft.win_without(&[exit]);
-    draft.goal = format!("cross the lanes to the {}", draft.say(exit));
+    draft.goal = format!("cross the lanes to the {}", draft.spaced_name(exit));
 }
 
 /// Adds two types of traffic in opposite directions, one faster than the other.
@@ -96,6 +104,6 @@ pub(super) fn lanes(draft: &mut Draft, sampler: &mut Sampler) {
         draft.harm(foe, Harm::Spent);
         draft.prey(foe, 1);
     }
-    let clause = format!("{} and {} rush to and fro", draft.many(one), draft.many(two));
-    draft.tell(clause);
+    let clause = format!("{} and {} rush to and fro", draft.plural(one), draft.plural(two));
+    draft.add_fact(clause);
 }

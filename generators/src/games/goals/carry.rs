@@ -43,7 +43,11 @@ fn deliver_all(draft: &mut Draft, _: &mut Sampler) {
     draft.scored(Phase::Take, HERO, &[parcel], Effect::TransformTo { stype: laden, kill_second: true }, 1);
     draft.scored(Phase::Take, laden, &[address], becomes(HERO), 4);
     draft.win_without(&[parcel, laden]);
-    draft.goal = format!("bring every {} to the {}, one at a time", draft.say(parcel), draft.say(address));
+    draft.goal = format!(
+        "bring every {} to the {}, one at a time",
+        draft.spaced_name(parcel),
+        draft.spaced_name(address)
+    );
 }
 
 /// Every address needs a parcel, from an unlimited stock.
@@ -54,7 +58,8 @@ fn deliver_each(draft: &mut Draft, _: &mut Sampler) {
     draft.rule(Phase::Take, HERO, &[stock], becomes(laden));
     delivered(draft, laden, address);
     draft.win_without(&[address]);
-    draft.goal = format!("bring {} to every {}, one at a time", draft.one(stock), draft.say(address));
+    draft.goal =
+        format!("bring {} to every {}, one at a time", draft.with_article(stock), draft.spaced_name(address));
 }
 
 /// Delivering uses up both the load and the address.
@@ -76,9 +81,9 @@ fn craft(draft: &mut Draft, _: &mut Sampler) {
     draft.win_without(&[address]);
     draft.goal = format!(
         "load up at the {}, work it at the {} and serve every {}",
-        draft.say(ore),
-        draft.say(forge),
-        draft.say(address)
+        draft.spaced_name(ore),
+        draft.spaced_name(forge),
+        draft.spaced_name(address)
     );
 }
 
@@ -102,15 +107,15 @@ fn smelt(draft: &mut Draft, sampler: &mut Sampler) {
     draft.goal = format!(
         "make {} {} at the {} and hand them in at the {}",
         english::number(price),
-        draft.many(ingot),
-        draft.say(forge),
-        draft.say(exit)
+        draft.plural(ingot),
+        draft.spaced_name(forge),
+        draft.spaced_name(exit)
     );
     let clause = format!(
         "each takes {} from the {}, and you can carry {}",
         if cost == 1 { "one load".to_owned() } else { format!("{} loads", english::number(cost)) },
-        draft.say(ore),
+        draft.spaced_name(ore),
         english::number(carry)
     );
-    draft.tell(clause);
+    draft.add_fact(clause);
 }

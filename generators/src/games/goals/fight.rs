@@ -84,7 +84,7 @@ fn hunt_strays(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
     quarry(draft, foe, 3);
     draft.win_without(&[foe]);
-    draft.goal = format!("strike down every {}", draft.say(foe));
+    draft.goal = format!("strike down every {}", draft.spaced_name(foe));
 }
 
 fn hunt_both(draft: &mut Draft, sampler: &mut Sampler) {
@@ -95,7 +95,8 @@ fn hunt_both(draft: &mut Draft, sampler: &mut Sampler) {
     quarry(draft, stray, 2);
     quarry(draft, guard, 4);
     draft.win_without(&[stray, guard]);
-    draft.goal = format!("strike down every {} and every {}", draft.say(stray), draft.say(guard));
+    draft.goal =
+        format!("strike down every {} and every {}", draft.spaced_name(stray), draft.spaced_name(guard));
 }
 
 fn hunt_chasers(draft: &mut Draft, sampler: &mut Sampler) {
@@ -103,7 +104,7 @@ fn hunt_chasers(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
     quarry(draft, foe, 3);
     draft.win_without(&[foe]);
-    draft.goal = format!("strike down every {} that is after you", draft.say(foe));
+    draft.goal = format!("strike down every {} that is after you", draft.spaced_name(foe));
 }
 
 fn raze_strays(draft: &mut Draft, sampler: &mut Sampler) {
@@ -124,9 +125,9 @@ fn raze(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
     draft.prey(foe, 1);
     draft.prey(nest, 5);
     draft.win_without(&[nest]);
-    draft.goal = format!("destroy every {}", draft.say(nest));
-    let clause = format!("{} keep coming out of them", draft.many(foe));
-    draft.tell(clause);
+    draft.goal = format!("destroy every {}", draft.spaced_name(nest));
+    let clause = format!("{} keep coming out of them", draft.plural(foe));
+    draft.add_fact(clause);
 }
 
 fn trophies(draft: &mut Draft, sampler: &mut Sampler) {
@@ -145,12 +146,12 @@ fn trophies(draft: &mut Draft, sampler: &mut Sampler) {
     draft.goal = format!(
         "win {} {} from {} and show them at the {}",
         english::number(price),
-        draft.many(trophy),
-        draft.many(foe),
-        draft.say(exit)
+        draft.plural(trophy),
+        draft.plural(foe),
+        draft.spaced_name(exit)
     );
-    let clause = format!("{} come out of every {}", draft.many(foe), draft.say(nest));
-    draft.tell(clause);
+    let clause = format!("{} come out of every {}", draft.plural(foe), draft.spaced_name(nest));
+    draft.add_fact(clause);
 }
 
 /// Targets above, some of which drop things; sometimes with cover below.
@@ -164,20 +165,21 @@ fn gallery(draft: &mut Draft, sampler: &mut Sampler) {
         draft.prey(scout, 4);
         targets.push(scout);
     }
-    let clause = format!("{} drop {}", draft.many(bomber), draft.many(drop));
-    draft.tell(clause);
+    let clause = format!("{} drop {}", draft.plural(bomber), draft.plural(drop));
+    draft.add_fact(clause);
     if sampler.ratio(1, 2) {
         let cover = draft.place(Role::Cover, SpriteClass::Immovable, Body::Solid, &[]);
-        draft.settle(drop, cover);
+        draft.mark_handled(drop, cover);
         draft.rule(Phase::Strike, cover, &[drop], Effect::KillBoth);
         if let Some(Weapon::Bolt(_)) = draft.weapon {
             draft.prey(cover, 0);
         }
-        let clause = format!("every {} stops one", draft.say(cover));
-        draft.tell(clause);
+        let clause = format!("every {} stops one", draft.spaced_name(cover));
+        draft.add_fact(clause);
     }
     draft.win_without(&targets);
-    let names: Vec<String> = targets.iter().map(|&target| format!("every {}", draft.say(target))).collect();
+    let names: Vec<String> =
+        targets.iter().map(|&target| format!("every {}", draft.spaced_name(target))).collect();
     draft.goal = format!("bring down {}", english::series(&names));
 }
 
@@ -187,11 +189,11 @@ fn demolish(draft: &mut Draft, sampler: &mut Sampler) {
     if sampler.ratio(2, 3) {
         let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Solid, &[]);
         draft.prey(soil, 0);
-        let clause = format!("{} is blown away too", draft.say(soil));
-        draft.tell(clause);
+        let clause = format!("{} is blown away too", draft.spaced_name(soil));
+        draft.add_fact(clause);
     }
     draft.win_without(&[idol]);
-    draft.goal = format!("blow up every {}", draft.say(idol));
+    draft.goal = format!("blow up every {}", draft.spaced_name(idol));
 }
 
 fn lure_placed(draft: &mut Draft, sampler: &mut Sampler) {
@@ -207,8 +209,8 @@ fn lure_spawned(draft: &mut Draft, sampler: &mut Sampler) {
     let total = draw(sampler, 2, 3);
     let nest = threats::nest(draft, sampler, foe, total);
     lure_into(draft, foe, &[nest, foe]);
-    let clause = format!("{} of them come out of every {}", english::number(total), draft.say(nest));
-    draft.tell(clause);
+    let clause = format!("{} of them come out of every {}", english::number(total), draft.spaced_name(nest));
+    draft.add_fact(clause);
 }
 
 /// The hero is unarmed and can only lure them.
@@ -218,9 +220,9 @@ fn lure_into(draft: &mut Draft, foe: Part, all: &[Part]) {
     draft.harm(foe, Harm::Lasting);
     draft.harm(trap, Harm::Lasting);
     draft.win_without(all);
-    draft.goal = format!("lead every {} into {}", draft.say(foe), draft.one(trap));
-    let clause = format!("{} give chase, and {} harm all alike", draft.many(foe), draft.many(trap));
-    draft.tell(clause);
+    draft.goal = format!("lead every {} into {}", draft.spaced_name(foe), draft.with_article(trap));
+    let clause = format!("{} give chase, and {} harm all alike", draft.plural(foe), draft.plural(trap));
+    draft.add_fact(clause);
 }
 
 /// One berry gives strength for one catch: until then the hero is the prey.
@@ -242,10 +244,10 @@ fn feast(draft: &mut Draft, sampler: &mut Sampler) {
     draft.win_without(&[foe]);
     draft.goal = format!(
         "eat {} from the {} and catch one {} with each, until none is left",
-        draft.many(berry),
-        draft.say(bush),
-        draft.say(foe)
+        draft.plural(berry),
+        draft.spaced_name(bush),
+        draft.spaced_name(foe)
     );
-    let clause = format!("{} give chase, and whoever has not eaten is their prey", draft.many(foe));
-    draft.tell(clause);
+    let clause = format!("{} give chase, and whoever has not eaten is their prey", draft.plural(foe));
+    draft.add_fact(clause);
 }

@@ -69,8 +69,8 @@ fn driven(draft: &mut Draft, sampler: &mut Sampler) -> Part {
         [("cooldown", Value::Count(draw(sampler, 10, 16))), ("cons", Value::Count(draw(sampler, 0, 2)))];
     let friend = draft.place(Role::Friend, SpriteClass::RandomNPC, Body::Walker, &params);
     draft.rule(Phase::Push, friend, &[AVATAR], Effect::BounceForward);
-    let clause = format!("{} stray about, and go where you nudge them", draft.many(friend));
-    draft.tell(clause);
+    let clause = format!("{} stray about, and go where you nudge them", draft.plural(friend));
+    draft.add_fact(clause);
     friend
 }
 
@@ -92,17 +92,17 @@ fn hunter(draft: &mut Draft, sampler: &mut Sampler, friend: Part) {
     draft.lose_with(lost, limit);
     let clause = format!(
         "{} are after every {}, and {} lost is too many",
-        draft.many(hunter),
-        draft.say(friend),
+        draft.plural(hunter),
+        draft.spaced_name(friend),
         english::number(limit)
     );
-    draft.tell(clause);
+    draft.add_fact(clause);
 }
 
 fn caught(draft: &mut Draft, friend: Part) {
     draft.scored(Phase::Take, friend, &[AVATAR], Effect::KillSprite, 3);
     draft.win_without(&[friend]);
-    draft.goal = format!("catch every {} to save it", draft.say(friend));
+    draft.goal = format!("catch every {} to save it", draft.spaced_name(friend));
 }
 
 fn catch(draft: &mut Draft, sampler: &mut Sampler) {
@@ -127,28 +127,28 @@ fn housed(draft: &mut Draft, friend: Part) -> Part {
 fn escort(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = follower(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("lead every {} to the {}", draft.say(friend), draft.say(haven));
-    let clause = format!("{} follow you wherever you go", draft.many(friend));
-    draft.tell(clause);
+    draft.goal = format!("lead every {} to the {}", draft.spaced_name(friend), draft.spaced_name(haven));
+    let clause = format!("{} follow you wherever you go", draft.plural(friend));
+    draft.add_fact(clause);
 }
 
 fn escort_hunted(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = follower(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("lead every {} to the {}", draft.say(friend), draft.say(haven));
+    draft.goal = format!("lead every {} to the {}", draft.spaced_name(friend), draft.spaced_name(haven));
     hunter(draft, sampler, friend);
 }
 
 fn herd(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = driven(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("drive every {} into the {}", draft.say(friend), draft.say(haven));
+    draft.goal = format!("drive every {} into the {}", draft.spaced_name(friend), draft.spaced_name(haven));
 }
 
 fn herd_hunted(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = driven(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("drive every {} into the {}", draft.say(friend), draft.say(haven));
+    draft.goal = format!("drive every {} into the {}", draft.spaced_name(friend), draft.spaced_name(haven));
     hunter(draft, sampler, friend);
 }
 
@@ -163,8 +163,8 @@ fn wake(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Meet, awake, &[lulling], turn(asleep), -2);
     draft.scored(Phase::Take, asleep, &[AVATAR], turn(awake), 2);
     draft.win_without(&[asleep]);
-    draft.goal = format!("have every {} awake at once", draft.say(asleep));
+    draft.goal = format!("have every {} awake at once", draft.spaced_name(asleep));
     let clause =
-        format!("those that you wake follow you, and {} send them to sleep again", draft.many(lulling));
-    draft.tell(clause);
+        format!("those that you wake follow you, and {} send them to sleep again", draft.plural(lulling));
+    draft.add_fact(clause);
 }

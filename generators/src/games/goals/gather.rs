@@ -48,14 +48,14 @@ fn pickings(draft: &mut Draft, role: Role, score: i32) -> Part {
 fn gather(draft: &mut Draft, _: &mut Sampler) {
     let gem = pickings(draft, Role::Gem, 2);
     draft.win_without(&[gem]);
-    draft.goal = format!("gather every {}", draft.say(gem));
+    draft.goal = format!("gather every {}", draft.spaced_name(gem));
 }
 
 fn gather_both(draft: &mut Draft, _: &mut Sampler) {
     let gem = pickings(draft, Role::Gem, 1);
     let charm = pickings(draft, Role::Charm, 3);
     draft.win_without(&[gem, charm]);
-    draft.goal = format!("gather every {} and every {}", draft.say(gem), draft.say(charm));
+    draft.goal = format!("gather every {} and every {}", draft.spaced_name(gem), draft.spaced_name(charm));
 }
 
 fn toll(draft: &mut Draft, sampler: &mut Sampler) {
@@ -70,8 +70,8 @@ fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     draft.goal = format!(
         "gather {} {}, the price of leaving through the {}",
         english::number(price),
-        draft.many(gem),
-        draft.say(exit)
+        draft.plural(gem),
+        draft.spaced_name(exit)
     );
 }
 
@@ -79,7 +79,7 @@ fn forage(draft: &mut Draft, sampler: &mut Sampler) {
     lanes(draft, sampler);
     let gem = pickings(draft, Role::Gem, 2);
     draft.win_without(&[gem]);
-    draft.goal = format!("gather every {} between the lanes", draft.say(gem));
+    draft.goal = format!("gather every {} between the lanes", draft.spaced_name(gem));
 }
 
 /// Rivals want the same things: the game is lost when they have spoiled too many.
@@ -94,8 +94,11 @@ fn rivals(draft: &mut Draft, sampler: &mut Sampler) {
     let limit = draw(sampler, 2, 4);
     draft.lose_with(taken, limit);
     draft.win_without(&[gem]);
-    draft.goal =
-        format!("gather every {} before {} of them are spoiled", draft.say(gem), english::number(limit));
-    let clause = format!("{} spoil every {} that they reach", draft.many(rival), draft.say(gem));
-    draft.tell(clause);
+    draft.goal = format!(
+        "gather every {} before {} of them are spoiled",
+        draft.spaced_name(gem),
+        english::number(limit)
+    );
+    let clause = format!("{} spoil every {} that they reach", draft.plural(rival), draft.spaced_name(gem));
+    draft.add_fact(clause);
 }

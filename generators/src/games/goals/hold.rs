@@ -109,8 +109,9 @@ fn survive(draft: &mut Draft, sampler: &mut Sampler) {
     draft.prey(foe, 2);
     boons::bush(draft, sampler);
     outlast(draft);
-    let clause = format!("{} come out of every {} and give chase", draft.many(foe), draft.say(nest));
-    draft.tell(clause);
+    let clause =
+        format!("{} come out of every {} and give chase", draft.plural(foe), draft.spaced_name(nest));
+    draft.add_fact(clause);
 }
 
 /// Makes reaching the time limit a win: the limit itself is set later.
@@ -152,12 +153,12 @@ fn windfalls(draft: &mut Draft, sampler: &mut Sampler, (bomber, drop): (Part, Pa
         if health == 1 { "one wound is".into() } else { format!("{} wounds are", english::number(health)) };
     let clause = format!(
         "{} {verb} {}, and {wounds} the end, but {} from the {} heal",
-        draft.many(bomber),
-        draft.many(drop),
-        draft.many(fruit),
-        draft.say(tree)
+        draft.plural(bomber),
+        draft.plural(drop),
+        draft.plural(fruit),
+        draft.spaced_name(tree)
     );
-    draft.tell(clause);
+    draft.add_fact(clause);
 }
 
 /// Pests must be shot before they land.
@@ -175,19 +176,19 @@ fn waves(draft: &mut Draft, sampler: &mut Sampler) {
     let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
     let limit = draw(sampler, 2, 4);
     draft.prey(pest, 2);
-    draft.settle(pest, WALL);
+    draft.mark_handled(pest, WALL);
     let land = Effect::TransformTo { stype: landed, kill_second: false };
     draft.scored(Phase::Strike, pest, &[WALL], land, -1);
     draft.lose_with(landed, limit);
     draft.win_without(&[tree, pest]);
     draft.goal = format!(
         "shoot down the {} that come from every {}: {} that land are too many",
-        draft.many(pest),
-        draft.say(tree),
+        draft.plural(pest),
+        draft.spaced_name(tree),
         english::number(limit)
     );
     let clause = format!("{} of them come from each", english::number(total));
-    draft.tell(clause);
+    draft.add_fact(clause);
 }
 
 fn defend(draft: &mut Draft, sampler: &mut Sampler) {
@@ -203,9 +204,9 @@ fn defend(draft: &mut Draft, sampler: &mut Sampler) {
     draft.goal = format!(
         "beat off all {} {} that come out of every {} before the last {} is gone",
         english::number(total),
-        draft.many(pest),
-        draft.say(nest),
-        draft.say(crop)
+        draft.plural(pest),
+        draft.spaced_name(nest),
+        draft.spaced_name(crop)
     );
 }
 
@@ -222,7 +223,7 @@ fn catch(draft: &mut Draft, sampler: &mut Sampler) {
     ];
     let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
     let limit = draw(sampler, 2, 4);
-    draft.settle(fruit, WALL);
+    draft.mark_handled(fruit, WALL);
     draft.scored(Phase::Take, fruit, &[AVATAR], Effect::KillSprite, 2);
     let break_it = Effect::TransformTo { stype: fallen, kill_second: false };
     draft.scored(Phase::Strike, fruit, &[WALL], break_it, -1);
@@ -230,8 +231,8 @@ fn catch(draft: &mut Draft, sampler: &mut Sampler) {
     draft.win_without(&[tree, fruit]);
     draft.goal = format!(
         "catch what falls from every {}: {} {} on the ground are too many",
-        draft.say(tree),
+        draft.spaced_name(tree),
         english::number(limit),
-        draft.many(fallen)
+        draft.plural(fallen)
     );
 }

@@ -38,7 +38,7 @@ fn sockets(draft: &mut Draft, _: &mut Sampler) {
     let socket = draft.place(Role::Socket, SpriteClass::Immovable, Body::Flat, &[]);
     draft.scored(Phase::Meet, block, &[socket], Effect::KillSprite, 5);
     draft.win_without(&[block]);
-    draft.goal = format!("push every {} into {}", draft.say(block), draft.one(socket));
+    draft.goal = format!("push every {} into {}", draft.spaced_name(block), draft.with_article(socket));
 }
 
 /// A socket takes one crate, which then becomes an obstacle.
@@ -46,10 +46,10 @@ fn fill(draft: &mut Draft, _: &mut Sampler) {
     let block = block(draft);
     let socket = draft.place(Role::Socket, SpriteClass::Immovable, Body::Flat, &[]);
     let set = draft.state(block, "set", SpriteClass::Immovable, Body::Solid, &[]);
-    let settle = Effect::TransformTo { stype: set, kill_second: true };
-    draft.scored(Phase::Meet, block, &[socket], settle, 5);
+    let mark_handled = Effect::TransformTo { stype: set, kill_second: true };
+    draft.scored(Phase::Meet, block, &[socket], mark_handled, 5);
     draft.win_without(&[socket]);
-    draft.goal = format!("fill every {} with {}", draft.say(socket), draft.one(block));
+    draft.goal = format!("fill every {} with {}", draft.spaced_name(socket), draft.with_article(block));
 }
 
 /// A crate on the plate opens the exit.
@@ -63,8 +63,8 @@ fn plate(draft: &mut Draft, _: &mut Sampler) {
     draft.win_without(&[shut, open]);
     draft.goal = format!(
         "push {} onto the {} to unseal the {}, then leave by it",
-        draft.one(block),
-        draft.say(plate),
-        draft.say(open)
+        draft.with_article(block),
+        draft.spaced_name(plate),
+        draft.spaced_name(open)
     );
 }

@@ -45,9 +45,9 @@ fn light(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Meet, lit, &[snuffer], turn(lamp), -1);
     draft.scored(Phase::Take, lamp, &[AVATAR], turn(lit), 1);
     draft.win_without(&[lamp]);
-    draft.goal = format!("have every {} lit at once", draft.say(lamp));
-    let clause = format!("{} put them out again", draft.many(snuffer));
-    draft.tell(clause);
+    draft.goal = format!("have every {} lit at once", draft.spaced_name(lamp));
+    let clause = format!("{} put them out again", draft.plural(snuffer));
+    draft.add_fact(clause);
 }
 
 fn sow(draft: &mut Draft, sampler: &mut Sampler) {
@@ -70,12 +70,12 @@ fn sow(draft: &mut Draft, sampler: &mut Sampler) {
     draft.win_without(&[plot]);
     draft.goal = format!(
         "fetch from the {} until every {} bears {}",
-        draft.say(seed),
-        draft.say(plot),
-        draft.one(sprout)
+        draft.spaced_name(seed),
+        draft.spaced_name(plot),
+        draft.with_article(sprout)
     );
-    let clause = format!("{} undo your work", draft.many(pest));
-    draft.tell(clause);
+    let clause = format!("{} undo your work", draft.plural(pest));
+    draft.add_fact(clause);
 }
 
 /// The pests spread and must be cleared faster than they spread.
@@ -89,8 +89,8 @@ fn overrun(draft: &mut Draft, sampler: &mut Sampler) {
     ];
     let overrun = draft.state(plot, "overrun", SpriteClass::SpawnPoint, Body::Spot, &params);
     draft.show(overrun);
-    let settle = Effect::TransformTo { stype: overrun, kill_second: true };
-    draft.scored(Phase::Meet, plot, &[pest], settle, -1);
+    let mark_handled = Effect::TransformTo { stype: overrun, kill_second: true };
+    draft.scored(Phase::Meet, plot, &[pest], mark_handled, -1);
     draft.scored(Phase::Take, pest, &[AVATAR], Effect::KillSprite, 1);
     let clear = Effect::TransformTo { stype: plot, kill_second: false };
     draft.scored(Phase::Take, overrun, &[AVATAR], clear, 3);
@@ -98,10 +98,11 @@ fn overrun(draft: &mut Draft, sampler: &mut Sampler) {
     draft.win_without(&[overrun, pest]);
     draft.goal = format!(
         "clear every {} and catch every {} before the last free {} is lost",
-        draft.say(overrun),
-        draft.say(pest),
-        draft.say(plot)
+        draft.spaced_name(overrun),
+        draft.spaced_name(pest),
+        draft.spaced_name(plot)
     );
-    let clause = format!("{} come out of every {} and overrun others", draft.many(pest), draft.say(overrun));
-    draft.tell(clause);
+    let clause =
+        format!("{} come out of every {} and overrun others", draft.plural(pest), draft.spaced_name(overrun));
+    draft.add_fact(clause);
 }

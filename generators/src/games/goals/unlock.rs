@@ -48,7 +48,8 @@ fn locked_exit(draft: &mut Draft, key: Part) -> Part {
 fn key(draft: &mut Draft, _: &mut Sampler) {
     let key = draft.place(Role::Key, SpriteClass::Immovable, Body::Item, &[]);
     let exit = locked_exit(draft, key);
-    draft.goal = format!("find the {} and bring it to the {}", draft.say(key), draft.say(exit));
+    draft.goal =
+        format!("find the {} and bring it to the {}", draft.spaced_name(key), draft.spaced_name(exit));
 }
 
 fn stray_warden(draft: &mut Draft, sampler: &mut Sampler) {
@@ -71,9 +72,9 @@ fn robbed(draft: &mut Draft, warden: Part) {
     let exit = locked_exit(draft, key);
     draft.goal = format!(
         "strike down {} for its {}, which opens the {}",
-        draft.one(warden),
-        draft.say(key),
-        draft.say(exit)
+        draft.with_article(warden),
+        draft.spaced_name(key),
+        draft.spaced_name(exit)
     );
 }
 
@@ -87,9 +88,14 @@ fn chests(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Open, chest, &[AVATAR], open, 4);
     draft.win_without(&[chest]);
     draft.goal = match keys {
-        1 => format!("open every {} with {}", draft.say(chest), draft.one(key)),
+        1 => format!("open every {} with {}", draft.spaced_name(chest), draft.with_article(key)),
         _ => {
-            format!("find {} {} and open every {}", english::number(keys), draft.many(key), draft.say(chest))
+            format!(
+                "find {} {} and open every {}",
+                english::number(keys),
+                draft.plural(key),
+                draft.spaced_name(chest)
+            )
         }
     };
 }

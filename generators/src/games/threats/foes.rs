@@ -13,8 +13,8 @@ pub(super) fn patrol(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = patroller(draft, Role::Patroller, orientation, draw(sampler, 2, 3));
     foe_of(draft, foe, 2);
     let way = if orientation == "RIGHT" { "to and fro" } else { "up and down" };
-    let clause = format!("{} go {way}", draft.many(foe));
-    draft.tell_way(foe, clause);
+    let clause = format!("{} go {way}", draft.plural(foe));
+    draft.add_motion_clause(foe, clause);
 }
 
 pub(super) fn cross_patrols(draft: &mut Draft, sampler: &mut Sampler) {
@@ -22,30 +22,30 @@ pub(super) fn cross_patrols(draft: &mut Draft, sampler: &mut Sampler) {
     let along = patroller(draft, Role::Rover, "DOWN", draw(sampler, 2, 3));
     foe_of(draft, across, 2);
     foe_of(draft, along, 2);
-    let clause = format!("{} go to and fro, {} up and down", draft.many(across), draft.many(along));
-    draft.tell(clause);
+    let clause = format!("{} go to and fro, {} up and down", draft.plural(across), draft.plural(along));
+    draft.add_fact(clause);
 }
 
 pub(super) fn stray(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
     foe_of(draft, foe, 2);
-    let clause = format!("{} stray about", draft.many(foe));
-    draft.tell_way(foe, clause);
+    let clause = format!("{} stray about", draft.plural(foe));
+    draft.add_motion_clause(foe, clause);
 }
 
 pub(super) fn chase(draft: &mut Draft, sampler: &mut Sampler) {
     let params = pursuing(AVATAR, sampler);
     let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
     foe_of(draft, foe, 3);
-    let clause = format!("{} give chase", draft.many(foe));
-    draft.tell_way(foe, clause);
+    let clause = format!("{} give chase", draft.plural(foe));
+    draft.add_motion_clause(foe, clause);
 }
 
 pub(super) fn sentry(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Chaser, SpriteClass::LOSChaser, Body::Walker, &pursuing(AVATAR, sampler));
     foe_of(draft, foe, 3);
-    let clause = format!("{} come after you once they see you", draft.many(foe));
-    draft.tell_way(foe, clause);
+    let clause = format!("{} come after you once they see you", draft.plural(foe));
+    draft.add_motion_clause(foe, clause);
 }
 
 /// Moves straight on, and turns in a random direction at obstacles.
@@ -56,8 +56,8 @@ pub(super) fn drift(draft: &mut Draft, sampler: &mut Sampler) {
     ];
     let foe = draft.place(Role::Rover, SpriteClass::Missile, Body::Drifter, &params);
     foe_of(draft, foe, 2);
-    let clause = format!("{} rush straight on and come off obstacles any way", draft.many(foe));
-    draft.tell_way(foe, clause);
+    let clause = format!("{} rush straight on and come off obstacles any way", draft.plural(foe));
+    draft.add_motion_clause(foe, clause);
 }
 
 /// A slow foe that turns into a fast one when it is hit.
@@ -67,9 +67,12 @@ pub(super) fn split(draft: &mut Draft, sampler: &mut Sampler) {
     draft.harm(slow, Harm::Spent);
     draft.prey_leaves(slow, quick, 1);
     foe_of(draft, quick, 3);
-    let clause =
-        format!("every {} that is hit turns into {} and gives chase", draft.say(slow), draft.one(quick));
-    draft.tell(clause);
+    let clause = format!(
+        "every {} that is hit turns into {} and gives chase",
+        draft.spaced_name(slow),
+        draft.with_article(quick)
+    );
+    draft.add_fact(clause);
 }
 
 /// A patroller that drops things.
@@ -101,16 +104,16 @@ pub(crate) fn throwers(
 pub(super) fn bomb(draft: &mut Draft, sampler: &mut Sampler) {
     let (bomber, drop) = bombers(draft, sampler);
     foe_of(draft, bomber, 3);
-    let clause = format!("{} drop {}", draft.many(bomber), draft.many(drop));
-    draft.tell(clause);
+    let clause = format!("{} drop {}", draft.plural(bomber), draft.plural(drop));
+    draft.add_fact(clause);
 }
 
 /// The hero stays below: only the falling things harm it.
 pub(super) fn rain(draft: &mut Draft, sampler: &mut Sampler) {
     let (bomber, drop) = bombers(draft, sampler);
     draft.prey(bomber, 3);
-    let clause = format!("{} drop {}", draft.many(bomber), draft.many(drop));
-    draft.tell(clause);
+    let clause = format!("{} drop {}", draft.plural(bomber), draft.plural(drop));
+    draft.add_fact(clause);
 }
 
 /// A foe that leaves medicine when it is killed, so that hunting it pays.
@@ -127,8 +130,8 @@ pub(super) fn bearer(draft: &mut Draft, sampler: &mut Sampler) {
     let clause = format!(
         "{} wounds are the end, but every {} that is struck down leaves {}, which heals",
         english::number(health),
-        draft.say(foe),
-        draft.say(medicine)
+        draft.spaced_name(foe),
+        draft.spaced_name(medicine)
     );
-    draft.tell(clause);
+    draft.add_fact(clause);
 }

@@ -11,8 +11,8 @@ use engine::{Sampler, SpriteClass};
 pub(super) fn trap(draft: &mut Draft, _: &mut Sampler) {
     let trap = draft.place(Role::Trap, SpriteClass::Immovable, Body::Flat, &[]);
     draft.harm(trap, Harm::Lasting);
-    let clause = format!("{} lie in wait", draft.many(trap));
-    draft.tell(clause);
+    let clause = format!("{} lie in wait", draft.plural(trap));
+    draft.add_fact(clause);
 }
 
 pub(super) fn slime(draft: &mut Draft, sampler: &mut Sampler) {
@@ -26,8 +26,8 @@ pub(super) fn slime(draft: &mut Draft, sampler: &mut Sampler) {
     let slug = draft.place(Role::Slug, SpriteClass::RandomBomber, Body::Walker, &params);
     draft.harm(slime, Harm::Lasting);
     foe_of(draft, slug, 2);
-    let clause = format!("{} leave {} behind", draft.many(slug), draft.say(slime));
-    draft.tell(clause);
+    let clause = format!("{} leave {} behind", draft.plural(slug), draft.spaced_name(slime));
+    draft.add_fact(clause);
 }
 
 pub(super) fn turret(draft: &mut Draft, sampler: &mut Sampler) {
@@ -48,8 +48,8 @@ pub(super) fn turret(draft: &mut Draft, sampler: &mut Sampler) {
     draft.harm(dart, Harm::Spent);
     let aim = if direction == "any" { "every which way".to_owned() } else { direction.to_lowercase() };
     let way = if aim == "left" || aim == "right" { format!("to the {aim}") } else { aim };
-    let clause = format!("{} shoot {} {way}", draft.many(turret), draft.many(dart));
-    draft.tell_way(dart, clause);
+    let clause = format!("{} shoot {} {way}", draft.plural(turret), draft.plural(dart));
+    draft.add_motion_clause(dart, clause);
 }
 
 /// A vent that erupts with a warning: the steam first rises in the vent, then it spreads all around.
@@ -86,8 +86,8 @@ pub(super) fn vent(draft: &mut Draft, sampler: &mut Sampler, stype: Part, (low, 
     let vent = draft.place(Role::Vent, SpriteClass::SpawnPoint, Body::Den, &params);
     let base = english::spaced(draft.name(stype));
     let what = base.split_once(' ').map_or(base.as_str(), |(_, what)| what).to_owned();
-    let clause = format!("{} comes out of every {}", what, draft.say(vent));
-    draft.tell(clause);
+    let clause = format!("{} comes out of every {}", what, draft.spaced_name(vent));
+    draft.add_fact(clause);
 }
 
 /// Health fades over time, and wounds reduce it too.
@@ -100,6 +100,6 @@ pub(super) fn hunger(draft: &mut Draft, sampler: &mut Sampler) {
     draft.rule(Phase::Harm, AVATAR, &[CLOCK], Effect::Wane { timer });
     let eat = Effect::AddHealthPointsToMax { value: draw(sampler, 2, 4) };
     draft.scored(Phase::Take, AVATAR, &[food], eat, 1);
-    let clause = format!("strength fades with time, and {} give it back", draft.many(food));
-    draft.tell(clause);
+    let clause = format!("strength fades with time, and {} give it back", draft.plural(food));
+    draft.add_fact(clause);
 }

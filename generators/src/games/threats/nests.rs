@@ -33,8 +33,8 @@ pub(super) fn nest_of(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
     let total = draw(sampler, 2, 5);
     let nest = nest(draft, sampler, foe, total);
     foe_of(draft, foe, 1);
-    let clause = format!("{} come out of every {}", draft.many(foe), draft.say(nest));
-    draft.tell(clause);
+    let clause = format!("{} come out of every {}", draft.plural(foe), draft.spaced_name(nest));
+    draft.add_fact(clause);
 }
 
 /// Each nest hatches one pursuer after a while, unless the hero clears it first.
@@ -50,8 +50,8 @@ pub(super) fn brood(draft: &mut Draft, sampler: &mut Sampler) {
     foe_of(draft, foe, 2);
     let clause = format!(
         "every {} sends {} after you in the end, unless you clear it away first",
-        draft.say(nest),
-        draft.one(foe)
+        draft.spaced_name(nest),
+        draft.with_article(foe)
     );
-    draft.tell(clause);
+    draft.add_fact(clause);
 }

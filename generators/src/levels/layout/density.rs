@@ -71,7 +71,7 @@ mod tests {
     use engine::Seed;
 
     #[test]
-    fn shares_are_met_and_nothing_falls_apart() {
+    fn shares_are_met_and_cells_stay_connected() {
         for seed in 0..40 {
             let mut sampler = Seed::from_text("density").child("seed", seed).sampler();
             let grid = Grid { columns: sampler.between(8, 20), rows: sampler.between(7, 14) };

@@ -311,7 +311,7 @@ mod tests {
 
     /// Every window of an assembled board occurs in the examples.
     #[test]
-    fn what_is_assembled_is_made_of_the_example() {
+    fn assembled_boards_consist_of_windows_of_the_example() {
         let boards = [
             "############\n#....#.....#\n#..........#\n#....#..##.#\n##.###..##.#\n#.......##.#\n#..##......#\n#..##..#...#\n\
              ############\n",

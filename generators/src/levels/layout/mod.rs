@@ -110,7 +110,7 @@ mod tests {
     use engine::Seed;
 
     #[test]
-    fn open_cells_hang_together_and_are_many() {
+    fn open_cells_are_connected_and_many() {
         let families = [
             Family::Field,
             Family::Arena,

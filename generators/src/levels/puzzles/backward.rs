@@ -1,6 +1,6 @@
 //! Breadth-first search backwards from all solved positions: computes the distance of each position from a solution.
 
-use super::yard::{Position, Pushing, bit, each};
+use super::floor_plan::{Position, Pushing, bit, each};
 use crate::levels::grid::{Grid, WAYS};
 
 /// An empty slot.
@@ -8,7 +8,7 @@ const NONE: u32 = u32::MAX;
 
 /// The positions found, in order of discovery, with their distances.
 #[derive(Default)]
-pub(crate) struct Met {
+pub(crate) struct SearchedPositions {
     positions: Vec<Position>,
     distances: Vec<u16>,
     /// The hash table with open addressing: indices of positions; its size is a power of two.
@@ -17,7 +17,7 @@ pub(crate) struct Met {
     pub(crate) complete: bool,
 }
 
-impl Met {
+impl SearchedPositions {
     pub(crate) fn len(&self) -> usize {
         self.positions.len()
     }
@@ -85,23 +85,23 @@ impl Pushing<'_> {
     /// farthest ones are missing.
     ///
     /// Cost: O(positions × things), about a microsecond for each position.
-    pub(crate) fn by_pushes(&self, most: usize) -> Met {
-        let mut met = Met::default();
+    pub(crate) fn by_pushes(&self, most: usize) -> SearchedPositions {
+        let mut searched = SearchedPositions::default();
         for solved in self.solved() {
             let mut open = self.stands(&solved);
             while open != 0 {
                 let region = self.flood(open & open.wrapping_neg(), open);
-                met.insert(Position { avatar: region.trailing_zeros() as u8, ..solved }, 0);
+                searched.insert(Position { avatar: region.trailing_zeros() as u8, ..solved }, 0);
                 open &= !region;
             }
         }
         let strides = self.strides();
         let mut at = 0;
-        while let Some(&position) = met.positions.get(at) {
-            if met.len() > most {
-                return met;
+        while let Some(&position) = searched.positions.get(at) {
+            if searched.len() > most {
+                return searched;
             }
-            let depth = met.distances[at].saturating_add(1);
+            let depth = searched.distances[at].saturating_add(1);
             at += 1;
             let region = self.flood(bit(position.avatar.into()), self.stands(&position));
             let ends = self.ends(&position);
@@ -110,49 +110,49 @@ impl Pushing<'_> {
                 for near in each(region & beside) {
                     self.before(&position, near, stride, &mut |before| {
                         let region = self.flood(bit(before.avatar.into()), self.stands(&before));
-                        met.insert(Position { avatar: region.trailing_zeros() as u8, ..before }, depth);
+                        searched.insert(Position { avatar: region.trailing_zeros() as u8, ..before }, depth);
                     });
                 }
             }
         }
-        met.complete = true;
-        met
+        searched.complete = true;
+        searched
     }
 
     /// The minimum number of the avatar's steps from each position.
-    pub(crate) fn by_steps(&self, most: usize) -> Met {
-        let mut met = Met::default();
+    pub(crate) fn by_steps(&self, most: usize) -> SearchedPositions {
+        let mut searched = SearchedPositions::default();
         for solved in self.solved() {
             for avatar in each(self.stands(&solved)) {
-                met.insert(Position { avatar: avatar as u8, ..solved }, 0);
+                searched.insert(Position { avatar: avatar as u8, ..solved }, 0);
             }
         }
         let strides = self.strides();
         let mut at = 0;
-        while let Some(&position) = met.positions.get(at) {
-            if met.len() > most {
-                return met;
+        while let Some(&position) = searched.positions.get(at) {
+            if searched.len() > most {
+                return searched;
             }
-            let steps = met.distances[at].saturating_add(1);
+            let steps = searched.distances[at].saturating_add(1);
             at += 1;
             let avatar = usize::from(position.avatar);
             let stands = self.stands(&position);
             for stride in strides {
                 let from = avatar.wrapping_add_signed(stride);
-                if from < self.yard.grid.len() && stands & bit(from) != 0 {
-                    met.insert(Position { avatar: from as u8, ..position }, steps);
+                if from < self.floor_plan.grid.len() && stands & bit(from) != 0 {
+                    searched.insert(Position { avatar: from as u8, ..position }, steps);
                 }
-                self.before(&position, avatar, stride, &mut |before| met.insert(before, steps));
+                self.before(&position, avatar, stride, &mut |before| searched.insert(before, steps));
             }
         }
-        met.complete = true;
-        met
+        searched.complete = true;
+        searched
     }
 
     /// The avatar's steps that solve a position with the fewest pushes, with a short walk before each of them. `pushes`
     /// comes from [`Pushing::by_pushes`]; `None` if it does not hold the position.
-    pub(crate) fn solution(&self, pushes: &Met, start: Position) -> Option<Vec<(i32, i32)>> {
-        let grid = self.yard.grid;
+    pub(crate) fn solution(&self, pushes: &SearchedPositions, start: Position) -> Option<Vec<(i32, i32)>> {
+        let grid = self.floor_plan.grid;
         let distance = |position: &Position| {
             let region = self.flood(bit(position.avatar.into()), self.stands(position));
             pushes.distance(&Position { avatar: region.trailing_zeros() as u8, ..*position })

@@ -1,7 +1,7 @@
 //! Floor plans for puzzles: drawn, varied, and rated by the distance of their farthest position from a solution.
 
-use super::rules::{Home, KINDS, Rules};
-use super::yard::{Cells, Position, Pushing, Yard, bit, each};
+use super::floor_plan::{Cells, FloorPlan, Position, Pushing, bit, each};
+use super::rules::{Destination, KINDS, Rules};
 use crate::levels::edits::pick;
 use crate::levels::grid::{Grid, WAYS};
 use crate::{Evaluation, Variation};
@@ -29,7 +29,7 @@ impl FloorPlans<'_> {
     }
 
     /// The number of targets.
-    fn homes(&self) -> usize {
+    fn destinations(&self) -> usize {
         if self.rules.target.is_some() { self.counts[0] } else { 0 }
     }
 
@@ -42,11 +42,11 @@ impl FloorPlans<'_> {
 
     /// The maximum number of open cells at first: if things may meet anywhere, a large yard has too many positions.
     fn most(&self) -> usize {
-        if self.rules.home == Home::Partner { 22 } else { usize::MAX }
+        if self.rules.destination == Destination::Partner { 22 } else { usize::MAX }
     }
 
     /// Draws connected rooms and corridors, with targets in a group.
-    fn draw(&self, sampler: &mut Sampler) -> Option<Yard> {
+    fn draw(&self, sampler: &mut Sampler) -> Option<FloorPlan> {
         let (columns, rows) = (self.grid.columns - 2, self.grid.rows - 2);
         let mut open: Cells = 0;
         let wanted = (columns * rows * sampler.between(52, 72) / 100).min(self.most());
@@ -70,13 +70,14 @@ impl FloorPlans<'_> {
                 open |= piece;
             }
         }
-        let mut yard = Yard { grid: self.grid, wall: self.wall_of(open), targets: 0, counts: self.counts };
-        for _ in 0..self.homes() {
+        let mut floor_plan =
+            FloorPlan { grid: self.grid, wall: self.wall_of(open), targets: 0, counts: self.counts };
+        for _ in 0..self.destinations() {
             let cells: Vec<usize> =
-                each(open & !yard.targets).filter(|&cell| self.joins(&yard, cell)).collect();
-            yard.targets |= bit(pick(&cells, sampler)?);
+                each(open & !floor_plan.targets).filter(|&cell| self.joins(&floor_plan, cell)).collect();
+            floor_plan.targets |= bit(pick(&cells, sampler)?);
         }
-        self.is_fair(&yard).then_some(yard)
+        self.is_fair(&floor_plan).then_some(floor_plan)
     }
 
     fn wall_of(&self, open: Cells) -> Cells {
@@ -84,58 +85,59 @@ impl FloorPlans<'_> {
     }
 
     /// Returns `true` if a target at the cell joins the group.
-    fn joins(&self, yard: &Yard, cell: usize) -> bool {
-        yard.targets == 0 || each(yard.targets).any(|other| self.grid.manhattan(cell, other) <= GROUP)
+    fn joins(&self, floor_plan: &FloorPlan, cell: usize) -> bool {
+        floor_plan.targets == 0
+            || each(floor_plan.targets).any(|other| self.grid.manhattan(cell, other) <= GROUP)
     }
 
     /// Returns `true` if the yard is connected and has room.
-    fn is_fair(&self, yard: &Yard) -> bool {
-        let pushing = Pushing { yard, rules: self.rules };
+    fn is_fair(&self, floor_plan: &FloorPlan) -> bool {
+        let pushing = Pushing { floor_plan, rules: self.rules };
         let open = pushing.stands(&Position::default());
         let first = open & open.wrapping_neg();
-        let grouped = each(yard.targets).all(|cell| {
-            let others = Yard { targets: yard.targets & !bit(cell), ..yard.clone() };
+        let grouped = each(floor_plan.targets).all(|cell| {
+            let others = FloorPlan { targets: floor_plan.targets & !bit(cell), ..floor_plan.clone() };
             self.joins(&others, cell)
         });
         open.count_ones() as usize >= self.least()
-            && yard.targets & yard.wall == 0
-            && yard.targets.count_ones() as usize == self.homes()
+            && floor_plan.targets & floor_plan.wall == 0
+            && floor_plan.targets.count_ones() as usize == self.destinations()
             && grouped
             && pushing.flood(first, open) == open
     }
 
     /// Makes a small change: a wall is removed or added, a wall moves, a target moves, or all targets do.
-    fn change(&self, yard: &Yard, sampler: &mut Sampler) -> Option<Yard> {
-        let mut next = yard.clone();
+    fn change(&self, floor_plan: &FloorPlan, sampler: &mut Sampler) -> Option<FloorPlan> {
+        let mut next = floor_plan.clone();
         let inner = self.inner();
-        let wall = |yard: &Yard, cell: usize| yard.wall & bit(cell) != 0;
+        let wall = |floor_plan: &FloorPlan, cell: usize| floor_plan.wall & bit(cell) != 0;
         // The cells along the edges between wall and floor.
-        let edge = |yard: &Yard, walls: bool| -> Vec<usize> {
+        let edge = |floor_plan: &FloorPlan, walls: bool| -> Vec<usize> {
             let meets = |&cell: &usize| {
-                wall(yard, cell) == walls
-                    && yard.targets & bit(cell) == 0
-                    && self.grid.beside(cell).any(|next| wall(yard, next) != walls)
+                wall(floor_plan, cell) == walls
+                    && floor_plan.targets & bit(cell) == 0
+                    && self.grid.beside(cell).any(|next| wall(floor_plan, next) != walls)
             };
             inner.iter().copied().filter(meets).collect()
         };
         match sampler.weighted(&[3, 3, 4, 3, 1])? {
-            0 => next.wall ^= bit(pick(&edge(yard, true), sampler)?),
-            1 => next.wall ^= bit(pick(&edge(yard, false), sampler)?),
+            0 => next.wall ^= bit(pick(&edge(floor_plan, true), sampler)?),
+            1 => next.wall ^= bit(pick(&edge(floor_plan, false), sampler)?),
             2 => {
-                next.wall ^= bit(pick(&edge(yard, true), sampler)?);
-                next.wall ^= bit(pick(&edge(yard, false), sampler)?);
+                next.wall ^= bit(pick(&edge(floor_plan, true), sampler)?);
+                next.wall ^= bit(pick(&edge(floor_plan, false), sampler)?);
             }
             3 => {
-                let targets: Vec<usize> = each(yard.targets).collect();
+                let targets: Vec<usize> = each(floor_plan.targets).collect();
                 next.targets &= !bit(pick(&targets, sampler)?);
-                let free = |&cell: &usize| !wall(yard, cell) && yard.targets & bit(cell) == 0;
+                let free = |&cell: &usize| !wall(floor_plan, cell) && floor_plan.targets & bit(cell) == 0;
                 let cells: Vec<usize> = inner.iter().copied().filter(free).collect();
                 next.targets |= bit(pick(&cells, sampler)?);
             }
             _ => {
                 let way = *sampler.choose(&WAYS);
                 next.targets = 0;
-                for target in each(yard.targets) {
+                for target in each(floor_plan.targets) {
                     next.targets |= bit(self.grid.shift(target, way)?);
                 }
             }
@@ -144,22 +146,22 @@ impl FloorPlans<'_> {
     }
 
     /// The number of pushes from its farthest position.
-    pub(crate) fn depth(&self, yard: &Yard) -> usize {
-        let pushing = Pushing { yard, rules: self.rules };
-        let met = pushing.by_pushes(MOST_POSITIONS);
-        let starts = met.iter().filter(|(position, _)| pushing.is_start(position));
+    pub(crate) fn depth(&self, floor_plan: &FloorPlan) -> usize {
+        let pushing = Pushing { floor_plan, rules: self.rules };
+        let searched = pushing.by_pushes(MOST_POSITIONS);
+        let starts = searched.iter().filter(|(position, _)| pushing.is_start(position));
         starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
     }
 
     /// The number of positions examined for its depth.
-    pub(crate) fn positions(&self, yard: &Yard) -> usize {
-        Pushing { yard, rules: self.rules }.by_pushes(MOST_POSITIONS).len()
+    pub(crate) fn positions(&self, floor_plan: &FloorPlan) -> usize {
+        Pushing { floor_plan, rules: self.rules }.by_pushes(MOST_POSITIONS).len()
     }
 
     /// Rates a yard by the pushes that it takes, with a penalty for halls and isolated wall blocks.
-    pub(crate) fn rate(&self, yard: &Yard) -> Evaluation {
-        let depth = self.depth(yard);
-        let objective = (depth as f64 - self.blemishes(yard)).max(0.0) / PERFECT;
+    pub(crate) fn rate(&self, floor_plan: &FloorPlan) -> Evaluation {
+        let depth = self.depth(floor_plan);
+        let objective = (depth as f64 - self.tidiness_penalty(floor_plan)).max(0.0) / PERFECT;
         Evaluation {
             feasibility: if depth > 0 { 1.0 } else { 0.5 },
             objective: objective.min(1.0),
@@ -168,8 +170,8 @@ impl FloorPlans<'_> {
     }
 
     /// The penalty for halls and isolated wall blocks, in pushes.
-    fn blemishes(&self, yard: &Yard) -> f64 {
-        let is_wall = |cell: Option<usize>| cell.is_none_or(|cell| yard.wall & bit(cell) != 0);
+    fn tidiness_penalty(&self, floor_plan: &FloorPlan) -> f64 {
+        let is_wall = |cell: Option<usize>| cell.is_none_or(|cell| floor_plan.wall & bit(cell) != 0);
         let inner = self.inner();
         let halls = inner.iter().filter(|&&cell| {
             !is_wall(Some(cell)) && self.grid.around(cell).into_iter().all(|next| !is_wall(next))
@@ -182,8 +184,8 @@ impl FloorPlans<'_> {
 
     /// Turns floor that no solution needs into wall, and removes isolated walls, as long as the farthest position does
     /// not get closer.
-    pub(crate) fn tidy(&self, yard: &Yard) -> Yard {
-        let mut best = yard.clone();
+    pub(crate) fn tidy(&self, floor_plan: &FloorPlan) -> FloorPlan {
+        let mut best = floor_plan.clone();
         let mut depth = self.depth(&best);
         for cell in self.inner() {
             let beside = self.grid.beside(cell).filter(|&next| best.wall & bit(next) != 0).count();
@@ -192,7 +194,7 @@ impl FloorPlans<'_> {
             if !idle {
                 continue;
             }
-            let next = Yard { wall: best.wall ^ bit(cell), ..best.clone() };
+            let next = FloorPlan { wall: best.wall ^ bit(cell), ..best.clone() };
             if self.is_fair(&next) {
                 let found = self.depth(&next);
                 if found >= depth {
@@ -205,29 +207,29 @@ impl FloorPlans<'_> {
 
     /// The number of things of each kind: in pairs, if they are pushed onto each other.
     pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
-        if rules.home == Home::Partner { [(things / 2).max(1); KINDS] } else { [things, 0] }
+        if rules.destination == Destination::Partner { [(things / 2).max(1); KINDS] } else { [things, 0] }
     }
 }
 
 impl Variation for FloorPlans<'_> {
-    type Candidate = Yard;
+    type Candidate = FloorPlan;
 
-    fn create(&self, seed: Seed) -> Option<Yard> {
+    fn create(&self, seed: Seed) -> Option<FloorPlan> {
         (0..20).find_map(|draw| self.draw(&mut seed.child("floor", draw).sampler()))
     }
 
-    fn mutate(&self, parent: &Yard, sampler: &mut Sampler) -> Yard {
+    fn mutate(&self, parent: &FloorPlan, sampler: &mut Sampler) -> FloorPlan {
         let changes = if sampler.ratio(1, 3) { 2 } else { 1 };
-        let mut yard = parent.clone();
+        let mut floor_plan = parent.clone();
         for _ in 0..changes {
-            let next = (0..REDRAWS).find_map(|_| self.change(&yard, sampler));
-            yard = next.unwrap_or(yard);
+            let next = (0..REDRAWS).find_map(|_| self.change(&floor_plan, sampler));
+            floor_plan = next.unwrap_or(floor_plan);
         }
-        yard
+        floor_plan
     }
 
     /// Combines one half of each parent.
-    fn cross(&self, one: &Yard, two: &Yard, sampler: &mut Sampler) -> Yard {
+    fn cross(&self, one: &FloorPlan, two: &FloorPlan, sampler: &mut Sampler) -> FloorPlan {
         for _ in 0..REDRAWS {
             let across = sampler.ratio(1, 2);
             let half = |&cell: &usize| {
@@ -240,7 +242,7 @@ impl Variation for FloorPlans<'_> {
             let mask: Cells = (0..self.grid.len()).filter(half).map(bit).sum();
             let wall = one.wall & mask | two.wall & !mask;
             let targets = if sampler.ratio(1, 2) { one.targets } else { two.targets };
-            let child = Yard { wall: wall & !targets, targets, ..one.clone() };
+            let child = FloorPlan { wall: wall & !targets, targets, ..one.clone() };
             if self.is_fair(&child) {
                 return child;
             }

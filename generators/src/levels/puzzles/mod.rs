@@ -3,10 +3,10 @@
 
 mod backward;
 mod floor;
+mod floor_plan;
 mod rules;
 #[cfg(test)]
 mod tests;
 mod variation;
-mod yard;
 
 pub use variation::{PuzzleConfig, PuzzleVariation};

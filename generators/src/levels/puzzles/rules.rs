@@ -10,7 +10,7 @@ pub(crate) const KINDS: usize = 2;
 
 /// The destination of a pushed thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Home {
+pub(crate) enum Destination {
     /// Onto a target, where it vanishes; the target remains.
     Sink,
     /// Onto a target, and both vanish.
@@ -26,7 +26,7 @@ pub(crate) enum Home {
 pub(crate) struct Rules {
     /// The pushed types: one kind, or two if they are pushed onto each other.
     pub(crate) kinds: Vec<SpriteType>,
-    pub(crate) home: Home,
+    pub(crate) destination: Destination,
     /// The type of the targets; `None` if things are pushed onto things.
     pub(crate) target: Option<SpriteType>,
     /// `true` if the avatar can stand on a target.
@@ -46,18 +46,18 @@ impl Rules {
 fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     let avatar = analysis.start_avatar().ok_or("no avatar can be placed")?;
     if avatar.steering != Steering::FourWay || !analysis.moves_by_whole_cells(avatar.stype) {
-        return Err("its avatar does not go from cell to cell in four ways");
+        return Err("the avatar does not move cell by cell in four directions");
     }
     if !analysis.is_deterministic() || !analysis.is_turn_based() {
-        return Err("things move by themselves or by chance, so that no puzzle can be made backwards");
+        return Err("things move by themselves or by chance, so puzzles cannot be generated backwards");
     }
-    let wall = palette.wall.ok_or("it has no walls to build with")?;
+    let wall = palette.wall.ok_or("the game has no walls")?;
     let mut wins = analysis.goals().iter().filter(|goal| goal.win);
     let (Some(goal), None) = (wins.next(), wins.next()) else {
-        return Err("it is not won in exactly one way");
+        return Err("the game has no single winning termination");
     };
     let (Condition::AtMost(counted, 0) | Condition::Exactly(counted, 0)) = &goal.condition else {
-        return Err("it is not won by making things go");
+        return Err("the game is not won by removing things");
     };
     let is_placed = |stype: &SpriteType| palette.symbol(*stype).is_some();
     let kinds: Vec<SpriteType> = counted.iter().copied().filter(is_placed).collect();
@@ -66,14 +66,14 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
         listed && analysis.touch(avatar.stype, *stype).pushes
     };
     if kinds.is_empty() || !kinds.iter().all(is_pushed) {
-        return Err("what must go for a win is not pushed");
+        return Err("the sprites that must be removed cannot be pushed");
     }
     if kinds.len() > KINDS {
-        return Err("things of more than two kinds must be pushed");
+        return Err("more than two kinds of things must be pushed");
     }
     let walls = analysis.game().places(wall);
     if !kinds.iter().all(|&kind| walls.iter().any(|&wall| analysis.blocks(wall, kind))) {
-        return Err("walls do not hold up what is pushed");
+        return Err("walls do not stop pushed things");
     }
     let sinks = |kind: SpriteType| {
         let pushable = analysis.pushables().iter().find(|pushable| pushable.stype == kind);
@@ -85,16 +85,16 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
             let ends = |sink: &Sink| sink.partner == two && sink.fate == Fate::Goes && sink.fills;
             merges[a][b] = sinks(one).iter().any(ends);
             if !merges[a][b] && !analysis.blocks(two, one) {
-                return Err("pushed things do not hold up each other");
+                return Err("pushed things do not stop each other");
             }
         }
     }
     match kinds[..] {
         [kind] if !merges[0][0] => single(analysis, palette, kind, counted, sinks(kind), merges),
         [_, _] if merges[0][1] && merges[1][0] && !merges[0][0] && !merges[1][1] => {
-            Ok(Rules { kinds, home: Home::Partner, target: None, walkable: true, merges })
+            Ok(Rules { kinds, destination: Destination::Partner, target: None, walkable: true, merges })
         }
-        _ => Err("things are pushed onto each other in a way that is not known"),
+        _ => Err("things are pushed onto each other in an unsupported way"),
     }
 }
 
@@ -111,24 +111,25 @@ fn single(
         let pushed = analysis.pushables().iter().any(|pushable| pushable.stype == to);
         pushed && analysis.turns(to).iter().any(|&(back, _)| back == kind)
     };
-    let homes = sinks.iter().filter_map(|sink| {
+    let destinations = sinks.iter().filter_map(|sink| {
         let symbol = palette.symbol(sink.partner)?;
         let lies = matches!(analysis.role(sink.partner), Role::Socket | Role::Hazard);
-        let home = match sink.fate {
-            Fate::Goes if sink.fills => Home::Hole,
-            Fate::Goes => Home::Sink,
-            Fate::Becomes(to) if !sink.fills && !counted.contains(&to) && returns(to) => Home::Place,
+        let destination = match sink.fate {
+            Fate::Goes if sink.fills => Destination::Hole,
+            Fate::Goes => Destination::Sink,
+            Fate::Becomes(to) if !sink.fills && !counted.contains(&to) && returns(to) => Destination::Place,
             _ => return None,
         };
         let fair = lies && !palette.ground.contains(&sink.partner);
         let fair = fair && !analysis.aims().protect.contains(&sink.partner);
-        fair.then_some((sink.partner, home, palette.walk(symbol)))
+        fair.then_some((sink.partner, destination, palette.walk(symbol)))
     });
-    let (target, home, walk) = homes.into_iter().next().ok_or("nothing that is pushed can go anywhere")?;
+    let (target, destination, walk) =
+        destinations.into_iter().next().ok_or("pushed things have no destination")?;
     let walkable = match walk {
         Walk::Open => true,
         Walk::Blocked | Walk::Deadly => false,
-        _ => return Err("the places to push to are barred in a way that is not known"),
+        _ => return Err("the destinations are blocked in an unsupported way"),
     };
-    Ok(Rules { kinds: vec![kind], home, target: Some(target), walkable, merges })
+    Ok(Rules { kinds: vec![kind], destination, target: Some(target), walkable, merges })
 }

@@ -2,8 +2,8 @@
 //! itself.
 
 use super::floor::FloorPlans;
-use super::rules::{Home, Rules};
-use super::yard::{Position, Pushing, Yard, bit, each};
+use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
+use super::rules::{Destination, Rules};
 use super::{PuzzleConfig, PuzzleVariation};
 use crate::levels::config::LevelConfig;
 use crate::levels::constructive::{ConstructiveLevels, Solved};
@@ -67,16 +67,16 @@ fn puzzles(game: &Game) -> PuzzleVariation<'_> {
 
 #[test]
 fn rules_are_recognised() {
-    assert_eq!(rules_of(&sink()).home, Home::Sink);
-    assert_eq!(rules_of(&hole()).home, Home::Hole);
+    assert_eq!(rules_of(&sink()).destination, Destination::Sink);
+    assert_eq!(rules_of(&hole()).destination, Destination::Hole);
     assert!(!rules_of(&hole()).walkable);
-    assert_eq!(rules_of(&place()).home, Home::Place);
+    assert_eq!(rules_of(&place()).destination, Destination::Place);
     let jars = game_in(&workspace().join("corpora/quiet-jars")).unwrap();
-    assert_eq!(rules_of(&jars).home, Home::Partner);
+    assert_eq!(rules_of(&jars).destination, Destination::Partner);
 }
 
 #[test]
-fn other_games_are_refused_with_a_reason() {
+fn other_games_are_rejected_with_a_reason() {
     let refuse = |folder: &str, expect: &str| {
         let game = game_in(&workspace().join("corpora").join(folder)).unwrap();
         let made = PuzzleVariation::new(&game, LevelConfig::default(), PuzzleConfig::default());
@@ -117,32 +117,42 @@ fn forward(pushing: &Pushing<'_>, start: Position) -> Option<usize> {
 }
 
 #[test]
-fn backward_and_forward_agree() {
+fn backward_and_forward_search_agree() {
     let jars = game_in(&workspace().join("corpora/quiet-jars")).unwrap();
     for (game, things) in [(sink(), 2), (hole(), 2), (place(), 2), (jars, 2)] {
         let rules = rules_of(&game);
         let grid = Grid { columns: 7, rows: 6 };
         let floors = FloorPlans { rules: &rules, grid, counts: FloorPlans::counts_of(&rules, things) };
         for index in 0..3 {
-            let yard: Yard = floors.create(Seed::from_text("agree").child("yard", index)).unwrap();
-            let pushing = Pushing { yard: &yard, rules: &rules };
-            let met = pushing.by_pushes(usize::MAX);
-            assert!(met.complete);
-            let starts = met.iter().filter(|(position, _)| pushing.is_start(position));
+            let floor_plan: FloorPlan = floors.create(Seed::from_text("agree").child("yard", index)).unwrap();
+            let pushing = Pushing { floor_plan: &floor_plan, rules: &rules };
+            let searched = pushing.by_pushes(usize::MAX);
+            assert!(searched.complete);
+            let starts = searched.iter().filter(|(position, _)| pushing.is_start(position));
             for (position, pushes) in starts.step_by(7) {
-                assert_eq!(forward(&pushing, *position), Some(pushes), "{:?} {position:?}", rules.home);
+                assert_eq!(
+                    forward(&pushing, *position),
+                    Some(pushes),
+                    "{:?} {position:?}",
+                    rules.destination
+                );
             }
             // Positions that were not found cannot be solved.
-            let floor = pushing.lies(&Position { targets: yard.targets, ..Position::default() });
+            let floor = pushing.lies(&Position { targets: floor_plan.targets, ..Position::default() });
             let cells: Vec<usize> = each(floor).collect();
             for pair in cells.windows(2).step_by(3).filter(|_| rules.kinds.len() == 1) {
                 let things = [bit(pair[0]) | bit(pair[1]), 0];
-                let position = Position { things, targets: yard.targets, avatar: 0 };
+                let position = Position { things, targets: floor_plan.targets, avatar: 0 };
                 let stands = pushing.stands(&position);
                 let region = pushing.flood(stands & stands.wrapping_neg(), stands);
                 let position = Position { avatar: region.trailing_zeros() as u8, ..position };
                 if pushing.is_start(&position) {
-                    assert_eq!(met.distance(&position), forward(&pushing, position), "{:?}", rules.home);
+                    assert_eq!(
+                        searched.distance(&position),
+                        forward(&pushing, position),
+                        "{:?}",
+                        rules.destination
+                    );
                 }
             }
         }
@@ -174,7 +184,7 @@ fn solutions_win_and_levels_vary() {
 /// Closer to the solution there is less to push. Tested in sum: a floor plan that cannot be furnished is replaced by
 /// another.
 #[test]
-fn a_level_starts_where_it_is_asked_to_on_the_way() {
+fn a_level_starts_at_the_requested_part_of_the_solution() {
     let game = sink();
     let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
     let analysis = Analysis::of(&game);

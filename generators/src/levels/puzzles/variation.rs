@@ -1,8 +1,8 @@
 //! Levels that are puzzles of pushed things, as candidates of a search.
 
 use super::floor::FloorPlans;
+use super::floor_plan::{Cells, FloorPlan, MOST_CELLS, Position, Pushing, bit, each};
 use super::rules::Rules;
-use super::yard::{Cells, MOST_CELLS, Position, Pushing, Yard, bit, each};
 use crate::levels::board::Board;
 use crate::levels::builder::Builder;
 use crate::levels::config::LevelConfig;
@@ -77,21 +77,21 @@ impl<'a> PuzzleVariation<'a> {
         let rules = Rules::of(&levels.analysis, &levels.palette)?;
         let (columns, rows) = (config.columns.0, config.rows.0);
         if columns * rows > MOST_CELLS || columns.max(rows) > config.columns.1.max(config.rows.1) {
-            return unsuitable("boards that large cannot be searched backwards");
+            return unsuitable("the board is too large for a backward search");
         }
         if config.columns.1.min(config.rows.1) < 6 {
-            return unsuitable("boards that small leave no room to push");
+            return unsuitable("the board is too small for a push");
         }
         if puzzle.things == Some(0) || puzzle.floor_plans == 0 {
-            return unsuitable("a puzzle needs something to push, and a floor plan");
+            return unsuitable("a puzzle needs at least one thing to push and one floor plan");
         }
         if puzzle.way.is_some_and(|(from, to)| !(0.0..=to).contains(&from) || to > 1.0) {
-            return unsuitable("the share of a way lies between 0 and 1");
+            return unsuitable("the share of the solution must be between 0 and 1, in ascending order");
         }
         let variation = PuzzleVariation { levels, rules, config, puzzle };
         let trial = |index: u64| variation.made(Seed::from_text("trial").child("puzzle", index), BATCH);
         if (0..ATTEMPTS).all(|index| trial(index).is_none()) {
-            return unsuitable("no puzzle that was tried could be won by pushing as its rules seem to say");
+            return unsuitable("no trial puzzle could be won by pushing");
         }
         Ok(variation)
     }
@@ -125,15 +125,15 @@ impl<'a> PuzzleVariation<'a> {
         let things = asked.unwrap_or(usual.min(inner / 10).max(2));
         let floors =
             FloorPlans { rules: &self.rules, grid, counts: FloorPlans::counts_of(&self.rules, things) };
-        let yard = anneal(&floors, floor_plans, seed.child("floor plans", 0))?;
-        self.level_of(&floors.tidy(&yard), seed)
+        let floor_plan = anneal(&floors, floor_plans, seed.child("floor plans", 0))?;
+        self.level_of(&floors.tidy(&floor_plan), seed)
     }
 
     /// Makes the level at the farthest position of a floor plan.
-    fn level_of(&self, yard: &Yard, seed: Seed) -> Option<Solved> {
-        let pushing = Pushing { yard, rules: &self.rules };
-        let met = pushing.by_pushes(MOST_POSITIONS);
-        let starts = || met.iter().filter(|(position, _)| pushing.is_start(position));
+    fn level_of(&self, floor_plan: &FloorPlan, seed: Seed) -> Option<Solved> {
+        let pushing = Pushing { floor_plan, rules: &self.rules };
+        let searched = pushing.by_pushes(MOST_POSITIONS);
+        let starts = || searched.iter().filter(|(position, _)| pushing.is_start(position));
         let most = starts().map(|(_, pushes)| pushes).max()?;
         // Easy levels start closer to the solution.
         let share = match self.puzzle.way {
@@ -155,19 +155,25 @@ impl<'a> PuzzleVariation<'a> {
         });
         // If the search for steps was cut short, the first one will do.
         let start = stands.max_by_key(|start| (steps.distance(start), std::cmp::Reverse(start.avatar)))?;
-        let ways = pushing.solution(&met, start)?;
-        self.furnish(yard, &start, &ways, seed)
+        let ways = pushing.solution(&searched, start)?;
+        self.furnish(floor_plan, &start, &ways, seed)
     }
 
     /// Puts a position on a board and furnishes it with the other things of the game, if it can still be won then.
-    fn furnish(&self, yard: &Yard, start: &Position, ways: &[(i32, i32)], seed: Seed) -> Option<Solved> {
-        let wall = (0..yard.grid.len()).map(|cell| yard.wall & bit(cell) != 0).collect();
+    fn furnish(
+        &self,
+        floor_plan: &FloorPlan,
+        start: &Position,
+        ways: &[(i32, i32)],
+        seed: Seed,
+    ) -> Option<Solved> {
+        let wall = (0..floor_plan.grid.len()).map(|cell| floor_plan.wall & bit(cell) != 0).collect();
         let mut builder = Builder {
             analysis: &self.levels.analysis,
             palette: &self.levels.palette,
             config: &self.config,
             sampler: seed.child("furniture", 0).sampler(),
-            board: Board::new(yard.grid, wall),
+            board: Board::new(floor_plan.grid, wall),
             log: Vec::new(),
             target: None,
         };
@@ -186,49 +192,49 @@ impl<'a> PuzzleVariation<'a> {
         let bare = solved(&builder.board)?;
         let mut cell = usize::from(start.avatar);
         for &way in ways {
-            cell = yard.grid.shift(cell, way)?;
-            for used in [Some(cell), yard.grid.shift(cell, way)].into_iter().flatten() {
+            cell = floor_plan.grid.shift(cell, way)?;
+            for used in [Some(cell), floor_plan.grid.shift(cell, way)].into_iter().flatten() {
                 builder.board.kept[used] = true;
             }
         }
-        builder.garnish(&Jobs::default());
+        builder.furnish_rest(&Jobs::default());
         Some(solved(&builder.board).unwrap_or(bare))
     }
 
     /// Returns the floor plan of a level, if it is such a puzzle.
-    fn yard_of(&self, level: &Level) -> Option<Yard> {
+    fn floor_plan_of(&self, level: &Level) -> Option<FloorPlan> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
         if grid.len() > MOST_CELLS {
             return None;
         }
         let wall = self.levels.palette.wall?;
-        let mut yard = Yard { grid, wall: 0, targets: 0, counts: [0; 2] };
+        let mut floor_plan = FloorPlan { grid, wall: 0, targets: 0, counts: [0; 2] };
         for (cell, &symbol) in level.cells().iter().enumerate() {
             let places = self.levels.game.places(symbol);
             if symbol == wall {
-                yard.wall |= bit(cell);
+                floor_plan.wall |= bit(cell);
             }
             if self.rules.target.is_some_and(|target| places.contains(&target)) {
-                yard.targets |= bit(cell);
+                floor_plan.targets |= bit(cell);
             }
             for (kind, stype) in self.rules.kinds.iter().enumerate() {
-                yard.counts[kind] += usize::from(places.contains(stype));
+                floor_plan.counts[kind] += usize::from(places.contains(stype));
             }
         }
         let border: Cells = (0..grid.len()).filter(|&cell| grid.on_border(cell)).map(bit).sum();
-        (yard.wall & border == border && yard.counts[0] > 0).then_some(yard)
+        (floor_plan.wall & border == border && floor_plan.counts[0] > 0).then_some(floor_plan)
     }
 
     /// Rates a few floor plans and makes a level of the best.
     fn best(
         &self,
-        parent: &Yard,
+        parent: &FloorPlan,
         sampler: &mut Sampler,
-        plan: impl Fn(&FloorPlans<'_>, &mut Sampler) -> Yard,
+        plan: impl Fn(&FloorPlans<'_>, &mut Sampler) -> FloorPlan,
     ) -> Option<Level> {
         let floors = FloorPlans { rules: &self.rules, grid: parent.grid, counts: parent.counts };
         let plans = (0..CHANGES).map(|_| plan(&floors, sampler)).filter(|plan| plan != parent);
-        let rated: Vec<(f64, Yard)> = plans.map(|plan| (floors.rate(&plan).objective, plan)).collect();
+        let rated: Vec<(f64, FloorPlan)> = plans.map(|plan| (floors.rate(&plan).objective, plan)).collect();
         // The first of the best.
         let best = rated.into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best })?;
         let seed = Seed::from_text("mutation").child("draw", sampler.bits());
@@ -245,9 +251,10 @@ impl Variation for PuzzleVariation<'_> {
 
     /// Makes a level of the best of a few changes of the floor plan; returns the parent itself if that fails.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
-        let varied = self.yard_of(parent).and_then(|yard| {
-            (0..ATTEMPTS)
-                .find_map(|_| self.best(&yard, sampler, |floors, sampler| floors.mutate(&yard, sampler)))
+        let varied = self.floor_plan_of(parent).and_then(|floor_plan| {
+            (0..ATTEMPTS).find_map(|_| {
+                self.best(&floor_plan, sampler, |floors, sampler| floors.mutate(&floor_plan, sampler))
+            })
         });
         varied.unwrap_or_else(|| parent.clone())
     }
@@ -255,7 +262,7 @@ impl Variation for PuzzleVariation<'_> {
     /// Makes a level of half of one floor plan and half of the other, with a small change; a mutation of the first if
     /// they do not fit.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
-        let (first, second) = (self.yard_of(one), self.yard_of(two));
+        let (first, second) = (self.floor_plan_of(one), self.floor_plan_of(two));
         let fit = first
             .zip(second)
             .filter(|(first, second)| (first.grid, first.counts) == (second.grid, second.counts));
@@ -270,9 +277,9 @@ impl Variation for PuzzleVariation<'_> {
 }
 
 /// Returns the best floor plan of this many.
-fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<Yard> {
-    let samples: Vec<Yard> = (0..4).filter_map(|at| floors.create(seed.child("sample", at))).collect();
-    let positions: usize = samples.iter().map(|yard| floors.positions(yard)).sum();
+fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<FloorPlan> {
+    let samples: Vec<FloorPlan> = (0..4).filter_map(|at| floors.create(seed.child("sample", at))).collect();
+    let positions: usize = samples.iter().map(|floor_plan| floors.positions(floor_plan)).sum();
     let affordable = POSITIONS * samples.len() / positions.max(1);
     let config = AnnealingConfig::of(floor_plans.min(affordable.max(BATCH)));
     let mut search = Annealing::new(floors, config, seed);
@@ -280,7 +287,7 @@ fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<Yar
         let plans = search.ask(BATCH);
         if plans.is_empty() {
             let best = search.best().filter(|(_, evaluation)| evaluation.is_feasible());
-            return best.map(|(yard, _)| yard.clone());
+            return best.map(|(floor_plan, _)| floor_plan.clone());
         }
         search.tell(plans.into_iter().map(|plan| (plan.clone(), floors.rate(&plan))).collect());
     }

@@ -1,6 +1,6 @@
 //! A floor plan for pushing: walls and targets as sets of cells, and the effect of a push.
 
-use super::rules::{Home, KINDS, Rules};
+use super::rules::{Destination, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
 
 /// The maximum number of cells of a board: they are bits of one number.
@@ -25,7 +25,7 @@ pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
 
 /// A floor plan. Its border is wall.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Yard {
+pub(crate) struct FloorPlan {
     pub(crate) grid: Grid,
     pub(crate) wall: Cells,
     pub(crate) targets: Cells,
@@ -54,36 +54,36 @@ impl Position {
 /// A floor plan with the rules of pushing.
 #[derive(Clone, Copy)]
 pub(crate) struct Pushing<'a> {
-    pub(crate) yard: &'a Yard,
+    pub(crate) floor_plan: &'a FloorPlan,
     pub(crate) rules: &'a Rules,
 }
 
 impl Pushing<'_> {
     /// The change of a cell's index in each of the [`WAYS`].
     pub(crate) fn strides(&self) -> [isize; 4] {
-        WAYS.map(|(x, y)| x as isize + y as isize * self.yard.grid.columns as isize)
+        WAYS.map(|(x, y)| x as isize + y as isize * self.floor_plan.grid.columns as isize)
     }
 
     /// The cells where the avatar can stand.
     pub(crate) fn stands(&self, position: &Position) -> Cells {
         let barred = if self.rules.walkable { 0 } else { position.targets };
-        self.inside() & !(self.yard.wall | position.taken() | barred)
+        self.inside() & !(self.floor_plan.wall | position.taken() | barred)
     }
 
     /// The cells where a thing can lie.
     pub(crate) fn lies(&self, position: &Position) -> Cells {
-        let sinks = if self.rules.home == Home::Place { 0 } else { position.targets };
-        self.inside() & !(self.yard.wall | position.taken() | sinks)
+        let sinks = if self.rules.destination == Destination::Place { 0 } else { position.targets };
+        self.inside() & !(self.floor_plan.wall | position.taken() | sinks)
     }
 
     fn inside(&self) -> Cells {
-        let cells = self.yard.grid.len();
+        let cells = self.floor_plan.grid.len();
         if cells == MOST_CELLS { Cells::MAX } else { bit(cells) - 1 }
     }
 
     /// The cells of `open` that are connected with `from`. Cost: a few operations for each step of the longest way.
     pub(crate) fn flood(&self, from: Cells, open: Cells) -> Cells {
-        let columns = self.yard.grid.columns;
+        let columns = self.floor_plan.grid.columns;
         let mut reached = from & open;
         loop {
             let next = reached << 1 | reached >> 1 | reached << columns | reached >> columns;
@@ -97,38 +97,41 @@ impl Pushing<'_> {
 
     /// The solved positions, without the avatar.
     pub(crate) fn solved(&self) -> Vec<Position> {
-        let all = self.yard.targets;
+        let all = self.floor_plan.targets;
         let position = |thing: Cells, targets: Cells| Position { things: [thing, 0], targets, avatar: 0 };
-        match self.rules.home {
-            Home::Sink | Home::Partner => vec![position(0, all)],
+        match self.rules.destination {
+            Destination::Sink | Destination::Partner => vec![position(0, all)],
             // All choices of filled holes; all holes, if there are no more of them than things.
-            Home::Hole => subsets(all, self.yard.counts[0])
+            Destination::Hole => subsets(all, self.floor_plan.counts[0])
                 .into_iter()
                 .map(|filled| position(0, all & !filled))
                 .collect(),
-            Home::Place => {
-                subsets(all, self.yard.counts[0]).into_iter().map(|things| position(things, all)).collect()
-            }
+            Destination::Place => subsets(all, self.floor_plan.counts[0])
+                .into_iter()
+                .map(|things| position(things, all))
+                .collect(),
         }
     }
 
     /// Returns `true` if all things are there, and none is in its place yet.
     pub(crate) fn is_start(&self, position: &Position) -> bool {
-        let counted = |kind: usize| position.things[kind].count_ones() as usize == self.yard.counts[kind];
-        let at_home = self.rules.home == Home::Place && position.things[0] & position.targets != 0;
-        (0..KINDS).all(counted) && !at_home
+        let counted =
+            |kind: usize| position.things[kind].count_ones() as usize == self.floor_plan.counts[kind];
+        let has_arrived =
+            self.rules.destination == Destination::Place && position.things[0] & position.targets != 0;
+        (0..KINDS).all(counted) && !has_arrived
     }
 
     /// The cells where the push that led to a position may have ended.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
-        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.yard.counts[kind];
-        let homes = match self.rules.home {
-            Home::Place => 0,
+        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.floor_plan.counts[kind];
+        let destinations = match self.rules.destination {
+            Destination::Place => 0,
             _ if !more(0) => 0,
-            Home::Sink | Home::Hole => self.yard.targets,
-            Home::Partner => self.lies(after),
+            Destination::Sink | Destination::Hole => self.floor_plan.targets,
+            Destination::Partner => self.lies(after),
         };
-        after.taken() | homes
+        after.taken() | destinations
     }
 
     /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the thing
@@ -142,7 +145,7 @@ impl Pushing<'_> {
         each: &mut impl FnMut(Position),
     ) {
         let (to, far) = (near.wrapping_add_signed(-stride), near.wrapping_add_signed(stride));
-        let cells = self.yard.grid.len();
+        let cells = self.floor_plan.grid.len();
         if to >= cells || far >= cells {
             return;
         }
@@ -159,20 +162,20 @@ impl Pushing<'_> {
                 each(Position { things, avatar, ..*after });
             }
         }
-        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.yard.counts[kind];
-        match self.rules.home {
-            Home::Sink if after.targets & to_bit != 0 && more(0) => {
+        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.floor_plan.counts[kind];
+        match self.rules.destination {
+            Destination::Sink if after.targets & to_bit != 0 && more(0) => {
                 each(Position { things: [after.things[0] | near_bit, 0], avatar, ..*after });
             }
-            Home::Hole => {
-                let free = self.yard.targets & !after.targets & !after.taken() & to_bit != 0;
+            Destination::Hole => {
+                let free = self.floor_plan.targets & !after.targets & !after.taken() & to_bit != 0;
                 // The hole is open again, with neither thing nor avatar on it.
                 if free && more(0) {
                     let things = [after.things[0] | near_bit, 0];
                     each(Position { things, targets: after.targets | to_bit, avatar });
                 }
             }
-            Home::Partner if lies & to_bit != 0 && more(0) && more(1) => {
+            Destination::Partner if lies & to_bit != 0 && more(0) && more(1) => {
                 for kind in 0..KINDS {
                     let mut things = after.things;
                     things[kind] |= near_bit;
@@ -191,15 +194,15 @@ impl Pushing<'_> {
             return Some(Position { avatar: near as u8, ..*position });
         }
         let kind = position.things.iter().position(|things| things & bit(near) != 0)?;
-        let to = near.checked_add_signed(stride).filter(|&to| to < self.yard.grid.len())?;
+        let to = near.checked_add_signed(stride).filter(|&to| to < self.floor_plan.grid.len())?;
         let mut after = Position { avatar: near as u8, ..*position };
         after.things[kind] &= !bit(near);
         // The thing may have been on a target that the avatar cannot stand on.
         if self.stands(&after) & bit(near) == 0 {
             return None;
         }
-        if position.targets & bit(to) != 0 && self.rules.home != Home::Place {
-            if self.rules.home == Home::Hole {
+        if position.targets & bit(to) != 0 && self.rules.destination != Destination::Place {
+            if self.rules.destination == Destination::Hole {
                 after.targets &= !bit(to);
             }
             return Some(after);
@@ -209,7 +212,7 @@ impl Pushing<'_> {
             return self.rules.merges[kind][other].then_some(after);
         }
         after.things[kind] |= bit(to);
-        (self.yard.wall & bit(to) == 0).then_some(after)
+        (self.floor_plan.wall & bit(to) == 0).then_some(after)
     }
 }
 

@@ -8,7 +8,7 @@ use engine::analysis::{Role, Steering};
 impl Builder<'_> {
     /// Adds walls (or, on boards without, more things) until enough cells are covered, or removes some until few enough
     /// are. Everything that the game needs stays, and nothing is cut off, so the requested cover is not always reached.
-    pub(crate) fn settle(&mut self) {
+    pub(crate) fn adjust_cover(&mut self) {
         let Some((low, high)) = self.config.cover else { return };
         if is_cover(self.analysis, self.palette.base) {
             return;

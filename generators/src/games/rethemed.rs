@@ -18,15 +18,15 @@ use engine::{Description, Game, Sampler, Seed, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum number of names in a clause of a summary.
-const TOLD: usize = 4;
+const MAX_NAMES: usize = 4;
 /// The number of titles to draw before a plain one is used.
-const TITLES: usize = 32;
+const MAX_TITLES: usize = 32;
 /// Adjectives that distinguish types if a theme has no more words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
 
 /// A game under a new theme, with the characters of its levels.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Retold {
+pub struct Rethemed {
     /// The rules. Lines are in the order of the game, so that the two play alike, state hashes included.
     pub description: Description,
     /// The title under the new theme.
@@ -36,11 +36,11 @@ pub struct Retold {
     /// The instructions for winning, in one sentence.
     pub goal: String,
     /// The name of the theme, such as `fiction/harbour`.
-    pub fiction: &'static str,
+    pub theme: &'static str,
     symbols: Symbols,
 }
 
-impl Retold {
+impl Rethemed {
     /// Rethemes a game: sprite types get words of one theme according to their use; level characters, colours, title and
     /// texts follow. No name of the game is reused except `wall` and `avatar`, since the engine depends on them; images
     /// and comments are removed. Pure; cost: about that of analysing the game twice.
@@ -48,29 +48,31 @@ impl Retold {
     /// # Errors
     /// [`GenerateError::Unsuitable`], whatever the seed: the game does not compile under other names (it was loaded with the
     /// reference's recovery from faults), or it uses up all characters.
-    pub fn of(game: &Game, seed: Seed) -> Result<Retold, GenerateError> {
+    pub fn of(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
         let analysis = Analysis::of(game);
-        let old = Old::of(game.description());
+        let old = OldNames::of(game.description());
         let mut sampler = seed.child("retold", 0).sampler();
         let theme = old.theme(&mut sampler);
-        let mut casting = Casting { analysis: &analysis, theme, old: &old, sampler, cast: BTreeMap::new() };
+        let mut casting =
+            Assigner { analysis: &analysis, theme, old: &old, sampler, assigned: BTreeMap::new() };
         casting.lines(&game.description().sprites);
-        let Casting { mut sampler, cast, .. } = casting;
-        let named = cast.iter().filter(|(name, _)| !RESERVED.contains(&name.as_str()));
-        let names = named.map(|(name, part)| (name.clone(), part.word.clone())).collect();
-        let mut description = surface::undressed(game.description(), &names);
-        recolor(&mut description.sprites, theme, &cast, &names_back(&names));
-        let symbols = symbols(&analysis, &cast)?;
+        let Assigner { mut sampler, assigned, .. } = casting;
+        let named = assigned.iter().filter(|(name, _)| !RESERVED.contains(&name.as_str()));
+        let names = named.map(|(name, assignment)| (name.clone(), assignment.word.clone())).collect();
+        let mut description = surface::without_surface(game.description(), &names);
+        recolor(&mut description.sprites, theme, &assigned, &names_back(&names));
+        let symbols = symbols(&analysis, &assigned)?;
         symbols.write(&mut description);
-        let retold = Game::compile(&description).map_err(|problems| {
+        let rethemed = Game::compile(&description).map_err(|problems| {
             GenerateError::Unsuitable(format!("it does not compile under other names: {problems}"))
         })?;
-        let analysis = Analysis::of(&retold);
+        let analysis = Analysis::of(&rethemed);
         let hero = hero(&analysis);
         let title = title(&analysis, theme, &hero, &old, &mut sampler);
         let summary = summary(&analysis, theme, &hero);
-        let summary = if old.is_told(&summary) { format!("{}.", capital(&one(&hero))) } else { summary };
-        Ok(Retold { goal: goal(&analysis), title, summary, fiction: theme.name, symbols, description })
+        let summary =
+            if old.mentions_old_name(&summary) { format!("{}.", capital(&one(&hero))) } else { summary };
+        Ok(Rethemed { goal: goal(&analysis), title, summary, theme: theme.name, symbols, description })
     }
 
     /// Translates a level of the game to the new characters. Characters without a meaning become blanks.
@@ -80,17 +82,17 @@ impl Retold {
 }
 
 /// The stems of the words that must not be used again: lower case, without the ending of the plural.
-struct Old(BTreeSet<String>);
+struct OldNames(BTreeSet<String>);
 
-impl Old {
-    fn of(description: &Description) -> Old {
+impl OldNames {
+    fn of(description: &Description) -> OldNames {
         let parameters = description.parameters.iter().map(|line| line.name.text.as_str());
         let names = surface::own_names(description).into_iter().chain(parameters);
-        Old(names.flat_map(|name| words(name).chain([stem(name)])).collect())
+        OldNames(names.flat_map(|name| words(name).chain([stem(name)])).collect())
     }
 
     /// Returns `true` if a text contains one of them.
-    fn is_told(&self, text: &str) -> bool {
+    fn mentions_old_name(&self, text: &str) -> bool {
         words(text).any(|word| self.0.contains(&word)) || self.0.contains(&stem(text))
     }
 
@@ -98,11 +100,11 @@ impl Old {
     fn theme(&self, sampler: &mut Sampler) -> &'static Theme {
         let shared = |theme: &Theme| {
             let words = Role::ALL.iter().flat_map(|&role| theme.words(role));
-            words.filter(|word| self.is_told(word)).count()
+            words.filter(|word| self.mentions_old_name(word)).count()
         };
         let weight = |theme: &&Theme| {
             let shared = u32::try_from(shared(theme)).unwrap_or(u32::MAX);
-            if self.is_told(theme.place) { 0 } else { 64 / (1 + shared.saturating_mul(shared)) }
+            if self.mentions_old_name(theme.place) { 0 } else { 64 / (1 + shared.saturating_mul(shared)) }
         };
         let weights: Vec<u32> = Theme::ALL.iter().map(weight).collect();
         let drawn = sampler.weighted(&weights);
@@ -124,54 +126,54 @@ fn stem(word: &str) -> String {
 }
 
 /// The new name and role of a type.
-struct Part {
+struct Assignment {
     word: String,
     role: Role,
 }
 
 /// Assigns a word to every type of a SpriteSet.
-struct Casting<'a> {
+struct Assigner<'a> {
     analysis: &'a Analysis,
     theme: &'static Theme,
-    old: &'a Old,
+    old: &'a OldNames,
     sampler: Sampler,
     /// By old name.
-    cast: BTreeMap<String, Part>,
+    assigned: BTreeMap<String, Assignment>,
 }
 
-impl Casting<'_> {
+impl Assigner<'_> {
     fn lines(&mut self, lines: &[SpriteLine]) {
         for line in lines {
             let name = line.name.text.as_str();
-            if !self.cast.contains_key(name) {
-                let part = self.part(line);
-                self.cast.insert(name.to_owned(), part);
+            if !self.assigned.contains_key(name) {
+                let assignment = self.assign(line);
+                self.assigned.insert(name.to_owned(), assignment);
             }
             self.lines(&line.children);
         }
     }
 
-    fn part(&mut self, line: &SpriteLine) -> Part {
+    fn assign(&mut self, line: &SpriteLine) -> Assignment {
         let name = line.name.text.as_str();
-        let parts =
-            self.of_name(name).map_or(&[Role::Rubble][..], |stype| casting::parts(self.analysis, stype));
-        let role = parts[0];
+        let roles =
+            self.of_name(name).map_or(&[Role::Rubble][..], |stype| casting::roles(self.analysis, stype));
+        let role = roles[0];
         if RESERVED.contains(&name) {
-            return Part { word: name.to_owned(), role };
+            return Assignment { word: name.to_owned(), role };
         }
         if !line.children.is_empty() {
             let member =
                 self.of_name(first_leaf(line)).map_or(Use::Neutral, |stype| self.analysis.role(stype));
             let words = casting::group(member).to_vec();
-            return Part { word: self.word(words), role };
+            return Assignment { word: self.word(words), role };
         }
-        for &role in parts {
+        for &role in roles {
             let words = self.free(self.theme.words(role));
             if !words.is_empty() {
-                return Part { word: (*self.sampler.choose(&words)).to_owned(), role };
+                return Assignment { word: (*self.sampler.choose(&words)).to_owned(), role };
             }
         }
-        Part { word: self.word(self.theme.words(role)), role }
+        Assignment { word: self.word(self.theme.words(role)), role }
     }
 
     fn of_name(&self, name: &str) -> Option<SpriteType> {
@@ -184,23 +186,23 @@ impl Casting<'_> {
         if !free.is_empty() {
             return (*self.sampler.choose(&free)).to_owned();
         }
-        let told = |word: &&&'static str| !self.old.is_told(word);
+        let told = |word: &&&'static str| !self.old.mentions_old_name(word);
         let word = words.iter().find(told).copied().unwrap_or("thing");
         let qualified = ADJECTIVES.iter().map(|adjective| format!("{adjective}{}", capital(word)));
         let numbered = (2..).map(|number: u32| format!("{word}{number}"));
-        let fits = |word: &String| !self.is_taken(word) && !self.old.is_told(word);
+        let fits = |word: &String| !self.is_taken(word) && !self.old.mentions_old_name(word);
         let numbered_fits = |word: &String| !self.is_taken(word) && !self.old.0.contains(&stem(word));
         let found = qualified.into_iter().find(fits).or_else(|| numbered.into_iter().find(numbered_fits));
         found.expect("there is no end of numbers")
     }
 
     fn free(&self, mut words: Vec<&'static str>) -> Vec<&'static str> {
-        words.retain(|word| !self.is_taken(word) && !self.old.is_told(word));
+        words.retain(|word| !self.is_taken(word) && !self.old.mentions_old_name(word));
         words
     }
 
     fn is_taken(&self, word: &str) -> bool {
-        self.cast.values().any(|part| part.word == word)
+        self.assigned.values().any(|assignment| assignment.word == word)
     }
 }
 
@@ -221,7 +223,7 @@ fn names_back(names: &BTreeMap<String, String>) -> BTreeMap<&str, &str> {
 fn recolor(
     lines: &mut [SpriteLine],
     theme: &Theme,
-    cast: &BTreeMap<String, Part>,
+    assigned: &BTreeMap<String, Assignment>,
     back: &BTreeMap<&str, &str>,
 ) {
     fn walk(lines: &mut [SpriteLine], color: &mut impl FnMut(&str) -> &'static str) {
@@ -235,7 +237,7 @@ fn recolor(
     let mut taken = Vec::new();
     walk(lines, &mut |name| {
         let old = back.get(name).copied().unwrap_or(name);
-        let role = cast.get(old).map_or(Role::Rubble, |part| part.role);
+        let role = assigned.get(old).map_or(Role::Rubble, |assignment| assignment.role);
         let own = palette::color(role, theme, &taken);
         // Among several floors or walls, the first has the colour of the theme.
         let color = if taken.contains(&own) { palette::color(Role::Rubble, theme, &taken) } else { own };
@@ -246,7 +248,7 @@ fn recolor(
 
 /// New level characters: `.`, `w` and `A` for the first characters that place only floor, a wall, and an avatar, as in
 /// generated games; for the others a letter of the name of the type that they place.
-fn symbols(analysis: &Analysis, cast: &BTreeMap<String, Part>) -> Result<Symbols, GenerateError> {
+fn symbols(analysis: &Analysis, assigned: &BTreeMap<String, Assignment>) -> Result<Symbols, GenerateError> {
     let description = analysis.game().description();
     let lines = description.mapping.iter().map(|line: &MappingLine| {
         (line.symbol, line.names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>())
@@ -261,28 +263,32 @@ fn symbols(analysis: &Analysis, cast: &BTreeMap<String, Part>) -> Result<Symbols
         let stype = analysis.game().sprite_type(name);
         stype.is_some_and(|stype| analysis.facts(stype).symbols.contains(&(symbol as u8)))
     };
-    let silent = surface::silent(description).filter(|&(symbol, name)| needed(symbol, name));
-    let mut symbols: BTreeMap<char, char> = silent.map(|(symbol, _)| (symbol, symbol)).collect();
+    let unmapped_builtins =
+        surface::unmapped_builtins(description).filter(|&(symbol, name)| needed(symbol, name));
+    let mut symbols: BTreeMap<char, char> = unmapped_builtins.map(|(symbol, _)| (symbol, symbol)).collect();
     let mut taken: Vec<char> = symbols.values().copied().collect();
-    let mut settle = |new: char, fits: &dyn Fn(&[&str]) -> bool| {
+    let mut assign_symbol = |new: char, fits: &dyn Fn(&[&str]) -> bool| {
         let found = lines.iter().find(|(old, names)| !symbols.contains_key(old) && fits(names));
         if let Some((old, _)) = found.filter(|_| !taken.contains(&new)) {
             symbols.insert(*old, new);
             taken.push(new);
         }
     };
-    settle('.', &|names| !names.is_empty() && names.iter().all(|name| uses(name) == Some(Use::Floor)));
-    settle('w', &|names| names.last() == Some(&"wall"));
-    settle('A', &|names| names.iter().any(|name| uses(name) == Some(Use::Avatar)));
-    settle('w', &|names| last(names) == Some(Use::Wall));
-    for symbol in surface::overridden(description) {
-        settle(symbol, &|_| true);
+    assign_symbol('.', &|names| !names.is_empty() && names.iter().all(|name| uses(name) == Some(Use::Floor)));
+    assign_symbol('w', &|names| names.last() == Some(&"wall"));
+    assign_symbol('A', &|names| names.iter().any(|name| uses(name) == Some(Use::Avatar)));
+    assign_symbol('w', &|names| last(names) == Some(Use::Wall));
+    for symbol in surface::mapped_builtins(description) {
+        assign_symbol(symbol, &|_| true);
     }
     for (old, names) in &lines {
         if symbols.contains_key(old) {
             continue;
         }
-        let word = names.last().and_then(|name| cast.get(*name)).map_or("x", |part| part.word.as_str());
+        let word = names
+            .last()
+            .and_then(|name| assigned.get(*name))
+            .map_or("x", |assignment| assignment.word.as_str());
         // A different character from before, if there is one.
         let avoided: Vec<char> = taken.iter().copied().chain([*old]).collect();
         let any = || ('!'..='~').find(|symbol| *symbol != '#' && !taken.contains(symbol));
@@ -300,7 +306,7 @@ fn hero(analysis: &Analysis) -> String {
     avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
 }
 
-fn title(analysis: &Analysis, theme: &Theme, hero: &str, old: &Old, sampler: &mut Sampler) -> String {
+fn title(analysis: &Analysis, theme: &Theme, hero: &str, old: &OldNames, sampler: &mut Sampler) -> String {
     let kind = match analysis.taxonomy().genres.first() {
         Some(Genre::Platformer | Genre::Escape) => Kind::Escape,
         Some(Genre::Race | Genre::Crossing) => Kind::Crossing,
@@ -314,11 +320,11 @@ fn title(analysis: &Analysis, theme: &Theme, hero: &str, old: &Old, sampler: &mu
         None => Kind::Tending,
     };
     let hero = super::english::headline(hero);
-    let mut titles = (0..TITLES).map(|_| {
-        let deed = kind.deed(sampler);
-        theme.title(&hero, deed, sampler)
+    let mut titles = (0..MAX_TITLES).map(|_| {
+        let title_word = kind.title_word(sampler);
+        theme.title(&hero, title_word, sampler)
     });
-    titles.find(|title| !old.is_told(title)).unwrap_or_else(|| format!("The {hero}"))
+    titles.find(|title| !old.mentions_old_name(title)).unwrap_or_else(|| format!("The {hero}"))
 }
 
 /// Describes the hero and the place, the tasks and the dangers.
@@ -329,32 +335,32 @@ fn summary(analysis: &Analysis, theme: &Theme, hero: &str) -> String {
             let facts = analysis.facts(stype);
             facts.possible && facts.concrete && fits(stype, analysis.role(stype))
         });
-        there.map(|stype| spaced(game.name(stype))).take(TOLD).collect()
+        there.map(|stype| spaced(game.name(stype))).take(MAX_NAMES).collect()
     };
     let many = |names: Vec<String>| names.iter().map(|name| plural(name)).collect::<Vec<_>>();
     let single = |names: Vec<String>| names.iter().map(|name| format!("the {name}")).collect::<Vec<_>>();
     let caught = |stype| casting::is_caught(analysis, stype);
     let dangerous = |stype| casting::is_dangerous(analysis, stype);
     let must_go = |stype| analysis.aims().remove.contains(&stype);
-    let prey = |stype, part| part == Use::Prey || (part == Use::Enemy && must_go(stype));
-    let deeds = [
-        ("gather", many(types(&|_, part| part == Use::Collectable)), ""),
-        ("fetch", single(types(&|_, part| part == Use::Key)), ""),
-        ("push", many(types(&|_, part| part == Use::Pushable)), ""),
-        ("catch", many(types(&|stype, part| prey(stype, part) && caught(stype))), ""),
-        ("make an end of", many(types(&|stype, part| prey(stype, part) && !caught(stype))), ""),
-        ("get past", single(types(&|_, part| part == Use::Gate)), ""),
-        ("keep", single(types(&|_, part| part == Use::Ward)), " from harm"),
-        ("get to", single(types(&|_, part| part == Use::Exit)), ""),
+    let prey = |stype, role| role == Use::Prey || (role == Use::Enemy && must_go(stype));
+    let tasks = [
+        ("gather", many(types(&|_, role| role == Use::Collectable)), ""),
+        ("fetch", single(types(&|_, role| role == Use::Key)), ""),
+        ("push", many(types(&|_, role| role == Use::Pushable)), ""),
+        ("catch", many(types(&|stype, role| prey(stype, role) && caught(stype))), ""),
+        ("make an end of", many(types(&|stype, role| prey(stype, role) && !caught(stype))), ""),
+        ("get past", single(types(&|_, role| role == Use::Gate)), ""),
+        ("keep", single(types(&|_, role| role == Use::Ward)), " from harm"),
+        ("get to", single(types(&|_, role| role == Use::Exit)), ""),
         (
             "mind",
-            single(types(&|stype, part| part == Use::Enemy && !must_go(stype) && !dangerous(stype))),
+            single(types(&|stype, role| role == Use::Enemy && !must_go(stype) && !dangerous(stype))),
             "",
         ),
         ("beware of", single(types(&|stype, _| dangerous(stype))), ""),
     ];
-    let told = deeds.into_iter().filter(|(_, names, _)| !names.is_empty());
-    let clause = |(deed, names, rest): (&str, Vec<String>, &str)| format!("{deed} {}{rest}", series(&names));
+    let told = tasks.into_iter().filter(|(_, names, _)| !names.is_empty());
+    let clause = |(verb, names, rest): (&str, Vec<String>, &str)| format!("{verb} {}{rest}", series(&names));
     let mut clauses: Vec<String> = told.map(clause).collect();
     if analysis.aims().survive.is_some() {
         clauses.insert(0, "hold out".to_owned());
@@ -395,9 +401,9 @@ mod tests {
     }
 
     /// Checks that no text contains a name of the game.
-    fn forgets(name: &str, game: &Game, retold: &Retold) {
-        let text = syntax::print(&retold.description);
-        let texts = [text.as_str(), &retold.title, &retold.summary, &retold.goal];
+    fn forgets(name: &str, game: &Game, rethemed: &Rethemed) {
+        let text = syntax::print(&rethemed.description);
+        let texts = [text.as_str(), &rethemed.title, &rethemed.summary, &rethemed.goal];
         for old in surface::own_names(game.description()) {
             let told = |text: &&str| {
                 text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == old)
@@ -405,27 +411,27 @@ mod tests {
             assert!(old.len() < 3 || !texts.iter().any(told), "{name}: {old} is told\n{texts:?}");
         }
         assert!(!text.contains('#') && !text.contains("img="), "{name}\n{text}");
-        for sentence in [&retold.summary, &retold.goal] {
+        for sentence in [&rethemed.summary, &rethemed.goal] {
             assert!(sentence.ends_with('.') && sentence.matches('.').count() == 1, "{name}: {sentence}");
         }
     }
 
-    fn check(name: &str, game: &Game, levels: &[String]) -> Retold {
+    fn check(name: &str, game: &Game, levels: &[String]) -> Rethemed {
         let seed = seed().child(name, 0);
-        let retold = Retold::of(game, seed).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_eq!(retold, Retold::of(game, seed).unwrap());
-        let text = syntax::print(&retold.description);
+        let rethemed = Rethemed::of(game, seed).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(rethemed, Rethemed::of(game, seed).unwrap());
+        let text = syntax::print(&rethemed.description);
         let twin = Game::from_source(&text).unwrap_or_else(|problems| panic!("{name}: {problems}\n{text}"));
         assert_eq!(twin.warnings().len(), game.warnings().len(), "{name}\n{text}");
-        checks::play_alike(name, game, &twin, levels, |level| retold.level(level));
-        forgets(name, game, &retold);
+        checks::play_alike(name, game, &twin, levels, |level| rethemed.level(level));
+        forgets(name, game, &rethemed);
         let colors = |description: &Description| {
             let lines = description.sprite_lines().into_iter().flat_map(|(_, line)| &line.params);
             let colors = lines.filter(|param| param.key.text == "color");
             colors.map(|param| param.value.text.clone()).collect::<BTreeSet<String>>().len()
         };
-        assert!(colors(&retold.description) >= colors(game.description()), "{name}\n{text}");
-        retold
+        assert!(colors(&rethemed.description) >= colors(game.description()), "{name}\n{text}");
+        rethemed
     }
 
     #[test]
@@ -433,10 +439,10 @@ mod tests {
         let (mut kept, mut all) = (0, 0);
         for (name, source, levels) in checks::corpus() {
             let game = game(&source);
-            let retold = check(&name, &game, &levels);
+            let rethemed = check(&name, &game, &levels);
             // Another seed gives other names, except for the general ones.
-            let other = Retold::of(&game, seed().child(&name, 1)).unwrap();
-            let names = surface::own_names(&retold.description);
+            let other = Rethemed::of(&game, seed().child(&name, 1)).unwrap();
+            let names = surface::own_names(&rethemed.description);
             let others = surface::own_names(&other.description);
             kept += names.iter().filter(|name| others.contains(name)).count();
             all += names.len();
@@ -482,23 +488,23 @@ mod tests {
     #[test]
     fn texts_follow_from_the_rules() {
         let game = game(ORCHARD);
-        let retold = Retold::of(&game, seed()).unwrap();
-        let twin = Game::compile(&retold.description).unwrap();
+        let rethemed = Rethemed::of(&game, seed()).unwrap();
+        let twin = Game::compile(&rethemed.description).unwrap();
         let name = |old: &str| spaced(twin.name(game.sprite_type(old).unwrap()));
         let [hero, pear, plum, snail] = ["picker", "pear", "plum", "snail"].map(name);
         let summary =
             format!("has to gather {} and {}; beware of the {snail}.", plural(&pear), plural(&plum));
-        assert!(retold.summary.ends_with(&summary), "{}", retold.summary);
-        assert!(retold.summary.starts_with(&capital(&one(&hero))), "{}", retold.summary);
-        assert_eq!(retold.goal, format!("You win when no {pear} or {plum} is left."));
+        assert!(rethemed.summary.ends_with(&summary), "{}", rethemed.summary);
+        assert!(rethemed.summary.starts_with(&capital(&one(&hero))), "{}", rethemed.summary);
+        assert_eq!(rethemed.goal, format!("You win when no {pear} or {plum} is left."));
         // The level keeps its floor, its avatar, and a wall that has no line of its own.
-        let level = retold.level("wwww\nwA.w\nwpsw\n");
+        let level = rethemed.level("wwww\nwA.w\nwpsw\n");
         assert!(level.starts_with("wwww\nwA.w\nw") && !level.contains(['p', 's']), "{level}");
     }
 
     /// Games with the maximum number of types and characters get a word and a character for each.
     #[test]
-    fn crowded_games_have_words_enough() {
+    fn crowded_games_have_enough_words() {
         let symbols: Vec<char> = ('!'..='~').filter(|c| !"#wA".contains(*c)).collect();
         let sprites: String = (0..120).map(|number| format!("    p{number} > Immovable\n")).collect();
         let mapping: String =

@@ -13,7 +13,7 @@ pub(crate) const NOOKS: usize = 6;
 
 /// The placement of sprites of one type.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Stance {
+pub(crate) struct Placement {
     seen: usize,
     bands: Bands,
     /// The same for each example separately.
@@ -75,7 +75,7 @@ impl Scene<'_> {
     }
 }
 
-impl Stance {
+impl Placement {
     /// Records all sprites of a type in one example.
     pub(crate) fn see(&mut self, scene: &Scene<'_>, stype: SpriteType) {
         let grid = scene.grid;
