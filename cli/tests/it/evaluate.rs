@@ -311,7 +311,7 @@ fn malformed_questions_are_told() {
     std::fs::create_dir(home.path().join("full")).unwrap();
     std::fs::write(home.path().join("full/mine"), "").unwrap();
     let full = refusal(&["hailglass", "--player", "random", "--out", "full"]);
-    assert!(full.contains("not empty") && !full.contains("--resume goes on"), "{full}");
+    assert!(full.contains("not empty") && !full.contains("pass --resume"), "{full}");
     // Nothing is written before there is a key.
     let mut keyless = arcade(home.path());
     keyless.args(["evaluate", "hailglass", "--model", "openai:m", "--out", "k"]).env_remove("OPENAI_API_KEY");

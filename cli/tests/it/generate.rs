@@ -119,12 +119,12 @@ fn what_cannot_be_made_is_refused_with_the_next_move() {
     refused("hailglass", &["--with", "orchd=2"], &["orchd", "orchid"]);
     refused("hailglass", &["--with", "orchid=100000"], &["100000 sprites", "160 cells"]);
     refused("hailglass", &["--with", "keeper=5"], &["keeper", "one avatar"]);
-    refused("foxglove-round", &["--with", "bloom=3"], &["bloom", "no character"]);
+    refused("foxglove-round", &["--with", "bloom=3"], &["bloom", "no level character"]);
     refused("hailglass", &["--with", "orchid"], &["orchid", "box=3"]);
     refused("hailglass", &["--uses", "keeper hal"], &["hal", "hail"]);
     refused("hailglass", &["--count", "0"], &["0"]);
     refused("hailglass", &["--jobs", "0"], &["--jobs"]);
-    refused("idle.vgdl", &[], &["idle.vgdl", "no termination that wins"]);
+    refused("idle.vgdl", &[], &["idle.vgdl", "no winning termination"]);
 }
 
 #[test]

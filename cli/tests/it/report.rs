@@ -329,13 +329,13 @@ fn logs_are_compared_with_what_follows() {
         fs::read_to_string(&path).unwrap().replacen("\"validity\":\"invalid\"", "\"validity\":\"valid\"", 1);
     fs::write(&path, altered).unwrap();
     for (results, words) in [
-        ("status", &["line 14: ", "the game is over, which it is not"][..]),
-        ("limit", &["line 14: ", "12 of 13 were taken"]),
+        ("status", &["line 14: ", "the game is over, but it is not"][..]),
+        ("limit", &["line 14: ", "12 of 13 steps were taken"]),
         ("run", &["line 1: ", "the log is of run 1, but 0 was requested"]),
         ("invalid", &["line 2: ", "step 0 is recorded as invalid, but it has an action"]),
         ("score", &["line 4: ", "step 2 leads to score 0, but the log records 1"]),
         ("after", &["line 14: ", "a step after the end"]),
-        ("fewer", &["run1.jsonl", "no such episode in evaluation.json"]),
+        ("fewer", &["run1.jsonl", "evaluation.json has no such episode"]),
         ("valid", &["recorded as valid, but the last answer contradicts it"]),
     ] {
         let message = text(&run(home.path(), &["report", results, "--out", "report"], 2).stderr);

@@ -32,7 +32,7 @@ pub(crate) enum Change {
     /// Changes the time limit.
     Time,
     /// Changes the theme.
-    ThemeDraw,
+    Theme,
     /// Takes back an earlier edit.
     Undo,
 }
@@ -50,7 +50,7 @@ const CHANGES: [(Change, u32); 13] = [
     (Change::Drop, 1),
     (Change::Score, 1),
     (Change::Time, 1),
-    (Change::ThemeDraw, 1),
+    (Change::Theme, 1),
     (Change::Undo, 2),
 ];
 

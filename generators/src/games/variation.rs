@@ -56,7 +56,7 @@ impl GameVariation {
                 let (least, most) = genome.goal.ticks;
                 genome.time = sampler.between((least * 2 / 3).max(2) as usize, most as usize * 3 / 2) as u32;
             }
-            Change::ThemeDraw => genome.theme_draw = ThemeDraw::draw(genome.kind(), fresh(sampler)),
+            Change::Theme => genome.theme_draw = ThemeDraw::draw(genome.kind(), fresh(sampler)),
             Change::Undo => {
                 let at = pick(&(0..genome.edits.len()).collect::<Vec<_>>(), sampler)?;
                 genome.edits.remove(at);

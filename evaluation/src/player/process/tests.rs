@@ -238,7 +238,7 @@ fn failures_are_reported_with_the_end_of_stderr() {
         &["did not answer at step 0 within 0.3 s", "its standard error is empty"],
     );
     check("yes | tr -d '\\n'; echo over >&2", late, &["a line of more than 1024 KiB"]);
-    check("kill -9 $$", late, &["has left"]);
+    check("kill -9 $$", late, &["exited"]);
 }
 
 #[test]
