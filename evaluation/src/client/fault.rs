@@ -57,8 +57,8 @@ pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) 
     };
     let is_transient = matches!(status, 408 | 409 | 425 | 429 | 500..600);
     if is_transient && error_body.code != "insufficient_quota" {
-        let asked = reply.retry_after.as_deref().and_then(|value| retry_after(value, date));
-        return Err(transient(words, asked.or(error_body.wait)));
+        let requested_wait = reply.retry_after.as_deref().and_then(|value| retry_after(value, date));
+        return Err(transient(words, requested_wait.or(error_body.wait)));
     }
     Err(Fault::Final { status, message: words })
 }

@@ -73,7 +73,7 @@ impl Remote {
             let begin = self.clock.elapsed();
             let outcome = self.try_once(url, body);
             let latency = self.clock.elapsed().saturating_sub(begin);
-            let (status, message, asked) = match outcome {
+            let (status, message, requested_wait) = match outcome {
                 Ok(answer) => {
                     let reply = reply(answer, failures, latency);
                     // This comes first: if the run is killed after it, the next one finds the answer in the cache.
@@ -94,15 +94,15 @@ impl Remote {
                 Err(Fault::Transient { status, message, wait }) => (status, message, wait),
             };
             let number = failures.len() as u32 + 1;
-            let too_long = asked.is_some_and(|time| time > MAX_SERVER_WAIT);
+            let too_long = requested_wait.is_some_and(|time| time > MAX_SERVER_WAIT);
             if number == self.tries.get() || too_long {
                 failures.push(Failure { status, message, waited_ms: 0 });
-                return Err(self.given_up(failures, asked.filter(|_| too_long)));
+                return Err(self.given_up(failures, requested_wait.filter(|_| too_long)));
             }
-            if let Some(time) = asked {
+            if let Some(time) = requested_wait {
                 self.pace.delay_all(time);
             }
-            let wait = wait(number, asked, &mut jitter);
+            let wait = wait(number, requested_wait, &mut jitter);
             failures.push(Failure { status, message, waited_ms: wait.as_millis() as u64 });
             self.clock.sleep(wait);
         }
@@ -162,15 +162,16 @@ impl Remote {
         ChatError { kind: ChatErrorKind::Rejected, message, failures }
     }
 
-    fn given_up(&self, failures: Vec<Failure>, asked: Option<Duration>) -> ChatError {
+    fn given_up(&self, failures: Vec<Failure>, requested_wait: Option<Duration>) -> ChatError {
         let host = &self.spec.server.host;
         let last = failures.last().expect("there was a try");
         let status = last.status.map(|status| format!("{status}: ")).unwrap_or_default();
         let times = if failures.len() == 1 { "once".to_owned() } else { format!("{} times", failures.len()) };
-        let asked =
-            asked.map(|time| format!(", and requires a wait of {} s", time.as_secs())).unwrap_or_default();
+        let requested_wait = requested_wait
+            .map(|time| format!(", and requires a wait of {} s", time.as_secs()))
+            .unwrap_or_default();
         let message = format!(
-            "requests to {host} failed {times}, the last time with {status}{}{asked}; continue later with --resume",
+            "requests to {host} failed {times}, the last time with {status}{}{requested_wait}; continue later with --resume",
             last.message
         );
         ChatError { kind: ChatErrorKind::Infrastructure, message, failures }
@@ -193,11 +194,12 @@ fn reply(answer: Answer, failures: Vec<Failure>, latency: Duration) -> ChatReply
 /// Returns the wait after a failed try. It grows exponentially with every try, with a random factor between a half and one,
 /// so that threads that failed together do not retry together. If the server asks for more, the wait is that and a little
 /// more.
-fn wait(number: u32, asked: Option<Duration>, jitter: &mut Sampler) -> Duration {
+fn wait(number: u32, requested_wait: Option<Duration>, jitter: &mut Sampler) -> Duration {
     let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
     let own = doubled.min(MAX_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());
-    let asked = asked.map_or(Duration::ZERO, |time| time + FIRST_WAIT.mul_f64(jitter.unit()));
-    own.max(asked)
+    let requested_wait =
+        requested_wait.map_or(Duration::ZERO, |time| time + FIRST_WAIT.mul_f64(jitter.unit()));
+    own.max(requested_wait)
 }
 
 #[cfg(test)]

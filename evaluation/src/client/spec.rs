@@ -49,7 +49,7 @@ impl ModelSpec {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.:/@+".contains(c);
         if model.is_empty() || !model.chars().all(plain) || model.contains("..") {
             let problem = format!(
-                "`{model}` is no name of a model; give letters, digits and `-_.:/@+`, as in `openai:gpt-4o-mini`"
+                "`{model}` is not a model name; give letters, digits and `-_.:/@+`, as in `openai:gpt-4o-mini`"
             );
             return Err(EvaluationError::Malformed(problem));
         }
@@ -160,9 +160,9 @@ mod tests {
         check("claude-x", None, Err("did you mean `anthropic:claude-x`?"));
         check("opnai:gpt-4o-mini", None, Err("did you mean `openai:gpt-4o-mini`?"));
         check("mcts", None, Err("--base-url"));
-        check("openai:", None, Err("no name of a model"));
-        check("gemini:../x", None, Err("no name of a model"));
-        check("a model", local, Err("no name of a model"));
+        check("openai:", None, Err("is not a model name"));
+        check("gemini:../x", None, Err("is not a model name"));
+        check("a model", local, Err("is not a model name"));
     }
 
     #[test]

@@ -101,9 +101,9 @@ impl ModelPlayer {
         let step = turn.number;
         let messages = prompt.messages.iter().map(|message| self.number(message, journal));
         let messages = messages.collect::<Result<Vec<u32>, Halt>>()?;
-        let asked =
-            |event: &Event| matches!(event, Event::Request { attempt: asked, .. } if *asked == attempt);
-        if !journal.pending().iter().any(asked) {
+        let was_requested =
+            |event: &Event| matches!(event, Event::Request { attempt: other, .. } if *other == attempt);
+        if !journal.pending().iter().any(was_requested) {
             let tokens = prompt.tokens.total;
             push(journal, Event::Request { step, attempt, messages, tokens })?;
         }

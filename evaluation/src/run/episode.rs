@@ -35,8 +35,8 @@ impl Task<'_> {
     /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
     pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, .. } = start else { return Ok(()) };
-        let differs = |what: &str, found: &dyn Display, asked: &dyn Display| {
-            Err(format!("the log is of {what} {found}, but {asked} was requested"))
+        let differs = |what: &str, found: &dyn Display, requested: &dyn Display| {
+            Err(format!("the log is of {what} {found}, but {requested} was requested"))
         };
         if *game != self.subject.id {
             return differs("game", game, &self.subject.id);

@@ -369,7 +369,7 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
 
 /// Returns the first field in which two evaluations differ. The server of a model is ignored, because it does not affect its
 /// answers.
-fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
+fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
     let fields = |settings: &Settings| {
         let mut fields = serde_json::to_value(settings).expect("settings are plain data");
         if let Some(server) = fields.pointer_mut("/entrant/details/model/server") {
@@ -377,10 +377,10 @@ fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
         }
         fields
     };
-    let (recorded, asked) = (fields(recorded), fields(asked));
-    let (recorded, asked) = (recorded.as_object()?, asked.as_object()?);
-    let differs = |name: &&String| recorded.get(*name) != asked.get(*name);
-    recorded.keys().chain(asked.keys()).find(differs).map(|name| match name.as_str() {
+    let (recorded, requested) = (fields(recorded), fields(requested));
+    let (recorded, requested) = (recorded.as_object()?, requested.as_object()?);
+    let differs = |name: &&String| recorded.get(*name) != requested.get(*name);
+    recorded.keys().chain(requested.keys()).find(differs).map(|name| match name.as_str() {
         "entrant" => "player, model, prompt or decoding".to_owned(),
         "games" => "choice of games or levels".to_owned(),
         "max_steps" => "--max-steps".to_owned(),

@@ -293,7 +293,7 @@ fn many_threads_share_limits_and_servers() {
     });
     let spent = connection.caps.spent();
     assert_eq!((answered.into_inner(), spent.requests, spent.tokens), (40, 40, 4400));
-    assert!(server.most_at_once() <= 3, "{} at once", server.most_at_once());
+    assert!(server.max_concurrent() <= 3, "{} at once", server.max_concurrent());
 }
 
 #[test]

@@ -98,7 +98,7 @@ struct Shared {
 struct State {
     received: Vec<ReceivedRequest>,
     at_once: usize,
-    most_at_once: usize,
+    max_concurrent: usize,
     closed: bool,
 }
 
@@ -132,8 +132,8 @@ impl Server {
     }
 
     /// Returns the maximum number of concurrent requests.
-    pub(crate) fn most_at_once(&self) -> usize {
-        self.shared.state.lock().unwrap().most_at_once
+    pub(crate) fn max_concurrent(&self) -> usize {
+        self.shared.state.lock().unwrap().max_concurrent
     }
 }
 
@@ -168,7 +168,7 @@ fn serve(mut stream: TcpStream, shared: &Shared) {
         let mut state = shared.state.lock().unwrap();
         state.received.push(received.clone());
         state.at_once += 1;
-        state.most_at_once = state.most_at_once.max(state.at_once);
+        state.max_concurrent = state.max_concurrent.max(state.at_once);
         state.received.len() - 1
     };
     let act = (shared.script)(number, &received);

@@ -81,11 +81,11 @@ impl Provider {
     ///
     /// # Errors
     /// The request uses a setting that the provider does not have, or a number outside its range.
-    pub(super) fn decoding(self, asked: &Decoding) -> Result<Decoding, EvaluationError> {
-        let mut decoding = asked.clone();
-        check_ranges(asked).map_err(EvaluationError::Malformed)?;
+    pub(super) fn decoding(self, requested: &Decoding) -> Result<Decoding, EvaluationError> {
+        let mut decoding = requested.clone();
+        check_ranges(requested).map_err(EvaluationError::Malformed)?;
         if self == Provider::Anthropic {
-            if asked.seed.is_some() {
+            if requested.seed.is_some() {
                 let problem = "anthropic has no sampling seed; remove the option".to_owned();
                 return Err(EvaluationError::Malformed(problem));
             }

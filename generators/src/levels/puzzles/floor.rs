@@ -8,7 +8,7 @@ use crate::{Evaluation, Variation};
 use engine::{Sampler, Seed};
 
 /// The maximum number of positions to examine for the rating of a floor plan.
-const MOST_POSITIONS: usize = 100_000;
+const MAX_POSITIONS: usize = 100_000;
 /// The maximum distance of a target from the nearest other one, in cells.
 const GROUP: usize = 2;
 /// The number of pushes with a rating of 1.0.
@@ -148,14 +148,14 @@ impl FloorPlans<'_> {
     /// The number of pushes from its farthest position.
     pub(crate) fn depth(&self, floor_plan: &FloorPlan) -> usize {
         let pushing = Pushing { floor_plan, rules: self.rules };
-        let searched = pushing.by_pushes(MOST_POSITIONS);
+        let searched = pushing.by_pushes(MAX_POSITIONS);
         let starts = searched.iter().filter(|(position, _)| pushing.is_start(position));
         starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
     }
 
     /// The number of positions examined for its depth.
     pub(crate) fn positions(&self, floor_plan: &FloorPlan) -> usize {
-        Pushing { floor_plan, rules: self.rules }.by_pushes(MOST_POSITIONS).len()
+        Pushing { floor_plan, rules: self.rules }.by_pushes(MAX_POSITIONS).len()
     }
 
     /// Rates a yard by the pushes that it takes, with a penalty for halls and isolated wall blocks.

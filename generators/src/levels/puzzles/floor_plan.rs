@@ -4,7 +4,7 @@ use super::rules::{Destination, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
 
 /// The maximum number of cells of a board: they are bits of one number.
-pub(crate) const MOST_CELLS: usize = 128;
+pub(crate) const MAX_CELLS: usize = 128;
 
 /// A set of cells.
 pub(crate) type Cells = u128;
@@ -78,7 +78,7 @@ impl Pushing<'_> {
 
     fn inside(&self) -> Cells {
         let cells = self.floor_plan.grid.len();
-        if cells == MOST_CELLS { Cells::MAX } else { bit(cells) - 1 }
+        if cells == MAX_CELLS { Cells::MAX } else { bit(cells) - 1 }
     }
 
     /// The cells of `open` that are connected with `from`. Cost: a few operations for each step of the longest way.

@@ -1,7 +1,7 @@
 //! Levels that are puzzles of pushed things, as candidates of a search.
 
 use super::floor::FloorPlans;
-use super::floor_plan::{Cells, FloorPlan, MOST_CELLS, Position, Pushing, bit, each};
+use super::floor_plan::{Cells, FloorPlan, MAX_CELLS, Position, Pushing, bit, each};
 use super::rules::Rules;
 use crate::levels::board::Board;
 use crate::levels::builder::Builder;
@@ -13,10 +13,10 @@ use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
 use engine::{Game, Level, Sampler, Seed, SpriteType};
 
 /// The maximum number of positions to search for the level of a floor plan.
-const MOST_POSITIONS: usize = 400_000;
+const MAX_POSITIONS: usize = 400_000;
 /// The maximum number of positions, told apart by the avatar's cell, to search for the longest way; beyond it, any will
 /// do.
-const MOST_STEPS: usize = 250_000;
+const MAX_STEPS: usize = 250_000;
 /// The approximate limit of positions to search for a level in all: if floor plans have many, fewer of them are rated.
 const POSITIONS: usize = 1_200_000;
 /// The number of floor plans asked for at once; they are rated one after the other.
@@ -76,7 +76,7 @@ impl<'a> PuzzleVariation<'a> {
         let unsuitable = |why: &str| Err(GenerateError::Unsuitable(why.to_owned()));
         let rules = Rules::of(&levels.analysis, &levels.palette)?;
         let (columns, rows) = (config.columns.0, config.rows.0);
-        if columns * rows > MOST_CELLS || columns.max(rows) > config.columns.1.max(config.rows.1) {
+        if columns * rows > MAX_CELLS || columns.max(rows) > config.columns.1.max(config.rows.1) {
             return unsuitable("the board is too large for a backward search");
         }
         if config.columns.1.min(config.rows.1) < 6 {
@@ -114,7 +114,7 @@ impl<'a> PuzzleVariation<'a> {
             sampler.between(low, high.min(low.max(9)))
         };
         let grid = Grid { columns: side(self.config.columns), rows: side(self.config.rows) };
-        if grid.len() > MOST_CELLS {
+        if grid.len() > MAX_CELLS {
             return None;
         }
         let inner = (grid.columns - 2) * (grid.rows - 2);
@@ -132,7 +132,7 @@ impl<'a> PuzzleVariation<'a> {
     /// Makes the level at the farthest position of a floor plan.
     fn level_of(&self, floor_plan: &FloorPlan, seed: Seed) -> Option<Solved> {
         let pushing = Pushing { floor_plan, rules: &self.rules };
-        let searched = pushing.by_pushes(MOST_POSITIONS);
+        let searched = pushing.by_pushes(MAX_POSITIONS);
         let starts = || searched.iter().filter(|(position, _)| pushing.is_start(position));
         let most = starts().map(|(_, pushes)| pushes).max()?;
         // Easy levels start closer to the solution.
@@ -146,7 +146,7 @@ impl<'a> PuzzleVariation<'a> {
         let least = (most as f64 * share) as usize;
         let wanted = starts().map(|(_, pushes)| pushes).filter(|&pushes| pushes >= least).min()?;
         let far = starts().filter(|(_, pushes)| *pushes == wanted);
-        let steps = pushing.by_steps(MOST_STEPS);
+        let steps = pushing.by_steps(MAX_STEPS);
         let stands = far.flat_map(|(position, _)| {
             let region = pushing.flood(bit(position.avatar.into()), pushing.stands(position));
             let clear = region & !position.targets;
@@ -204,7 +204,7 @@ impl<'a> PuzzleVariation<'a> {
     /// Returns the floor plan of a level, if it is such a puzzle.
     fn floor_plan_of(&self, level: &Level) -> Option<FloorPlan> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
-        if grid.len() > MOST_CELLS {
+        if grid.len() > MAX_CELLS {
             return None;
         }
         let wall = self.levels.palette.wall?;
