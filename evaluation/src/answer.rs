@@ -400,7 +400,7 @@ mod tests {
         for text in
             ["action: ", "action ", "<think>", "</think>", "left ", "x", "\n", "\"action\": action: go ", "é"]
         {
-            let text = text.repeat(10_000_000 / text.len());
+            let text = text.repeat(1_000_000 / text.len());
             read(&text, Format::Word, &LISTED, &LISTED);
             read(&text, Format::Number, &LISTED, &LISTED);
         }

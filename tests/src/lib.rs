@@ -9,6 +9,7 @@ pub mod dress;
 pub mod hostile;
 pub mod mutation;
 pub mod robustness;
+pub mod sweep;
 pub mod vocabulary;
 
 use engine::{Game, Level};

@@ -13,6 +13,7 @@ mod side_by_side;
 mod solve;
 #[cfg(feature = "content")]
 mod survey;
+mod sweep;
 
 use clap::{Parser, Subcommand};
 
@@ -35,6 +36,7 @@ enum Chore {
     Solve(solve::Args),
     #[cfg(feature = "content")]
     Survey(survey::Args),
+    Sweep(sweep::Args),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -48,5 +50,6 @@ fn main() -> anyhow::Result<()> {
         Chore::Solve(args) => solve::run(&args),
         #[cfg(feature = "content")]
         Chore::Survey(args) => survey::run(&args),
+        Chore::Sweep(args) => sweep::run(&args),
     }
 }

@@ -71,8 +71,19 @@ fn levels_keep_what_was_asked() {
 #[test]
 fn what_does_not_fit_is_no_level_and_no_endless_work() {
     let home = tempfile::tempdir().unwrap();
-    let args =
-        ["--json", "generate", "levels", "--game", "hailglass", "--with", "orchid=100", "--out", "new"];
+    let args = [
+        "--json",
+        "generate",
+        "levels",
+        "--game",
+        "hailglass",
+        "--count",
+        "1",
+        "--with",
+        "orchid=100",
+        "--out",
+        "new",
+    ];
     let output = run(home.path(), &args, 1);
     let message = text(&output.stderr);
     assert!(message.contains("no board holds what is asked: requested 100 of orchid"), "{message}");

@@ -1,16 +1,16 @@
 //! Short runs of the checks that `fuzz/` runs for long: any text, any level, any actions. The same inputs in every run.
 
 use engine::syntax::Section;
-use engine::{EFFECTS, SPRITE_PARAMETERS, Sampler, Seed, SpriteClass, TERMINATIONS, effect_parameters};
+use engine::{EFFECTS, SPRITE_PARAMETERS, Sampler, SpriteClass, TERMINATIONS, effect_parameters};
 use proptest::prelude::*;
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
 use tests::mutation::mutated;
 use tests::robustness::{self, Seen};
-use tests::{read, workspace_files, workspace_root};
+use tests::{read, sweep, workspace_files, workspace_root};
 
 fn sampler(purpose: &str) -> Sampler {
-    Seed::from_text("robustness").child(purpose, 0).sampler()
+    sweep::seed("robustness").child(purpose, 0).sampler()
 }
 
 /// Returns the files below a folder of the repository, in order.

@@ -14,6 +14,11 @@ pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
+/// Returns whether the tests run at full size (`cargo xtask sweep`).
+pub(crate) fn sweeping() -> bool {
+    std::env::var_os("ARCADE_SWEEP").is_some()
+}
+
 /// Returns a command for the binary under test, in its own folder.
 pub(crate) fn arcade(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_arcade"));

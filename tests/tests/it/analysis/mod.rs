@@ -8,9 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
-use tests::workspace_root;
+use tests::{sweep, workspace_root};
 
-/// The number of generated games, and ticks of each.
+/// The number of generated games of a sweep, and ticks of each.
 const GAMES: usize = 4000;
 const TICKS: usize = 40;
 /// Generated games to be played; most of them compile.
@@ -137,9 +137,9 @@ fn goals_are_attained_as_proved() {
 /// stay within their reach.
 #[test]
 fn any_game_ends_as_proved() {
-    let mut sampler = Seed::from_text("ends").sampler();
-    let (mut proofs, mut ends) = (0, 0);
-    for _ in 0..GAMES {
+    let mut sampler = sweep::seed("ends").sampler();
+    let (mut proofs, mut ends, games) = (0, 0, sweep::cases(GAMES) as u32);
+    for _ in 0..games {
         let length = sampler.between(0, 500);
         let made = any_game(&mut Choices::new(&random_bytes(&mut sampler, length)));
         let Ok(game) = Game::from_source_as_reference(&made.source) else { continue };
@@ -170,7 +170,7 @@ fn any_game_ends_as_proved() {
             ends += 1;
         }
     }
-    assert!(proofs > 1000 && ends > 50, "{proofs} proofs, {ends} ends");
+    assert!(proofs > games / 4 && ends > games / 80, "{proofs} proofs, {ends} ends of {games}");
 }
 
 /// Every sprite is where its type can be, whatever is played, in written games.
@@ -204,7 +204,7 @@ fn the_goals_of_the_corpus_are_in_reach() {
 fn sprites_of_invented_games_are_where_they_can_be() {
     let (mut played, mut narrow) = (0, 0);
     for number in 0..INVENTED {
-        let seed = Seed::from_text("invented").child("game", number);
+        let seed = sweep::seed("invented").child("game", number);
         let (source, text) = invented::game(&mut seed.child("text", 0).sampler());
         let Ok(game) = Game::from_source(&source) else { continue };
         let Ok(level) = game.level(&text) else { continue };

@@ -14,6 +14,7 @@ const READERS: &[(&str, &str)] = &[
     ("xtask/src/bench.rs", "benchmarks"),
     ("xtask/src/course.rs", "benchmarks"),
     ("xtask/src/survey/mod.rs", "the time that a generator takes"),
+    ("xtask/src/sweep.rs", "fresh seeds of tests"),
 ];
 
 /// The calls that read a clock; in two halves, so that this file is not found to read one.

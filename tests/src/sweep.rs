@@ -1,0 +1,26 @@
+//! The size and the seeds of randomised tests.
+//!
+//! An ordinary run takes a tenth of the cases, from fixed seeds; `cargo xtask sweep` takes all of them, from a fresh seed, which it
+//! puts into [`VARIABLE`] and prints.
+
+use engine::Seed;
+
+/// The environment variable that asks for a sweep; its value is the seed.
+pub const VARIABLE: &str = "ARCADE_SWEEP";
+
+/// Returns the number of cases to run, of those in a full sweep.
+pub fn cases(full: usize) -> usize {
+    if fresh().is_some() { full } else { full.div_ceil(10) }
+}
+
+/// Returns the seed of a randomised test: the same in every ordinary run, another one in every sweep.
+pub fn seed(purpose: &str) -> Seed {
+    match fresh() {
+        Some(text) => Seed::from_text(&text).child(purpose, 0),
+        None => Seed::from_text(purpose),
+    }
+}
+
+fn fresh() -> Option<String> {
+    std::env::var(VARIABLE).ok()
+}
