@@ -2,12 +2,14 @@
 //!
 //! `generators` proposes, `validators` judges; here a search asks the one and is told by the other, until an order is filled:
 //! [`levels::make_levels`] for one game, [`games::make_games`] for whole games. A release is minted of the same parts. The
-//! reports say what a set of either is like, and [`games::survey`] compares groups of games from anywhere.
+//! reports say what a set of either is like, and a [`survey`] judges levels and games from anywhere.
 
 pub mod card;
 pub mod games;
 pub mod levels;
+mod reported;
 mod striving;
+pub mod survey;
 mod tally;
 
 pub use tally::{Tally, reasons};

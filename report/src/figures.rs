@@ -1,28 +1,29 @@
 //! Figures with confidence intervals.
 
+use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, quantile, wilson};
 
-/// A share: a count out of a total.
+/// A part of a number of things.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Share {
-    /// The count.
+    /// The part.
     pub count: u64,
-    /// The total.
+    /// The number of things.
     pub of: u64,
     /// The 95 % Wilson interval of the share.
     pub interval: [f64; 2],
 }
 
 impl Share {
-    /// The share of `count` out of `of`.
+    /// `count` things of `of`.
     pub fn new(count: u64, of: u64) -> Share {
         let interval = wilson(count, of, Z95);
         Share { count, of, interval: [interval.low, interval.high] }
     }
 
-    /// The share of answers that are `true`.
+    /// The share of some answers that are yes.
     pub fn yes(answers: impl IntoIterator<Item = bool>) -> Share {
         let (mut count, mut of) = (0, 0);
         for answer in answers {
@@ -38,28 +39,39 @@ impl Share {
     }
 }
 
-/// A mean over levels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Estimate {
+/// A mean over items of a set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mean {
     /// The mean.
     pub mean: f64,
-    /// The 95 % bootstrap interval of the mean, with levels resampled.
+    /// Its bootstrap interval, 95 %, with the items drawn anew.
     pub interval: [f64; 2],
-    /// The number of levels.
-    pub levels: u64,
+    /// The number of items.
+    pub count: u64,
+    /// An item in the singular: `level`. In JSON the count is under its plural.
+    pub item: &'static str,
 }
 
 /// The number of resamples for an interval.
 const RESAMPLES: usize = 2000;
 
-impl Estimate {
-    /// The mean of some values; `None` if there are none.
-    pub fn of(values: &[f64]) -> Option<Estimate> {
+impl Mean {
+    /// The mean of some values, one for each item; `None` of no values.
+    pub fn over(item: &'static str, values: &[f64]) -> Option<Mean> {
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         let interval = bootstrap(values, mean, RESAMPLES, 0.95, [0; 32])?;
         let [low, high] = [interval.low, interval.high];
-        Some(Estimate { mean: mean(values), interval: [low, high], levels: values.len() as u64 })
+        Some(Mean { mean: mean(values), interval: [low, high], count: values.len() as u64, item })
+    }
+}
+
+impl Serialize for Mean {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(3))?;
+        map.serialize_entry("mean", &self.mean)?;
+        map.serialize_entry("interval", &self.interval)?;
+        map.serialize_entry(&format!("{}s", self.item), &self.count)?;
+        map.end()
     }
 }
 

@@ -5,7 +5,9 @@
 
 pub mod canonical;
 mod figures;
+mod set;
 mod table;
 
-pub use figures::{Estimate, Quantiles, Share};
+pub use figures::{Mean, Quantiles, Share};
+pub use set::{Figure, Section, SetReport, Value};
 pub use table::{Table, TableCell, in_markdown};

@@ -26,7 +26,9 @@ pub enum TableCell {
     Missing,
     /// A text.
     Text(String),
-    /// A count.
+    /// Figures in words, set as figures are.
+    Figure(String),
+    /// A number of things.
     Count(u64),
     /// A number and the decimals to print.
     Number {
@@ -61,7 +63,23 @@ impl TableCell {
         value.into().map_or(TableCell::Missing, |value| TableCell::Number { value, digits })
     }
 
-    /// Creates a count cell, or a missing one.
+    /// Figures in words, if they are known.
+    pub fn figure(words: impl Into<Option<String>>) -> TableCell {
+        words.into().map_or(TableCell::Missing, TableCell::Figure)
+    }
+
+    /// A number, if it is known: a whole one without decimals, any other with as many as tell it from its neighbours.
+    pub fn short(value: impl Into<Option<f64>>) -> TableCell {
+        let digits = |value: f64| match value.abs() {
+            size if value.fract() == 0.0 || size >= 100.0 => 0,
+            size if size >= 1.0 => 1,
+            _ => 2,
+        };
+        let value = value.into();
+        TableCell::number(value, value.map_or(0, digits))
+    }
+
+    /// A count, if it is known.
     pub fn count(count: impl Into<Option<u64>>) -> TableCell {
         count.into().map_or(TableCell::Missing, TableCell::Count)
     }
@@ -75,7 +93,7 @@ impl TableCell {
     pub fn plain(&self) -> String {
         match self {
             TableCell::Missing => "–".to_owned(),
-            TableCell::Text(text) => text.clone(),
+            TableCell::Text(text) | TableCell::Figure(text) => text.clone(),
             TableCell::Count(count) => count.to_string(),
             TableCell::Number { value, digits } => rounded(*value, *digits),
             TableCell::Interval { value, low, high, digits } => {
@@ -139,7 +157,7 @@ impl Table {
         text += &format!("|{}\n", rule.collect::<String>());
         for row in &self.rows {
             let cell = |cell: &TableCell| match cell {
-                TableCell::Text(words) => in_markdown(words),
+                TableCell::Text(words) | TableCell::Figure(words) => in_markdown(words),
                 figures => figures.plain(),
             };
             text += &line(row.iter().map(cell).collect());
@@ -178,7 +196,9 @@ impl Table {
             let fields = row.iter().zip(&wide).flat_map(|(cell, wide)| {
                 let fields = match cell {
                     TableCell::Missing => [String::new(), String::new(), String::new()],
-                    TableCell::Text(text) => [in_csv(text), String::new(), String::new()],
+                    TableCell::Text(text) | TableCell::Figure(text) => {
+                        [in_csv(text), String::new(), String::new()]
+                    }
                     TableCell::Count(count) => [count.to_string(), String::new(), String::new()],
                     TableCell::Number { value, .. } | TableCell::Probability(value) => {
                         [value.to_string(), String::new(), String::new()]
@@ -335,6 +355,8 @@ mod tests {
         let plain = |cell: TableCell| cell.plain();
         assert_eq!(plain(TableCell::number(-0.0004, 2)), "0.00");
         assert_eq!(plain(TableCell::number(-0.4, 1)), "-0.4");
+        let short = [3.0, 0.3333, 9.5, 12.25, 123.4].map(|value| plain(TableCell::short(value)));
+        assert_eq!(short, ["3", "0.33", "9.5", "12.2", "123"]);
         assert_eq!(plain(TableCell::number(None, 1)), "–");
         assert_eq!(plain(TableCell::Probability(1.0)), "1.000");
         assert_eq!(plain(TableCell::Probability(0.0)), "0.0000");

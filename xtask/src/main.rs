@@ -8,8 +8,6 @@ mod course;
 mod fidelity;
 mod instructions;
 mod levels;
-#[cfg(feature = "content")]
-mod side_by_side;
 mod solve;
 #[cfg(feature = "content")]
 mod survey;
@@ -32,10 +30,10 @@ enum Chore {
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
     #[cfg(feature = "content")]
-    SideBySide(side_by_side::Args),
+    SideBySide(survey::side_by_side::Args),
     Solve(solve::Args),
     #[cfg(feature = "content")]
-    Survey(survey::Args),
+    Survey(survey::levels::Args),
     Sweep(sweep::Args),
 }
 
@@ -46,10 +44,10 @@ fn main() -> anyhow::Result<()> {
         Chore::Fidelity(args) => fidelity::run(&args),
         Chore::Instructions(args) => instructions::run(&args),
         #[cfg(feature = "content")]
-        Chore::SideBySide(args) => side_by_side::run(&args),
+        Chore::SideBySide(args) => survey::side_by_side::run(&args),
         Chore::Solve(args) => solve::run(&args),
         #[cfg(feature = "content")]
-        Chore::Survey(args) => survey::run(&args),
+        Chore::Survey(args) => survey::levels::run(&args),
         Chore::Sweep(args) => sweep::run(&args),
     }
 }

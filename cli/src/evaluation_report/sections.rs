@@ -1,13 +1,11 @@
 //! The questions of the page, each with its plots and tables.
 
 use super::plots::{self, Group, Heats, Plot};
+use crate::page::tables::{Column, Row, Shown};
 use crate::page::words;
 use evaluation::study::Study;
-use report::{Table, TableCell};
+use report::Table;
 use serde::Serialize;
-
-/// The most rows of a table in the page; its file has all.
-const MOST: usize = 150;
 
 /// A question.
 #[derive(Serialize)]
@@ -19,31 +17,6 @@ pub(super) struct Section {
     plots: Vec<Plot>,
     groups: Vec<Group>,
     tables: Vec<Shown>,
-}
-
-/// A table in the page.
-#[derive(Serialize)]
-struct Shown {
-    id: String,
-    title: String,
-    note: String,
-    columns: Vec<Column>,
-    rows: Vec<Row>,
-    /// The number of omitted rows, in words; empty if there are none.
-    more: String,
-}
-
-#[derive(Serialize)]
-struct Column {
-    name: String,
-    figures: bool,
-}
-
-#[derive(Serialize)]
-struct Row {
-    cells: Vec<String>,
-    /// `true` if it is about a player that is not a model.
-    mark: bool,
 }
 
 impl Section {
@@ -69,7 +42,7 @@ impl Section {
 pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let of = |ids: &[&str]| -> Vec<Shown> {
         let found = ids.iter().flat_map(|id| tables.iter().filter(move |table| table.id == *id));
-        found.map(|table| Shown::of(study, table)).collect()
+        found.map(|table| shown(study, table)).collect()
     };
     let mut leaders = Section::new("leaderboard", "Leaderboard", "");
     leaders.plots.push(plots::win_rates(study));
@@ -149,30 +122,13 @@ fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     (!known.is_empty()).then(|| Row { cells: columns.iter().map(cell).collect(), mark: true })
 }
 
-impl Shown {
-    fn of(study: &Study, table: &Table) -> Shown {
-        let labels = |marks: bool| -> Vec<String> {
-            let players = study.players.iter().filter(|player| player.is_reference() == marks);
-            players.map(|player| player.label()).collect()
-        };
-        let (models, marks) = (labels(false), labels(true));
-        let column = |(at, name): (usize, &String)| {
-            let figures = !table.rows.iter().any(|row| matches!(row[at], TableCell::Text(_)));
-            Column { name: name.clone(), figures }
-        };
-        let row = |row: &Vec<TableCell>| {
-            let cells: Vec<String> = row.iter().map(TableCell::plain).collect();
-            let about = |players: &[String]| cells.iter().any(|cell| players.contains(cell));
-            Row { mark: about(&marks) && !about(&models), cells }
-        };
-        let more = table.rows.len().saturating_sub(MOST) as u64;
-        Shown {
-            id: table.id.clone(),
-            title: table.title.clone(),
-            note: table.note.clone(),
-            columns: table.columns.iter().enumerate().map(column).collect(),
-            rows: table.rows.iter().take(MOST).map(row).collect(),
-            more: if more == 0 { String::new() } else { words::many(more, "row") },
-        }
-    }
+/// A table of the study, in which rows about players that are no models are marked.
+fn shown(study: &Study, table: &Table) -> Shown {
+    let labels = |marks: bool| -> Vec<String> {
+        let players = study.players.iter().filter(|player| player.is_reference() == marks);
+        players.map(|player| player.label()).collect()
+    };
+    let (models, marks) = (labels(false), labels(true));
+    let about = |cells: &[String], players: &[String]| cells.iter().any(|cell| players.contains(cell));
+    Shown::of(table).cut(|cells| about(cells, &marks) && !about(cells, &models))
 }

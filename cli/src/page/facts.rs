@@ -1,17 +1,17 @@
 //! Figures on a page: the answers to a question, each with its interval.
 
+use super::tables::Shown;
 use super::words;
-use report::{Quantiles, Share};
+use report::{Figure, Mean, Quantiles, Share, Table, TableCell, Value};
 use serde::Serialize;
 
 /// A question with its answers.
 #[derive(Serialize)]
 pub(crate) struct Section {
-    pub(crate) title: &'static str,
-    pub(crate) note: String,
-    pub(crate) facts: Vec<Fact>,
-    pub(crate) quantiles: Vec<Five>,
-    pub(crate) fits: Vec<Beside>,
+    title: &'static str,
+    note: String,
+    facts: Vec<Fact>,
+    tables: Vec<Shown>,
 }
 
 /// A figure.
@@ -23,34 +23,71 @@ pub(crate) struct Fact {
     bar: String,
     /// Its interval.
     band: String,
-    /// The number of cases.
+    /// The size of its sample.
     of: String,
 }
 
-/// The quantiles of a measure.
-#[derive(Serialize)]
-pub(crate) struct Five {
-    name: String,
-    five: [String; 5],
-    count: u64,
-}
-
-/// The range of a measure, here and in the game's own levels.
-#[derive(Serialize)]
-pub(crate) struct Beside {
-    pub(crate) measure: String,
-    pub(crate) levels: String,
-    pub(crate) examples: String,
-    pub(crate) within: String,
-    pub(crate) of: String,
+impl Section {
+    /// A section of a report. Quantiles of several samples make a table of their own.
+    pub(crate) fn of(section: &report::Section) -> Section {
+        let columns = ["", "least", "¼", "median", "¾", "most", "of"];
+        let mut quantiles = Table::new("quantiles", "", "", &columns);
+        for figure in &section.figures {
+            let Value::Quantiles(Quantiles { count, min, lower, median, upper, max }) = figure.value else {
+                continue;
+            };
+            let five = [min, lower, median, upper, max].map(TableCell::short);
+            let cells = [TableCell::text(&*figure.name)].into_iter().chain(five);
+            quantiles.push(cells.chain([TableCell::Count(count)]).collect());
+        }
+        let facts = section.figures.iter().filter(|figure| !matches!(figure.value, Value::Quantiles(_)));
+        let tables = section.tables.iter().chain([&quantiles]).filter(|table| !table.rows.is_empty());
+        Section {
+            title: section.title,
+            note: section.note.clone(),
+            facts: facts.map(Fact::headline).collect(),
+            tables: tables.map(Shown::of).collect(),
+        }
+    }
 }
 
 impl Fact {
-    /// A share, such as the share of levels won.
-    pub(crate) fn share(name: impl Into<String>, share: &Share) -> Fact {
-        let bar = if share.of == 0 { String::new() } else { bar(share.share(), share.interval) };
-        let (value, band, of) = (words::percent(share), words::band(share), words::counted(share));
-        Fact { name: name.into(), value, bar, band, of }
+    /// A figure of a report; of quantiles, the median.
+    pub(crate) fn headline(figure: &Figure) -> Fact {
+        let name = &*figure.name;
+        match &figure.value {
+            Value::Share(share) => Fact::share(name, share),
+            Value::Mean(Mean { mean, interval, count, item }) => {
+                let [low, high] = *interval;
+                let band = format!("{low:.2} to {high:.2}");
+                Fact { bar: bar(*mean, *interval), ..Fact::plain(name, format!("{mean:.2}")) }
+                    .within(band)
+                    .of(words::many(*count, item))
+            }
+            Value::Gain(Mean { mean, interval: [low, high], count, item }) => {
+                let band = format!("{low:+.2} to {high:+.2}");
+                Fact::plain(name, format!("{mean:+.2}")).within(band).of(words::many(*count, item))
+            }
+            Value::Quantiles(found) => Fact::plain(name, words::short(found.median)),
+            Value::Count(count) => Fact::plain(name, words::grouped(*count)),
+            Value::CountOf(count, of, item) => {
+                Fact::plain(name, words::grouped(*count)).of(words::many(*of, item))
+            }
+            Value::Expected(share) => Fact::plain(name, words::whole_percent(*share)),
+            Value::Missing => Fact::plain(name, words::NONE.to_owned()),
+        }
+    }
+
+    /// `95 %`, its interval `76 to 99 %` and its sample `19 of 20`; of nothing, a dash.
+    fn share(name: &str, share: &Share) -> Fact {
+        let of = format!("{} of {}", share.count, share.of);
+        if share.of == 0 {
+            return Fact::plain(name, words::NONE.to_owned()).of(of);
+        }
+        let [low, high] = share.interval.map(|end| 100.0 * end);
+        let band = format!("{low:.0} to {high:.0}\u{a0}%");
+        let fact = Fact::plain(name, words::whole_percent(share.share())).within(band).of(of);
+        Fact { bar: bar(share.share(), share.interval), ..fact }
     }
 
     /// A value without an interval.
@@ -58,39 +95,17 @@ impl Fact {
         Fact { name: name.into(), value, bar: String::new(), band: String::new(), of: String::new() }
     }
 
-    /// A mean that may be negative.
-    pub(crate) fn signed(name: impl Into<String>, mean: f64, interval: [f64; 2]) -> Fact {
-        Fact { band: words::signed_band(interval), ..Fact::plain(name, words::signed(mean)) }
-    }
-
-    /// A mean from 0 to 1.
-    pub(crate) fn mean(name: impl Into<String>, mean: f64, interval: [f64; 2]) -> Fact {
-        let bar = bar(mean, interval);
-        Fact { bar, band: words::mean_band(interval), ..Fact::plain(name, words::mean(mean)) }
-    }
-
-    /// Sets the number of cases.
+    /// The figure with the size of its sample.
     #[must_use]
     pub(crate) fn of(self, of: String) -> Fact {
         Fact { of, ..self }
     }
 
-    /// Sets its interval.
+    /// The figure with its interval.
     #[must_use]
     pub(crate) fn within(self, band: String) -> Fact {
         Fact { band, ..self }
     }
-}
-
-/// Quantiles in a line; none if there are no values.
-pub(crate) fn five(name: impl Into<String>, quantiles: Option<&Quantiles>) -> Option<Five> {
-    let found = quantiles?;
-    Some(Five { name: name.into(), five: words::five(found), count: found.count })
-}
-
-/// A question whose answers are only figures.
-pub(crate) fn section(title: &'static str, note: impl Into<String>, facts: Vec<Fact>) -> Section {
-    Section { title, note: note.into(), facts, quantiles: Vec::new(), fits: Vec::new() }
 }
 
 /// A share from 0 to 1 as a bar, with its interval as a line.
@@ -105,7 +120,7 @@ fn bar(share: f64, [low, high]: [f64; 2]) -> String {
     )
 }
 
-/// Formats a number with one decimal, in pixels.
+/// A length in tenths of a pixel.
 pub(crate) fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     if tenths % 10 == 0 { format!("{}", tenths / 10) } else { format!("{:.1}", tenths as f64 / 10.0) }
@@ -119,5 +134,16 @@ mod tests {
     fn bars_stay_within_their_track() {
         let text = bar(0.5, [-0.1, 1.2]);
         assert!(text.contains("<rect width=\"45\"") && text.contains("M0 6H90"), "{text}");
+    }
+
+    #[test]
+    fn shares_are_told_in_words() {
+        let told = |count, of| {
+            let Fact { value, band, of, .. } =
+                Fact::share("", &Share { count, of, interval: [0.764, 0.991] });
+            [value, band, of]
+        };
+        assert_eq!(told(19, 20), ["95\u{a0}%", "76 to 99\u{a0}%", "19 of 20"]);
+        assert_eq!(told(0, 0), [words::NONE, "", "0 of 0"]);
     }
 }

@@ -1,8 +1,8 @@
-//! Shared parts of the pages of all reports: the wording and layout of figures, and the template parts that show
-//! them.
+//! The shared parts of the pages of all reports: the wording and layout of figures and tables, and the templates that show them.
 
 pub(crate) mod facts;
 pub(crate) mod plots;
+pub(crate) mod tables;
 pub(crate) mod words;
 
 use crate::failure::Failure;

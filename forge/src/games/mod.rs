@@ -3,8 +3,6 @@
 //! Rules come from a generator, or from a search that is told how weak players fare on a few quick levels. Then levels are
 //! found, what nobody would miss is taken away, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
-//!
-//! Also what games are like, whoever made them: the report on a set of them, and surveys of games side by side.
 
 mod candidate;
 mod gate;
@@ -15,7 +13,6 @@ mod order;
 mod shrink;
 
 pub mod report;
-pub mod survey;
 
 pub use candidate::{Candidate, MadeGame, Step, marked};
 pub use levels::{FoundLevel, FoundLevels, Levels};

@@ -19,7 +19,7 @@ use std::fmt::{self, Write};
 use engine::Digest;
 use serde::Serialize;
 
-use node::{Node, ToNode};
+pub use node::Node;
 
 /// The maximum nesting depth of arrays and objects, which is the one that `serde_json` reads.
 pub const MAX_DEPTH: usize = 127;
@@ -120,8 +120,17 @@ impl Write for Hashed {
 
 /// Writes the canonical JSON to `out`, and returns the result of `out`.
 fn write_all<T: Serialize + ?Sized>(value: &T, out: &mut impl Write) -> Result<fmt::Result, CanonicalError> {
-    let node = value.serialize(ToNode::top())?;
+    let node = Node::of(value)?;
     Ok(write_node(&node, 0, out).and_then(|()| out.write_str("\n")))
+}
+
+impl Node {
+    /// The canonical JSON, with a line feed at the end.
+    pub fn to_text(&self) -> String {
+        let mut text = String::new();
+        write_node(self, 0, &mut text).and_then(|()| text.write_str("\n")).expect("a string takes all");
+        text
+    }
 }
 
 fn write_node(node: &Node, indent: usize, out: &mut impl Write) -> fmt::Result {

@@ -11,19 +11,33 @@ use serde::ser::{self, Serialize, Serializer};
 use super::{CanonicalError, Fault, MAX_DEPTH};
 
 /// A JSON value; `String` orders by bytes, so the map does too.
-pub(super) enum Node {
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// `null`.
     Null,
+    /// `true` or `false`.
     Bool(bool),
     /// An integer in the range of `i64` or `u64`.
     Integer(i128),
     /// A finite float.
     Float(f64),
+    /// A string.
     Text(String),
+    /// An array.
     Array(Vec<Node>),
+    /// An object.
     Object(BTreeMap<String, Node>),
 }
 
 impl Node {
+    /// The tree of a value.
+    ///
+    /// # Errors
+    /// As for [`to_canonical_json`](super::to_canonical_json).
+    pub fn of<T: Serialize + ?Sized>(value: &T) -> Result<Node, CanonicalError> {
+        value.serialize(ToNode::top())
+    }
+
     pub(super) fn is_scalar(&self) -> bool {
         !matches!(self, Node::Array(_) | Node::Object(_))
     }
@@ -63,7 +77,8 @@ impl From<Fault> for CanonicalError {
 }
 
 impl CanonicalError {
-    fn inside(mut self, outer: &str) -> CanonicalError {
+    /// The same fault, seen from the object or array that holds the value under this key.
+    pub(crate) fn inside(mut self, outer: &str) -> CanonicalError {
         let separator = if self.at.is_empty() { "" } else { "." };
         self.at = format!("{outer}{separator}{}", self.at);
         self

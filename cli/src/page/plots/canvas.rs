@@ -75,7 +75,16 @@ impl Canvas {
         let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\"{anchor}{class}>{words}</text>");
     }
 
-    /// A position where a value is missing: grey, hatched, with a dash.
+    /// Words that run upwards, with their middle at this place.
+    pub(super) fn upright(&mut self, x: f64, y: f64, class: &str, words: &str) {
+        let (x, y, words) = (number(x), number(y), escaped(words));
+        let _ = write!(
+            self.text,
+            "<text transform=\"translate({x} {y}) rotate(-90)\" text-anchor=\"middle\" class=\"{class}\">{words}</text>"
+        );
+    }
+
+    /// A place where a value is missing: grey, hatched, with a dash.
     pub(super) fn missing(&mut self, [x, y, w, h]: [f64; 4], title: &str) {
         self.open("none", title);
         self.rect([x, y, w, h]);

@@ -9,11 +9,13 @@ mod canvas;
 mod forest;
 mod heat_map;
 mod matrix;
+mod range;
 mod violin;
 
 pub(crate) use forest::{Forest, ForestRow, forest};
 pub(crate) use heat_map::{HeatMap, heat_map};
 pub(crate) use matrix::{Matrix, matrix};
+pub(crate) use range::range;
 pub(crate) use violin::{Violin, Violins, violins};
 
 /// The label of a row of a plot: two lines, the second perhaps empty.

@@ -4,15 +4,16 @@ use super::pretty;
 use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
-use crate::game_report::{Showcase, write_game_report};
 use crate::protected;
+use crate::set_report::game_report;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
 use engine::{Digest, Game, Level, Seed};
 use forge::card::Card;
-use forge::games::report::{GameSetReport, GamesCost, GamesSample, ReportedGame};
+use forge::games::report::{GameSetReport, GamesCost, GamesSample};
 use forge::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, make_games};
 use forge::levels::Method;
+use forge::survey::SurveyedGame;
 use generators::games::Kind;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -154,10 +155,10 @@ fn report(
         let seed = seed.child(&made.card.digest.to_string(), 0);
         let report = panel.judge_game(&made.game, &levels, seed);
         bar.inc(1);
-        let Card { title, goal, .. } = made.card.clone();
-        ReportedGame { title, goal, game: made.game.clone(), levels, report }
+        let Card { title: name, goal, .. } = made.card.clone();
+        SurveyedGame { name, goal, game: made.game.clone(), levels, report }
     };
-    let games: Vec<ReportedGame> = set.games.par_iter().map(judge).collect();
+    let games: Vec<SurveyedGame> = set.games.par_iter().map(judge).collect();
     let cost = GamesCost {
         calls: set.tally.calls,
         tried: set.tally.games_tried,
@@ -173,7 +174,7 @@ fn report(
         seed: seed.child("measures", 0),
     });
     let title = format!("{} games, seed {}", args.method, args.seed);
-    write_game_report(draft, &report, &Showcase { title: &title, games: &games, seconds: Some(seconds) })
+    game_report(draft, &report, &games, (&title, args.method.name(), Some(seconds)))
 }
 
 struct Bar(ProgressBar);

@@ -5,15 +5,16 @@ use crate::console::{Console, Stopwatch};
 use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named};
-use crate::level_report::{Pictures, write_level_report};
 use crate::protected;
+use crate::set_report::{Pictures, level_report};
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
 use engine::{Analysis, Game, Level, Seed, SpriteType};
-use forge::levels::report::{Expense, LevelSetReport, Sample, Survey};
+use forge::levels::report::{LevelSetReport, Sample};
 use forge::levels::{
     LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels, unconstrained_pool,
 };
+use forge::survey::LevelSurvey;
 use generators::levels::{Examples, LevelConfig};
 use indicatif::ProgressBar;
 use serde_json::json;
@@ -194,7 +195,7 @@ fn report(
     let analysis = Analysis::of(game);
     let seed = Seed::from_text(&args.seed).child("report", 0);
     let survey =
-        Survey::new(&analysis, &order.criteria, seed.child("survey", 0)).map_err(Failure::malformed)?;
+        LevelSurvey::new(&analysis, &order.criteria, seed.child("survey", 0)).map_err(Failure::malformed)?;
     let plain = |levels: &[Level]| levels.iter().map(|level| (level.clone(), None)).collect::<Vec<_>>();
     let levels: Vec<Level> = set.levels.iter().map(|made| made.level.clone()).collect();
     let asked: Vec<_> = levels.iter().map(|level| (level.clone(), args.difficulty)).collect();
@@ -213,16 +214,17 @@ fn report(
         levels: &survey.judge(&asked),
         examples: &survey.judge(&plain(examples)),
         pool: &pool,
-        cost: &Expense::of(&set.cost, levels.len()),
+        cost: &set.cost,
     });
     let pictures = Pictures {
         title: &args.game,
+        method: args.method.name(),
         analysis: &analysis,
         levels: &levels,
         examples,
         seconds: Some(seconds),
     };
-    write_level_report(draft, &report, &pictures)
+    level_report(draft, &report, &pictures)
 }
 
 struct Bar(ProgressBar);

@@ -1,39 +1,54 @@
 //! A game in a row.
 
-use super::ReportedGame;
-use crate::games::survey::{Edge, GameRow};
-use engine::Digest;
-use serde::{Deserialize, Serialize};
-use validators::{Difficulty, GameForm, GameKind};
+use crate::survey::{Edge, GameRow, SurveyedGame};
+use engine::{Analysis, Digest, Seed};
+use report::{Table, TableCell};
+use serde::Serialize;
+use validators::{Criteria, Difficulty, GameForm, GameKind};
 
-/// A game with what was measured.
-pub(super) struct Judged<'a> {
-    pub(super) reported: &'a ReportedGame,
+/// A game with its measures.
+pub(super) struct Measured<'a> {
+    pub(super) surveyed: &'a SurveyedGame,
     pub(super) row: GameRow,
     pub(super) form: GameForm,
     pub(super) kind: GameKind,
     pub(super) held_out: Option<Edge>,
 }
 
-/// What is told of a game.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+impl<'a> Measured<'a> {
+    pub(super) fn of(surveyed: &'a SurveyedGame, criteria: &Criteria, seed: Seed) -> Measured<'a> {
+        let SurveyedGame { game, levels, report, .. } = surveyed;
+        let levels = levels.iter().flat_map(|level| *level.digest().as_bytes());
+        let bytes: Vec<u8> = game.digest().as_bytes().iter().copied().chain(levels).collect();
+        let seed = seed.child(&game.digest().to_string(), 0);
+        Measured {
+            surveyed,
+            row: GameRow::of(surveyed, criteria, Digest::of(&bytes), seed),
+            form: GameForm::of(game),
+            kind: GameKind::of(&Analysis::of(game)),
+            held_out: Edge::held_out(game, &report.levels, criteria),
+        }
+    }
+}
+
+/// One game in the report.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GameEntry {
     /// Title in the game's own fiction.
     pub title: String,
-    /// How to win.
+    /// The way to win, for people.
     pub goal: String,
     /// The digest of its rules.
     pub rules: Digest,
-    /// Whether every level and the game meet every criterion.
+    /// `true` if every level and the game meet every criterion.
     pub passes: bool,
     /// The first criterion that is not met.
     pub obstacle: Option<String>,
-    /// What kind of game it is.
+    /// The kind of game.
     pub kind: GameKind,
-    /// What was found of its play, as in the comparison with other games.
+    /// The findings about its play, as in the comparison with other games.
     pub found: GameRow,
-    /// How much better the strongest of the players held out does than those who do not look ahead.
+    /// The edge of the strongest player held out over those who do not look ahead.
     pub held_out: Option<Edge>,
     /// Each of its levels.
     pub levels: Vec<LevelEntry>,
@@ -43,9 +58,8 @@ pub struct GameEntry {
     pub nearest_corpus: Option<Nearest>,
 }
 
-/// What is told of a level.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// One level of a game in the report.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelEntry {
     /// Columns of the board.
     pub columns: u64,
@@ -53,25 +67,24 @@ pub struct LevelEntry {
     pub rows: u64,
     /// Ticks of the shortest win that was found.
     pub ticks: Option<u64>,
-    /// How easy, from 0 to 1.
+    /// The ease that the ladder found, from 0 to 1.
     pub ease: Option<f64>,
-    /// The label of that.
+    /// The label of that ease.
     pub label: Option<Difficulty>,
 }
 
 /// A game that is near.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nearest {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// From 0, the same, to 1.
+    /// Its distance, from 0, the same, to 1.
     pub distance: f64,
 }
 
 impl GameEntry {
-    pub(super) fn of(judged: &Judged<'_>, [nearest, nearest_corpus]: [Option<Nearest>; 2]) -> GameEntry {
-        let ReportedGame { title, goal, game, levels, report } = judged.reported;
+    pub(super) fn of(measured: &Measured<'_>, [nearest, nearest_corpus]: [Option<Nearest>; 2]) -> GameEntry {
+        let SurveyedGame { name, goal, game, levels, report } = measured.surveyed;
         let level = |(level, report): (&engine::Level, &validators::Report)| LevelEntry {
             columns: level.columns() as u64,
             rows: level.rows() as u64,
@@ -80,24 +93,54 @@ impl GameEntry {
             label: report.ladder().map(|ladder| ladder.difficulty),
         };
         GameEntry {
-            title: title.clone(),
+            title: name.clone(),
             goal: goal.clone(),
             rules: game.digest(),
             passes: report.passes(),
-            obstacle: obstacle(judged.reported).map(str::to_owned),
-            kind: judged.kind.clone(),
-            found: judged.row.clone(),
-            held_out: judged.held_out.clone(),
+            obstacle: measured.surveyed.obstacle().map(|judged| judged.criterion.to_owned()),
+            kind: measured.kind.clone(),
+            found: measured.row.clone(),
+            held_out: measured.held_out.clone(),
             levels: levels.iter().zip(&report.levels).map(level).collect(),
             nearest,
             nearest_corpus,
         }
     }
+
+    /// The game in a line: its kind, its rules, and why it fails, if it does.
+    pub fn remark(&self) -> String {
+        let rules =
+            if self.found.rules == 1 { "1 rule".to_owned() } else { format!("{} rules", self.found.rules) };
+        let kind = format!("{} × {}", self.kind.avatar.name(), self.kind.goal.name());
+        let obstacle = self.obstacle.as_ref().map(|criterion| format!("{criterion} not passed"));
+        [kind, rules].into_iter().chain(obstacle).collect::<Vec<_>>().join(" · ")
+    }
 }
 
-/// The first criterion that a game does not meet: on its levels in their order, then on all together.
-pub(super) fn obstacle(reported: &ReportedGame) -> Option<&'static str> {
-    let of_levels = reported.report.levels.iter().find_map(|report| report.first_obstacle());
-    let of_game = reported.report.judgements.iter().find(|judged| !judged.finding.verdict.is_pass());
-    of_levels.or(of_game).map(|judged| judged.criterion)
+/// The table of all games.
+pub(super) fn table(entries: &[GameEntry]) -> Table {
+    let columns = [
+        &["game", "verdict"][..],
+        &GameRow::COLUMNS[..],
+        &["held out", "nearest", "in the corpus", "digest"],
+    ];
+    let mut table = Table::new("games", "Every game", "", &columns.concat());
+    for entry in entries {
+        let verdict = entry.obstacle.as_ref().map(|criterion| format!("{criterion} not passed"));
+        let mut cells = vec![
+            TableCell::text(&*entry.title),
+            TableCell::text(verdict.unwrap_or_else(|| "passes".to_owned())),
+        ];
+        cells.extend(entry.found.cells());
+        let points = |edge: &Edge| format!("{} {:+.0}", edge.strongest, 100.0 * edge.points);
+        cells.push(TableCell::figure(entry.held_out.as_ref().map(points)));
+        for near in [&entry.nearest, &entry.nearest_corpus] {
+            cells.push(TableCell::figure(
+                near.as_ref().map(|near| format!("{:.2} {}", near.distance, near.name)),
+            ));
+        }
+        cells.push(TableCell::Figure(entry.rules.short()));
+        table.push(cells);
+    }
+    table
 }

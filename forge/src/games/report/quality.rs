@@ -1,160 +1,122 @@
-//! What the judges' verdicts and plays say of a set of games.
+//! The judges' verdicts and plays of a set of games.
 
-use super::ReportedGame;
-use super::entry::{Judged, obstacle};
-use super::figures::Mean;
-use crate::games::survey::Edge;
-use crate::levels::report::PlayerRate;
-use report::{Quantiles, Share};
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use super::entry::Measured;
+use crate::reported::{LABELS, PlayerRate, obstacles, rank};
+use crate::survey::{Edge, SurveyedGame};
+use report::{Mean, Quantiles, Section, Share, Table, TableCell};
+use validators::Report;
 
-/// Do they meet the criteria?
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Validity {
-    /// Games whose levels meet every criterion, each and together.
-    pub games: Share,
-    /// Levels that meet every criterion of a level.
-    pub levels: Share,
-    /// What the other games fail first: how many, by criterion.
-    pub obstacles: BTreeMap<String, u64>,
-}
+/// The unit of means over games.
+const GAME: &str = "game";
 
-impl Validity {
-    pub(super) fn of(games: &[ReportedGame]) -> Validity {
-        let mut obstacles = BTreeMap::new();
-        for criterion in games.iter().filter_map(obstacle) {
-            *obstacles.entry(criterion.to_owned()).or_default() += 1;
-        }
-        let levels = games.iter().flat_map(|game| &game.report.levels);
-        Validity {
-            games: Share::yes(games.iter().map(|game| game.report.passes())),
-            levels: Share::yes(levels.map(|report| report.passes())),
-            obstacles,
-        }
-    }
-}
-
-/// Does skill pay?
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Skill {
-    /// Games in which the strongest player does better than those who do not look ahead, by the margin of the criteria and
-    /// surely; see [`Edge::pays`].
-    pub pays: Share,
-    /// Of those, how many show it in scores only: not by a difference of win rates of at least [`SURE`], surely.
-    pub by_score_only: Share,
-    /// Games where the lower end of the interval of the difference of win rates is at least [`SURE`].
-    pub sure: Share,
-    /// The difference of win rates, over games.
-    pub points: Option<Quantiles>,
-    /// The same with the strongest of the players held out; none if none was.
-    pub held_out: Option<Quantiles>,
-    /// The rank correlation of a player's place in the ladder with how it fares, in the mean over games.
-    pub order: Option<Mean>,
-    /// Each player over all levels of all games: those of the ladder from the weakest, then those held out.
-    pub players: Vec<PlayerRate>,
+pub(super) fn validity(games: &[SurveyedGame]) -> Section {
+    let levels = games.iter().flat_map(|game| &game.report.levels);
+    let passing = Share::yes(games.iter().map(|game| game.report.passes()));
+    let note = "See `arcade docs validate` for what each criterion asks.";
+    let first = obstacles(games.iter().filter_map(SurveyedGame::obstacle));
+    Section::new("validity", "Do they meet the criteria?", note)
+        .share("games", "games: all levels, and all together", passing)
+        .share("levels", "levels", Share::yes(levels.map(Report::passes)))
+        .tally("obstacles", "fail first", &first, Some(games.len() as u64))
 }
 
 /// The difference of win rates that is called sure.
 const SURE: f64 = 0.25;
 
-impl Skill {
-    pub(super) fn of(judged: &[Judged<'_>]) -> Option<Skill> {
-        let edges: Vec<&Edge> = judged.iter().filter_map(|judged| judged.row.edge.as_ref()).collect();
-        let points =
-            |edges: &[&Edge]| Quantiles::of(&edges.iter().map(|edge| edge.points).collect::<Vec<f64>>());
-        let held_out: Vec<&Edge> = judged.iter().filter_map(|judged| judged.held_out.as_ref()).collect();
-        let orders: Vec<f64> = judged.iter().filter_map(|judged| judged.row.order).collect();
-        let in_wins = |edge: &Edge| edge.points >= SURE && edge.interval[0] > 0.0;
-        let paying = edges.iter().filter(|edge| edge.pays);
-        Some(Skill {
-            points: Some(points(&edges)?),
-            pays: Share::yes(edges.iter().map(|edge| edge.pays)),
-            by_score_only: Share::yes(paying.map(|edge| !in_wins(edge))),
-            sure: Share::yes(edges.iter().map(|edge| edge.interval[0] >= SURE)),
-            held_out: points(&held_out),
-            order: Mean::of(&orders),
-            players: players(judged),
-        })
-    }
+/// `None` if no ladder played.
+pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
+    let edges: Vec<&Edge> = measured.iter().filter_map(|game| game.row.edge.as_ref()).collect();
+    let held_out = measured.iter().filter_map(|game| game.held_out.as_ref()).map(|edge| edge.points);
+    let points: Vec<f64> = edges.iter().map(|edge| edge.points).collect();
+    Quantiles::of(&points)?;
+    let orders: Vec<f64> = measured.iter().filter_map(|game| game.row.order).collect();
+    let in_wins = |edge: &Edge| edge.points >= SURE && edge.interval[0] > 0.0;
+    let paying = edges.iter().filter(|edge| edge.pays);
+    let note = "The strongest player against the best of those who do not look ahead, over all levels of a game; then each \
+                player over all games.";
+    let section = Section::new("skill", "Does skill pay?", note)
+        .share("pays", "skill pays, in wins or in score", Share::yes(edges.iter().map(|edge| edge.pays)))
+        .share("by_score_only", "of these, in score only", Share::yes(paying.map(|edge| !in_wins(edge))))
+        .share(
+            "sure",
+            "at least 25 points at the lower end of the interval",
+            Share::yes(edges.iter().map(|edge| edge.interval[0] >= SURE)),
+        )
+        .gain(
+            "order",
+            "players fare in the order of the ladder (rank correlation)",
+            Mean::over(GAME, &orders),
+        )
+        .quantiles("points", "difference of win rates", &points)
+        .quantiles("held_out", "the same, players held out", &held_out.collect::<Vec<f64>>());
+    let levels = measured.iter().flat_map(|game| &game.surveyed.report.levels);
+    Some(PlayerRate::add_all(section, levels.filter_map(Report::ladder)))
 }
 
-fn players(judged: &[Judged<'_>]) -> Vec<PlayerRate> {
-    let mut players: Vec<PlayerRate> = Vec::new();
-    let ladders =
-        judged.iter().flat_map(|judged| &judged.reported.report.levels).filter_map(|report| report.ladder());
-    for fared in ladders.flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out)) {
-        let (wins, plays) = (fared.rate.wins, fared.rate.plays);
-        match players.iter_mut().find(|known| known.player == fared.player) {
-            Some(known) => known.wins = Share::new(known.wins.count + wins, known.wins.of + plays),
-            None => players.push(PlayerRate {
-                player: fared.player.clone(),
-                looks_ahead: fared.looks_ahead,
-                wins: Share::new(wins, plays),
-            }),
+pub(super) fn rules(measured: &[Measured<'_>]) -> Section {
+    let rows = || measured.iter().map(|game| &game.row);
+    let executed = Share::new(rows().map(|row| row.executed).sum(), rows().map(|row| row.rules).sum());
+    let counts: Vec<f64> = rows().map(|row| row.rules as f64).collect();
+    let note = "In some recorded episode; guards do not count as rules.";
+    Section::new("rules", "Is everything used?", note)
+        .share(
+            "all_used",
+            "games of which every rule runs",
+            Share::yes(rows().map(|row| row.executed == row.rules)),
+        )
+        .share("executed", "rules that run", executed)
+        .share(
+            "no_dead_sprites",
+            "games without dead sprites",
+            Share::yes(rows().map(|row| row.there == row.types)),
+        )
+        .quantiles("count", "rules of a game", &counts)
+}
+
+pub(super) fn play(measured: &[Measured<'_>]) -> Section {
+    let rows = || measured.iter().map(|game| &game.row);
+    let levels = measured.iter().flat_map(|game| &game.surveyed.report.levels);
+    let wins = levels.filter_map(|found| found.witness.as_ref());
+    let ticks: Vec<f64> = wins.map(|witness| witness.actions.len() as f64).collect();
+    let mechanics: Vec<f64> = rows().filter_map(|row| row.mechanics).map(|count| count as f64).collect();
+    let drama: Vec<f64> = rows().filter_map(|row| row.drama).collect();
+    let won = Share::new(rows().map(|row| row.won).sum(), rows().map(|row| row.levels).sum());
+    Section::new("play", "How are they won?", "")
+        .share("won", "levels with a known win", won)
+        .quantiles("ticks", "ticks of the shortest win found", &ticks)
+        .quantiles("mechanics", "mechanics that wins use", &mechanics)
+        .quantiles("drama", "drama", &drama)
+}
+
+/// The difficulty of levels by their place in the game, as a question and as a table; `None` if no ladder played.
+pub(super) fn difficulty(measured: &[Measured<'_>]) -> Option<(Section, Table)> {
+    let reports = || measured.iter().map(|game| &game.surveyed.report.levels);
+    let most = reports().map(Vec::len).max()?;
+    let mut counts = vec![vec![0u64; LABELS.len()]; most];
+    for levels in reports() {
+        for (at, ladder) in levels.iter().enumerate().filter_map(|(at, found)| Some((at, found.ladder()?))) {
+            counts[at][rank(ladder.difficulty)] += 1;
         }
     }
-    players
-}
-
-/// Is every rule and sprite used?
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Rules {
-    /// Games of which recorded play executes every interaction, guards apart.
-    pub all_used: Share,
-    /// Interactions that recorded play executes, of those of all games.
-    pub executed: Share,
-    /// Games of which every declared sprite type is there in recorded play.
-    pub no_dead_sprites: Share,
-    /// Interactions of a game, guards apart.
-    pub count: Option<Quantiles>,
-}
-
-impl Rules {
-    pub(super) fn of(judged: &[Judged<'_>]) -> Rules {
-        let rows = || judged.iter().map(|judged| &judged.row);
-        let counts: Vec<f64> = rows().map(|row| row.rules as f64).collect();
-        Rules {
-            all_used: Share::yes(rows().map(|row| row.executed == row.rules)),
-            executed: Share::new(rows().map(|row| row.executed).sum(), rows().map(|row| row.rules).sum()),
-            no_dead_sprites: Share::yes(rows().map(|row| row.there == row.types)),
-            count: Quantiles::of(&counts),
-        }
+    if counts.iter().flatten().all(|count| *count == 0) {
+        return None;
     }
-}
-
-/// What happens while they are won?
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Play {
-    /// Levels of which a win is known.
-    pub won: Share,
-    /// Ticks of the shortest win that was found, over levels.
-    pub ticks: Option<Quantiles>,
-    /// Mechanics that winning play uses, over games.
-    pub mechanics: Option<Quantiles>,
-    /// How open the outcome is, over games.
-    pub drama: Option<Quantiles>,
-}
-
-impl Play {
-    pub(super) fn of(judged: &[Judged<'_>]) -> Play {
-        let rows = || judged.iter().map(|judged| &judged.row);
-        let wins = judged
-            .iter()
-            .flat_map(|judged| &judged.reported.report.levels)
-            .filter_map(|found| found.witness.as_ref());
-        let ticks: Vec<f64> = wins.map(|witness| witness.actions.len() as f64).collect();
-        let mechanics: Vec<f64> = rows().filter_map(|row| row.mechanics).map(|count| count as f64).collect();
-        let drama: Vec<f64> = rows().filter_map(|row| row.drama).collect();
-        Play {
-            won: Share::new(rows().map(|row| row.won).sum(), rows().map(|row| row.levels).sum()),
-            ticks: Quantiles::of(&ticks),
-            mechanics: Quantiles::of(&mechanics),
-            drama: Quantiles::of(&drama),
-        }
+    let rising = reports().filter_map(|levels| {
+        let eases = levels.iter().enumerate();
+        let eases = eases.filter_map(|(at, found)| Some((at as f64, 1.0 - found.ladder()?.ease?)));
+        statistics::spearman(&eases.collect::<Vec<(f64, f64)>>())
+    });
+    let rising = Mean::over(GAME, &rising.collect::<Vec<f64>>());
+    let section = Section::new("difficulty", "Do their levels get harder?", "")
+        .data("labels", &LABELS)
+        .data("table", &counts)
+        .gain("rising", "harder and harder (rank correlation of place and difficulty)", rising);
+    let labels = LABELS.map(|label| label.to_string());
+    let columns: Vec<&str> = [""].into_iter().chain(labels.iter().map(String::as_str)).collect();
+    let mut table = Table::new("difficulty", "Difficulty", "Levels by their place in the game.", &columns);
+    for (place, counts) in counts.into_iter().enumerate() {
+        let cells = [TableCell::text(format!("level {place}"))].into_iter();
+        table.push(cells.chain(counts.into_iter().map(TableCell::Count)).collect());
     }
+    Some((section, table))
 }

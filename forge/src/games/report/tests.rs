@@ -1,6 +1,8 @@
-//! A small set, one game of it in another dress.
+//! A small set, one game of it under another theme.
 
 use super::*;
+use engine::Level;
+use serde_json::{Value as Json, json};
 use validators::{Difficulty, Panel};
 
 /// Fetch all of something; other words for the same rules are the same game.
@@ -27,14 +29,14 @@ fn criteria() -> Criteria {
     }
 }
 
-fn reported(title: &str, source: &str) -> ReportedGame {
+fn reported(title: &str, source: &str) -> SurveyedGame {
     let game = Game::from_source(source).unwrap();
     let levels: Vec<Level> = LEVELS.iter().map(|text| game.level(text).unwrap()).collect();
     let report = Panel::new(&criteria()).judge_game(&game, &levels, Seed::from_text("judged"));
-    ReportedGame { title: title.to_owned(), goal: "Take all of it.".to_owned(), game, levels, report }
+    SurveyedGame { name: title.to_owned(), goal: "Take all of it.".to_owned(), game, levels, report }
 }
 
-fn report(games: &[ReportedGame], corpus: &[(String, Game)]) -> GameSetReport {
+fn report(games: &[SurveyedGame], corpus: &[(String, Game)]) -> GameSetReport {
     let rejections = BTreeMap::from([("winnable".to_owned(), 3)]);
     let cost = GamesCost { calls: 9000, tried: 6, accepted: games.len() as u64, rejections };
     let seed = Seed::from_text("report");
@@ -48,7 +50,7 @@ fn report(games: &[ReportedGame], corpus: &[(String, Game)]) -> GameSetReport {
     })
 }
 
-fn example() -> Vec<ReportedGame> {
+fn example() -> Vec<SurveyedGame> {
     vec![
         reported("Acorns", &source("acorn", "owl")),
         reported("Crates", PUSHING),
@@ -56,49 +58,63 @@ fn example() -> Vec<ReportedGame> {
     ]
 }
 
+/// The report as programs read it.
+fn read(report: &GameSetReport) -> Json {
+    serde_json::from_str(&report.set.to_json().unwrap()).unwrap()
+}
+
 #[test]
 fn a_set_is_told_by_its_games() {
     let corpus = [("berries".to_owned(), Game::from_source(&source("berry", "bear")).unwrap())];
     let games = example();
     let report = report(&games, &corpus);
-    let counts = |share: Share| (share.count, share.of);
-    assert_eq!((report.count, report.accepted.map(counts)), (3, Some((3, 6))));
+    let json = read(&report);
+    let counts = |share: &Json| [&share["count"], &share["of"]].map(|count| count.as_u64().unwrap());
+    assert_eq!((&json["count"], counts(&json["accepted"])), (&json!(3), [3, 6]));
     // Two are the same rules in other words, and a game of the corpus too.
-    assert_eq!(counts(report.novelty.unique), (2, 3));
-    assert_eq!(counts(report.novelty.near_duplicates), (2, 3));
-    assert_eq!(counts(report.novelty.near_corpus), (2, 3));
+    for key in ["unique", "near_duplicates", "near_corpus"] {
+        assert_eq!(counts(&json["novelty"][key]), [2, 3], "{key}");
+    }
     let nearest = report.games[0].nearest.as_ref().unwrap();
     assert_eq!((nearest.name.as_str(), nearest.distance), ("Pearls", 0.0));
-    assert_eq!(report.novelty.among_corpus, None, "there is but one");
-    let kinds: Vec<u64> = report.variety.kinds.iter().map(|kind| kind.games).collect();
-    assert_eq!(kinds, [2, 1]);
-    assert_eq!(report.variety.npcs.iter().map(|npc| npc.games.count).collect::<Vec<_>>(), [2]);
-    let skill = report.skill.as_ref().unwrap();
-    assert_eq!(skill.players.len(), 4, "those held out are told too");
-    assert!(skill.held_out.is_some());
-    let table = &report.difficulty.as_ref().unwrap().table;
-    assert_eq!(table.iter().map(|counts| counts.iter().sum::<u64>()).collect::<Vec<_>>(), [3, 3]);
+    assert_eq!(json["novelty"]["among_corpus"], Json::Null, "there is but one");
+    let variety = &json["variety"];
+    let kinds = variety["kinds"].as_array().unwrap();
+    assert_eq!(kinds.iter().map(|kind| &kind["games"]).collect::<Vec<_>>(), [&json!(2), &json!(1)]);
+    assert_eq!(variety["npcs"].as_array().unwrap().len(), 1);
+    assert_eq!(counts(&variety["npcs"][0]["games"])[0], 2);
+    let skill = &json["skill"];
+    assert_eq!(skill["players"].as_array().unwrap().len(), 4, "those held out are told too");
+    assert_ne!(skill["held_out"], Json::Null);
+    let table = json["difficulty"]["table"].as_array().unwrap().iter();
+    let sums = table.map(|counts| counts.as_array().unwrap().iter().filter_map(Json::as_u64).sum::<u64>());
+    assert_eq!(sums.collect::<Vec<_>>(), [3, 3]);
     let label = report.games[1].levels[0].label.unwrap();
     assert!(label < Difficulty::Unbeaten, "{label}");
     // The second interaction of the crates never runs in the open.
     assert_eq!(report.games[1].found.mechanics, Some(2), "{:?}", report.games[1].found);
-    let text = report.to_json().unwrap();
-    assert_eq!(serde_json::from_str::<GameSetReport>(&text).unwrap(), report);
+    let tables: Vec<&str> = report.set.tables.iter().map(|table| table.id.as_str()).collect();
+    assert_eq!(tables, ["kinds", "difficulty", "games"]);
 }
 
 #[test]
 fn a_report_does_not_depend_on_threads() {
     let games = example();
-    let text = |threads: usize| {
+    let report = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| report(&games, &[]).to_json().unwrap())
+        pool.install(|| report(&games, &[]))
     };
-    assert_eq!(text(1), text(3));
+    assert_eq!(report(1), report(3));
 }
 
 #[test]
 fn a_set_of_nothing_has_no_figures() {
-    let report = report(&[], &[]);
-    assert_eq!((report.skill, report.difficulty, report.variety.largest), (None, None, None));
-    assert_eq!((report.play.drama, report.novelty.nearest, report.rules.count), (None, None, None));
+    let json = read(&report(&[], &[]));
+    let of = |section: &str, key: &str| json[section][key].clone();
+    assert_eq!([&json["skill"], &json["difficulty"]], [&Json::Null; 2]);
+    for (section, key) in
+        [("variety", "largest"), ("play", "drama"), ("novelty", "nearest"), ("rules", "count")]
+    {
+        assert_eq!(of(section, key), Json::Null, "{section} {key}");
+    }
 }

@@ -1,78 +1,82 @@
-//! How many kinds of games are they?
+//! The kinds of games in a set.
 
-use super::entry::Judged;
-use report::Share;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use super::entry::Measured;
+use crate::reported::counted;
+use report::{Section, Share, Table, TableCell, Value};
+use serde::Serialize;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GoalKind};
 
-/// How many kinds of games are they?
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Variety {
-    /// Kinds of avatar × kinds of goal that there are, with their games; the most frequent first.
-    pub kinds: Vec<Kind>,
-    /// The share of the most frequent; none of no games.
-    pub largest: Option<Share>,
-    /// Families of effects with the games that have such an interaction, the most frequent first.
-    pub effects: Vec<Counted>,
-    /// Classes of what moves by itself, with the games that have such a sprite.
-    pub npcs: Vec<Counted>,
-    /// Classes of what makes others.
-    pub producers: Vec<Counted>,
+/// The games of a kind: of an avatar with these abilities, whose win asks for this.
+#[derive(Serialize)]
+struct Pair {
+    avatar: AvatarKind,
+    goal: GoalKind,
+    games: u64,
 }
 
-/// A kind of games.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Kind {
-    /// What the avatar can do.
-    pub avatar: AvatarKind,
-    /// What a win asks for.
-    pub goal: GoalKind,
-    /// Games of this kind.
-    pub games: u64,
+/// The games with something.
+#[derive(Serialize)]
+struct Having {
+    name: String,
+    games: Share,
 }
 
-/// How many games have something.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Counted {
-    /// What.
-    pub name: String,
-    /// How many.
-    pub games: Share,
-}
-
-impl Variety {
-    pub(super) fn of(judged: &[Judged<'_>]) -> Variety {
-        let mut kinds: BTreeMap<(AvatarKind, GoalKind), u64> = BTreeMap::new();
-        for kind in judged.iter().map(|judged| &judged.kind) {
-            *kinds.entry((kind.avatar, kind.goal)).or_default() += 1;
-        }
-        let mut kinds: Vec<Kind> =
-            kinds.into_iter().map(|((avatar, goal), games)| Kind { avatar, goal, games }).collect();
-        kinds.sort_by_key(|kind| std::cmp::Reverse(kind.games));
-        let of = judged.len() as u64;
-        let kind = || judged.iter().map(|judged| &judged.kind);
-        Variety {
-            largest: kinds.first().map(|kind| Share::new(kind.games, of)),
-            kinds,
-            effects: counted(of, kind().flat_map(|kind| &kind.effects).map(|family| family.name())),
-            npcs: counted(of, kind().flat_map(|kind| &kind.npcs).map(String::as_str)),
-            producers: counted(of, kind().flat_map(|kind| &kind.producers).map(String::as_str)),
-        }
+fn pairs(measured: &[Measured<'_>]) -> BTreeMap<(AvatarKind, GoalKind), u64> {
+    let mut pairs = BTreeMap::new();
+    for kind in measured.iter().map(|game| &game.kind) {
+        *pairs.entry((kind.avatar, kind.goal)).or_default() += 1;
     }
+    pairs
 }
 
-/// The names, each with how often it comes; the most frequent first.
-fn counted<'a>(of: u64, names: impl Iterator<Item = &'a str>) -> Vec<Counted> {
-    let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
-    names.for_each(|name| *counts.entry(name).or_default() += 1);
-    let mut counted: Vec<Counted> = counts
-        .into_iter()
-        .map(|(name, count)| Counted { name: name.to_owned(), games: Share::new(count, of) })
-        .collect();
-    counted.sort_by_key(|counted| std::cmp::Reverse(counted.games.count));
-    counted
+pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
+    let of = measured.len() as u64;
+    let mut pairs: Vec<_> = pairs(measured).into_iter().collect();
+    pairs.sort_by_key(|(_, games)| Reverse(*games));
+    let largest = pairs.first().map(|(_, games)| Share::new(*games, of));
+    let kinds: Vec<Pair> =
+        pairs.iter().map(|&((avatar, goal), games)| Pair { avatar, goal, games }).collect();
+    let mut section = Section::new("variety", "How varied are they?", "Games that have each.")
+        .data("kinds", &kinds)
+        .data("largest", &largest)
+        .figure("kinds", "kinds of avatar × goal", Value::CountOf(kinds.len() as u64, of, "game"));
+    if let Some(share) = largest {
+        section = section.shown("are of the most frequent kind", share.into());
+    }
+    let kind = || measured.iter().map(|game| &game.kind);
+    let effects = counted(kind().flat_map(|kind| &kind.effects).map(|family| family.name()));
+    let npcs = counted(kind().flat_map(|kind| &kind.npcs).map(String::as_str));
+    let producers = counted(kind().flat_map(|kind| &kind.producers).map(String::as_str));
+    for (key, name, counts) in [
+        ("effects", "families of effects", effects),
+        ("npcs", "classes of what moves by itself", npcs),
+        ("producers", "classes of what makes others", producers),
+    ] {
+        let having = counts.into_iter().map(|(name, count)| Having { name, games: Share::new(count, of) });
+        let mut having: Vec<Having> = having.collect();
+        having.sort_by_key(|having| Reverse(having.games.count));
+        section = section.data(key, &having).shown(name, Value::Count(having.len() as u64));
+        section = having.into_iter().fold(section, |section, having| {
+            section.shown(format!("– {}", having.name), having.games.into())
+        });
+    }
+    section
+}
+
+/// Kinds of avatars against kinds of goals.
+pub(super) fn kinds(measured: &[Measured<'_>]) -> Table {
+    let pairs = pairs(measured);
+    let avatars: BTreeSet<AvatarKind> = pairs.keys().map(|(avatar, _)| *avatar).collect();
+    let goals: BTreeSet<GoalKind> = pairs.keys().map(|(_, goal)| *goal).collect();
+    let columns: Vec<&str> = [""].into_iter().chain(goals.iter().map(|goal| goal.name())).collect();
+    let note = "The avatar's abilities against what a win asks for: games of each.";
+    let mut table = Table::new("kinds", "Kinds", note, &columns);
+    for avatar in avatars {
+        let games = |goal: &GoalKind| pairs.get(&(avatar, *goal)).copied().unwrap_or(0);
+        let cells = [TableCell::text(avatar.name())].into_iter();
+        table.push(cells.chain(goals.iter().map(|goal| TableCell::Count(games(goal)))).collect());
+    }
+    table
 }

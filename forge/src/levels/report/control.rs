@@ -1,92 +1,104 @@
-//! Are the levels as hard as was asked for?
+//! The difficulty that was asked for against the one that was measured.
 
-use super::Judged;
-use report::Share;
-use serde::{Deserialize, Serialize};
+use crate::reported::{LABELS, rank};
+use crate::survey::SurveyedLevel;
+use report::{Section, Share, Table, TableCell, Value};
+use serde::Serialize;
 use validators::Difficulty;
-
-/// All labels, the easiest first.
-const LABELS: [Difficulty; 6] = [
-    Difficulty::VeryEasy,
-    Difficulty::Easy,
-    Difficulty::Medium,
-    Difficulty::Hard,
-    Difficulty::VeryHard,
-    Difficulty::Unbeaten,
-];
 
 /// A label that at least this share of an unconstrained pool has can be expressed by the game.
 const EXPRESSIBLE: f64 = 0.05;
 
-/// Asked difficulty against measured difficulty.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Control {
-    /// The labels, the easiest first: the order of rows and columns.
-    pub labels: Vec<Difficulty>,
-    /// `[asked][measured]`: levels.
-    pub table: Vec<Vec<u64>>,
-    /// `[asked]`: levels that could not be measured, because nobody found a win. They count as misses.
-    pub unmeasured: Vec<u64>,
-    /// Levels with each label in a pool for which nothing was asked; empty if there is none.
-    pub pool: Vec<u64>,
-    /// Which labels that can be asked for the game can express: at least 5 % of the pool have them. All of these, if there is
-    /// no pool.
-    pub expressible: Vec<Difficulty>,
-    /// Over all levels.
-    pub all: Hits,
-    /// Over levels whose asked label the game can express.
-    pub of_expressible: Hits,
-}
-
 /// The places of the labels that were asked for, and measured.
 type Asked = (usize, Option<usize>);
 
-/// How often the asked label was met.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Hits {
+/// The levels whose label is the one that was asked for.
+#[derive(Serialize)]
+struct Hits {
     /// Levels with the label that was asked for.
-    pub exact: Share,
+    exact: Share,
     /// Levels with it or a neighbouring one.
-    pub within_one: Share,
-    /// What picking at random from the pool would give, each level for the same question: the expected share; none without a
-    /// pool.
-    pub random_exact: Option<f64>,
+    within_one: Share,
+    /// The expected share if each level were picked from the pool at random; `None` without a pool.
+    random_exact: Option<f64>,
     /// As that, with neighbouring labels.
-    pub random_within_one: Option<f64>,
+    random_within_one: Option<f64>,
 }
 
-impl Control {
-    pub(super) fn of(levels: &[Judged], pool: &[Difficulty]) -> Option<Control> {
-        let asked = |judged: &Judged| Some((rank(judged.asked?), judged.label().map(rank)));
-        let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();
-        if pairs.iter().all(|(_, got)| got.is_none()) {
-            return None;
-        }
-        let (mut table, mut unmeasured) = (vec![vec![0; LABELS.len()]; LABELS.len()], vec![0; LABELS.len()]);
-        for &(asked, got) in &pairs {
-            match got {
-                Some(got) => table[asked][got] += 1,
-                None => unmeasured[asked] += 1,
-            }
-        }
-        let mut counts = vec![0u64; LABELS.len()];
-        pool.iter().for_each(|label| counts[rank(*label)] += 1);
-        let can_be_asked = |label: usize| LABELS[label].eases().is_some();
-        let many = |label: usize| pool.is_empty() || counts[label] as f64 >= EXPRESSIBLE * pool.len() as f64;
-        let can = |label: &usize| can_be_asked(*label) && many(*label);
-        let asked_for: Vec<Asked> = pairs.iter().filter(|(asked, _)| can(asked)).copied().collect();
-        Some(Control {
-            all: Hits::of(&pairs, pool),
-            of_expressible: Hits::of(&asked_for, pool),
-            expressible: (0..LABELS.len()).filter(can).map(|label| LABELS[label]).collect(),
-            labels: LABELS.to_vec(),
-            pool: if pool.is_empty() { Vec::new() } else { counts },
-            table,
-            unmeasured,
-        })
+/// Asked difficulty against measured difficulty, as a question and as a table; `None` if nothing was asked, or no ladder played.
+/// Levels that could not be measured, because nobody found a win, count as misses.
+pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(Section, Table)> {
+    let asked = |level: &SurveyedLevel| Some((rank(level.asked?), level.label().map(rank)));
+    let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();
+    if pairs.iter().all(|(_, got)| got.is_none()) {
+        return None;
     }
+    let (mut table, mut unmeasured) = (vec![vec![0; LABELS.len()]; LABELS.len()], vec![0; LABELS.len()]);
+    for &(asked, got) in &pairs {
+        match got {
+            Some(got) => table[asked][got] += 1,
+            None => unmeasured[asked] += 1,
+        }
+    }
+    let mut counts = vec![0u64; LABELS.len()];
+    pool.iter().for_each(|label| counts[rank(*label)] += 1);
+    let can_be_asked = |label: usize| LABELS[label].eases().is_some();
+    let many = |label: usize| pool.is_empty() || counts[label] as f64 >= EXPRESSIBLE * pool.len() as f64;
+    let can = |label: &usize| can_be_asked(*label) && many(*label);
+    let asked_for: Vec<Asked> = pairs.iter().filter(|(asked, _)| can(asked)).copied().collect();
+    let (all, of_expressible) = (Hits::of(&pairs, pool), Hits::of(&asked_for, pool));
+    let expressible: Vec<Difficulty> = (0..LABELS.len()).filter(can).map(|label| LABELS[label]).collect();
+    if pool.is_empty() {
+        counts.clear();
+    }
+    let section = Section::new("control", "Are they as hard as asked?", note(pool, &expressible))
+        .data("labels", &LABELS)
+        .data("table", &table)
+        .data("unmeasured", &unmeasured)
+        .data("pool", &counts)
+        .data("expressible", &expressible)
+        .data("all", &all)
+        .data("of_expressible", &of_expressible);
+    let mut section = all.add(section, "exact", "all labels");
+    if (1..all.exact.of).contains(&of_expressible.exact.of) {
+        section = of_expressible.add(section, "", "labels that the game can express");
+    }
+    Some((section, confusion(&table, &unmeasured, &counts)))
+}
+
+fn note(pool: &[Difficulty], expressible: &[Difficulty]) -> String {
+    let note = "Measured with seeds that the search was not guided by.";
+    if pool.is_empty() {
+        return note.to_owned();
+    }
+    let labels: Vec<String> = expressible.iter().map(ToString::to_string).collect();
+    let labels = if labels.is_empty() { "none".to_owned() } else { labels.join(", ") };
+    let pool = pool.len();
+    format!("{note} The game can express (at least 5 % of an unconstrained pool of {pool}): {labels}.")
+}
+
+/// A row for each label that was asked for, with the levels that were measured to have each.
+fn confusion(table: &[Vec<u64>], unmeasured: &[u64], pool: &[u64]) -> Table {
+    let note = "A row for each label that was asked for; in it, how many levels were measured to have each.";
+    let labels = LABELS.map(|label| label.to_string());
+    let mut columns: Vec<&str> = ["asked"].into_iter().chain(labels.iter().map(String::as_str)).collect();
+    let some_unmeasured = unmeasured.iter().any(|none| *none > 0);
+    columns.extend(some_unmeasured.then_some("no win found"));
+    let mut confusion = Table::new("asked", "Asked and measured difficulty", note, &columns);
+    let row = |name: &str, counts: &[u64], last: TableCell| {
+        let counts = counts.iter().map(|&count| TableCell::Count(count));
+        let cells = [TableCell::text(name)].into_iter().chain(counts);
+        cells.chain(some_unmeasured.then_some(last)).collect()
+    };
+    for ((label, counts), none) in labels.iter().zip(table).zip(unmeasured) {
+        if counts.iter().sum::<u64>() + none > 0 {
+            confusion.push(row(label, counts, TableCell::Count(*none)));
+        }
+    }
+    if !pool.is_empty() {
+        confusion.push(row("nothing (the pool)", pool, TableCell::text("")));
+    }
+    confusion
 }
 
 impl Hits {
@@ -105,8 +117,16 @@ impl Hits {
         let ((exact, random_exact), (within_one, random_within_one)) = (hits(0), hits(1));
         Hits { exact, within_one, random_exact, random_within_one }
     }
-}
 
-fn rank(label: Difficulty) -> usize {
-    LABELS.iter().position(|known| *known == label).expect("all labels are listed")
+    /// Shows them; `key` names the share of exact hits for the head of the page.
+    fn add(&self, section: Section, key: &'static str, which: &str) -> Section {
+        let random = |section: Section, value: Option<f64>| match value {
+            Some(value) => section.shown("— picked at random", Value::Expected(value)),
+            None => section,
+        };
+        let section = section.figure(key, format!("measured as asked, {which}"), self.exact.into());
+        let section = random(section, self.random_exact);
+        let section = section.shown(format!("within one label, {which}"), self.within_one.into());
+        random(section, self.random_within_one)
+    }
 }

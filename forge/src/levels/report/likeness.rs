@@ -1,91 +1,87 @@
-//! How alike levels are: to each other, and to the game's own.
+//! The likeness of levels: to each other, and to the game's own.
 
-use super::Judged;
+use crate::survey::SurveyedLevel;
 use engine::Digest;
 use generators::levels::LevelSimilarity;
 use rayon::prelude::*;
-use report::{Estimate, Quantiles, Share};
-use serde::{Deserialize, Serialize};
+use report::{Mean, Section, Share};
 use std::collections::BTreeSet;
 
 /// Levels at most this far apart are near-duplicates.
-pub const NEAR: f64 = 0.05;
+pub(crate) const NEAR: f64 = 0.05;
 
-/// How different are they from each other?
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Diversity {
-    /// Different levels, of all: a level and its mirror image are one.
-    pub unique: Share,
-    /// Distance of two of them: for each level the mean distance to the others, in the mean over levels; none for fewer than
-    /// two.
-    pub distance: Option<Estimate>,
-    /// Distance of each level to the one that is most like it.
-    pub nearest: Option<Quantiles>,
-    /// Levels with another one at a distance of at most [`NEAR`].
-    pub near_duplicates: Share,
+/// The distances between the levels of a set.
+pub(super) struct Distances {
+    /// For each level, the mean distance to the others, where there are others.
+    means: Vec<f64>,
+    /// For each level, the distance to the nearest other one.
+    pub(super) nearest: Vec<Option<f64>>,
 }
 
-impl Diversity {
-    /// Also the distance of each level to its nearest neighbour.
-    pub(super) fn of(levels: &[Judged], likeness: &LevelSimilarity) -> (Diversity, Vec<Option<f64>>) {
+impl Distances {
+    /// Cost: a comparison for each pair of levels, on all threads.
+    pub(super) fn of(levels: &[SurveyedLevel], likeness: &Likeness) -> Distances {
         let row = |at: usize| -> Vec<f64> {
             let others = levels.iter().enumerate().filter(|(other, _)| *other != at);
             others.map(|(_, other)| likeness.distance(&levels[at].level, &other.level)).collect()
         };
         let rows: Vec<Vec<f64>> = (0..levels.len()).into_par_iter().map(row).collect();
-        let compared = || rows.iter().filter(|row| !row.is_empty());
-        let means: Vec<f64> = compared().map(|row| row.iter().sum::<f64>() / row.len() as f64).collect();
-        let nearest: Vec<Option<f64>> = rows.iter().map(|row| least(row)).collect();
-        let known: Vec<f64> = nearest.iter().flatten().copied().collect();
-        let forms: BTreeSet<Digest> = levels.iter().map(|judged| likeness.digest(&judged.level)).collect();
-        let diversity = Diversity {
-            unique: Share::new(forms.len() as u64, levels.len() as u64),
-            distance: Estimate::of(&means),
-            nearest: Quantiles::of(&known),
-            near_duplicates: Share::yes(known.iter().map(|distance| *distance <= NEAR)),
-        };
-        (diversity, nearest)
+        let compared = rows.iter().filter(|row| !row.is_empty());
+        let means = compared.map(|row| row.iter().sum::<f64>() / row.len() as f64).collect();
+        Distances { means, nearest: rows.iter().map(|row| least(row.iter().copied())).collect() }
+    }
+
+    fn known(&self) -> Vec<f64> {
+        self.nearest.iter().flatten().copied().collect()
     }
 }
 
-/// How different are they from the game's own levels?
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Novelty {
-    /// Distance of each level to the most similar one of the game's own.
-    pub nearest: Option<Quantiles>,
-    /// Levels with one of them at a distance of at most [`NEAR`].
-    pub near_duplicates: Share,
-    /// Levels that are one of them, or its mirror image.
-    pub copies: Share,
-    /// For scale: distance of each of the game's own levels to the most similar other one.
-    pub among_examples: Option<Quantiles>,
+pub(super) fn diversity(levels: &[SurveyedLevel], distances: &Distances, likeness: &Likeness) -> Section {
+    let nearest = distances.known();
+    let unique = Share::new(forms(levels, likeness).len() as u64, levels.len() as u64);
+    Section::new("diversity", "How different are they?", "Distances go from 0 (the same level) to 1.")
+        .share("unique", "unique up to symmetry", unique)
+        .mean("distance", "distance of two levels", Mean::over("level", &distances.means))
+        .share("near_duplicates", format!("near-duplicates: another one within {NEAR}"), near(&nearest))
+        .quantiles("nearest", "distance to the most similar one", &nearest)
 }
 
-impl Novelty {
-    pub(super) fn of(levels: &[Judged], examples: &[Judged], likeness: &LevelSimilarity) -> Option<Novelty> {
-        if examples.is_empty() {
-            return None;
-        }
-        let to_examples = |judged: &Judged| {
-            let to = |example: &Judged| likeness.distance(&judged.level, &example.level);
-            least(&examples.iter().map(to).collect::<Vec<f64>>())
-        };
-        let nearest: Vec<f64> =
-            levels.par_iter().map(to_examples).collect::<Vec<Option<f64>>>().into_iter().flatten().collect();
-        let forms: BTreeSet<Digest> =
-            examples.iter().map(|example| likeness.digest(&example.level)).collect();
-        let copied = |judged: &Judged| forms.contains(&likeness.digest(&judged.level));
-        Some(Novelty {
-            nearest: Quantiles::of(&nearest),
-            near_duplicates: Share::yes(nearest.iter().map(|distance| *distance <= NEAR)),
-            copies: Share::yes(levels.iter().map(copied)),
-            among_examples: Diversity::of(examples, likeness).0.nearest,
-        })
-    }
+/// `None` if the game has no levels of its own.
+pub(super) fn novelty(
+    levels: &[SurveyedLevel],
+    examples: &[SurveyedLevel],
+    likeness: &Likeness,
+) -> Option<Section> {
+    let to_examples = |level: &SurveyedLevel| {
+        least(examples.iter().map(|example| likeness.distance(&level.level, &example.level)))
+    };
+    let nearest: Vec<f64> = levels.par_iter().filter_map(to_examples).collect();
+    let known = forms(examples, likeness);
+    let copied = |level: &SurveyedLevel| known.contains(&likeness.digest(&level.level));
+    let section = Section::new("novelty", "How new are they?", "")
+        .share(
+            "copies",
+            "copies of one of the game's own, up to symmetry",
+            Share::yes(levels.iter().map(copied)),
+        )
+        .share("near_duplicates", format!("near-duplicates of one: within {NEAR}"), near(&nearest))
+        .quantiles("nearest", "distance to the most similar one of the game's own", &nearest)
+        .quantiles(
+            "among_examples",
+            "for scale: among the game's own",
+            &Distances::of(examples, likeness).known(),
+        );
+    (!examples.is_empty()).then_some(section)
 }
 
-fn least(distances: &[f64]) -> Option<f64> {
-    distances.iter().copied().min_by(f64::total_cmp)
+fn forms(levels: &[SurveyedLevel], likeness: &Likeness) -> BTreeSet<Digest> {
+    levels.iter().map(|level| likeness.digest(&level.level)).collect()
+}
+
+fn near(distances: &[f64]) -> Share {
+    Share::yes(distances.iter().map(|distance| *distance <= NEAR))
+}
+
+fn least(distances: impl Iterator<Item = f64>) -> Option<f64> {
+    distances.min_by(f64::total_cmp)
 }

@@ -1,11 +1,11 @@
-//! Expressive range: where the levels lie in pairs of measures (G. Smith and J. Whitehead, "Analyzing the Expressive Range of
+//! Expressive range: the places of levels in pairs of measures (G. Smith and J. Whitehead, "Analyzing the Expressive Range of
 //! a Level Generator", 2010).
 
-use super::Judged;
-use serde::{Deserialize, Serialize};
+use crate::survey::SurveyedLevel;
+use serde::Serialize;
 
 /// The pairs of measures that are told, chosen before any level was made: across and up.
-pub const PAIRS: [(&str, &str); 6] = [
+const PAIRS: [(&str, &str); 6] = [
     ("openness", "ticks"),
     ("cover", "pressure"),
     ("ticks", "branching"),
@@ -17,9 +17,8 @@ pub const PAIRS: [(&str, &str); 6] = [
 /// Cells of an axis.
 pub const BINS: usize = 10;
 
-/// Where the levels lie in a pair of measures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// The levels of a set in a pair of measures.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
     /// Across.
     pub x: Axis,
@@ -29,15 +28,14 @@ pub struct Range {
     pub levels: Vec<[f64; 2]>,
     /// The game's own levels that have both.
     pub examples: Vec<[f64; 2]>,
-    /// How many levels lie in each cell: [`BINS`] rows from the bottom, of [`BINS`] cells.
+    /// The number of levels in each cell: [`BINS`] rows from the bottom, of [`BINS`] cells.
     pub cells: Vec<Vec<u64>>,
     /// Cells with a level.
     pub occupied: u64,
 }
 
-/// A measure, and what is shown of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// A measure, and the part of it that is shown.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
     /// Its name.
     pub measure: String,
@@ -80,13 +78,13 @@ fn above(value: f64) -> f64 {
 
 impl Range {
     /// The pairs of [`PAIRS`] that the levels have, and that are not all 0.
-    pub(super) fn all(levels: &[Judged], examples: &[Judged]) -> Vec<Range> {
+    pub(super) fn all(levels: &[SurveyedLevel], examples: &[SurveyedLevel]) -> Vec<Range> {
         PAIRS.iter().filter_map(|&(x, y)| Range::of(x, y, levels, examples)).collect()
     }
 
-    fn of(x: &str, y: &str, levels: &[Judged], examples: &[Judged]) -> Option<Range> {
-        let points = |of: &[Judged]| -> Vec<[f64; 2]> {
-            of.iter().filter_map(|judged| Some([judged.measure(x)?, judged.measure(y)?])).collect()
+    fn of(x: &str, y: &str, levels: &[SurveyedLevel], examples: &[SurveyedLevel]) -> Option<Range> {
+        let points = |of: &[SurveyedLevel]| -> Vec<[f64; 2]> {
+            of.iter().filter_map(|level| Some([level.measure(x)?, level.measure(y)?])).collect()
         };
         let (levels, examples) = (points(levels), points(examples));
         let all = || levels.iter().chain(&examples);

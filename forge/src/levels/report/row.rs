@@ -1,32 +1,32 @@
 //! One level in the report.
 
-use super::Judged;
+use crate::survey::SurveyedLevel;
 use engine::Digest;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use report::{Table, TableCell};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
 use validators::{Difficulty, Verdict};
 
 /// One level in the report.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelRow {
-    /// Of its text.
+    /// The digest of its text.
     pub digest: Digest,
-    /// Of its board.
+    /// Columns of its board.
     pub columns: u64,
-    /// Of its board.
+    /// Rows of its board.
     pub rows: u64,
-    /// Whether it meets every criterion that was asked.
+    /// `true` if it meets every criterion that was asked.
     pub passes: bool,
     /// The first criterion that it does not meet.
     pub obstacle: Option<String>,
-    /// Whether it can be won: `solved`, `impossible` or `unknown`.
-    pub solved: String,
+    /// The answer of the search for a win: `solved`, `impossible` or `unknown`.
+    pub solved: &'static str,
     /// The difficulty that was asked for.
     pub asked: Option<Difficulty>,
     /// The difficulty that was measured.
     pub label: Option<Difficulty>,
-    /// How easy, from 0 to 1.
+    /// The ease that the ladder found, from 0 to 1.
     pub ease: Option<f64>,
     /// Ticks of the shortest win, where that is proved.
     pub shortest: Option<u64>,
@@ -37,11 +37,11 @@ pub struct LevelRow {
 }
 
 /// The names of the measures of play, in the order of telling; those of the board follow.
-pub const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
+const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
 
 impl LevelRow {
-    pub(super) fn of(judged: &Judged, nearest: Option<f64>) -> LevelRow {
-        let Judged { level, report, ladder, measures, layout, asked } = judged;
+    pub(super) fn of(surveyed: &SurveyedLevel, nearest: Option<f64>) -> LevelRow {
+        let SurveyedLevel { level, report, ladder, measures, layout, asked } = surveyed;
         let winnable = report.finding("winnable").map(|found| &found.verdict);
         let solved = match (&report.witness, winnable) {
             (Some(_), _) => "solved",
@@ -49,20 +49,118 @@ impl LevelRow {
             _ => "unknown",
         };
         let names = OF_PLAY.into_iter().chain(layout.iter().map(|(name, _)| name.as_str()));
-        let named = |name: &str| Some((name.to_owned(), judged.measure(name)?));
+        let named = |name: &str| Some((name.to_owned(), surveyed.measure(name)?));
         LevelRow {
             digest: level.digest(),
             columns: level.columns() as u64,
             rows: level.rows() as u64,
             passes: report.passes(),
             obstacle: report.first_obstacle().map(|obstacle| obstacle.criterion.to_owned()),
-            solved: solved.to_owned(),
+            solved,
             asked: *asked,
-            label: judged.label(),
+            label: surveyed.label(),
             ease: ladder.as_ref().and_then(|ladder| ladder.ease),
             shortest: measures.as_ref().and_then(|measures| measures.shortest).map(|ticks| ticks as u64),
             measures: names.filter_map(named).collect(),
             nearest,
         }
+    }
+
+    /// The verdict in a word or two.
+    fn verdict(&self) -> String {
+        match self.obstacle.as_deref() {
+            None if self.passes => "passes".to_owned(),
+            None | Some("winnable") => self.solved.to_owned(),
+            Some(obstacle) => format!("{obstacle} not passed"),
+        }
+    }
+
+    /// The measured difficulty, with the one that was asked for where it is another: `hard (asked: easy)`. Empty if neither is
+    /// known.
+    pub fn difficulty(&self) -> String {
+        match (self.label, self.asked) {
+            (Some(label), Some(asked)) if label != asked => format!("{label} (asked: {asked})"),
+            (Some(label), _) => label.to_string(),
+            (None, Some(asked)) => format!("asked: {asked}"),
+            (None, None) => String::new(),
+        }
+    }
+
+    /// The level in a line: `34 ticks (shortest), 12 pushes, length not passed`. `proofs`: say what is proved.
+    pub fn remark(&self, proofs: bool) -> String {
+        let ticks = match self.measures.get("ticks") {
+            Some(ticks) if proofs && self.shortest.is_some() => format!("{ticks} ticks (shortest)"),
+            Some(ticks) => format!("{ticks} ticks"),
+            None if self.solved == "solved" => "solved".to_owned(),
+            None => format!("{}!", self.solved),
+        };
+        let pushes = self.measures.get("pushes").filter(|pushes| **pushes > 0.0);
+        let pushes = pushes.map(|pushes| format!("{pushes:.0} pushes"));
+        let obstacle = self.obstacle.as_deref().filter(|obstacle| *obstacle != "winnable");
+        let parts = [Some(ticks), pushes, obstacle.map(|obstacle| format!("{obstacle} not passed"))];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The table of all levels: measures of play come first, then those of the board.
+pub(super) fn table(rows: &[LevelRow]) -> Table {
+    let known: BTreeSet<&str> = rows.iter().flat_map(|row| row.measures.keys()).map(String::as_str).collect();
+    let play: Vec<&str> = OF_PLAY.into_iter().filter(|name| known.contains(name)).collect();
+    let board: Vec<&str> = known.into_iter().filter(|name| !OF_PLAY.contains(name)).collect();
+    let some_asked = rows.iter().any(|row| row.asked.is_some());
+    let some_label = rows.iter().any(|row| row.label.is_some());
+    let mut columns = vec!["", "size", "verdict"];
+    columns.extend(some_asked.then_some("asked"));
+    columns.extend(some_label.then_some("measured"));
+    columns.extend(play.iter().chain(&["shortest", "nearest"]).chain(&board).chain(&["digest"]));
+    let mut table = Table::new("levels", "Every level", "", &columns);
+    let label = |label: Option<Difficulty>| {
+        label.map_or(TableCell::Missing, |label| TableCell::Figure(label.to_string()))
+    };
+    for (at, row) in rows.iter().enumerate() {
+        let size = TableCell::Figure(format!("{} × {}", row.columns, row.rows));
+        let mut cells = vec![TableCell::Count(at as u64), size, TableCell::text(row.verdict())];
+        cells.extend(some_asked.then(|| label(row.asked)));
+        cells.extend(some_label.then(|| label(row.label)));
+        let value = |name: &&str| TableCell::short(row.measures.get(*name).copied());
+        cells.extend(play.iter().map(value));
+        cells.extend([TableCell::count(row.shortest), TableCell::short(row.nearest)]);
+        cells.extend(board.iter().map(value));
+        cells.push(TableCell::Figure(row.digest.short()));
+        table.push(cells);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn captions_tell_what_matters() {
+        let mut row = LevelRow {
+            digest: Digest::of(b""),
+            columns: 8,
+            rows: 8,
+            passes: true,
+            obstacle: None,
+            solved: "solved",
+            asked: Some(Difficulty::Hard),
+            label: Some(Difficulty::Medium),
+            ease: None,
+            shortest: Some(34),
+            measures: BTreeMap::from([("ticks".to_owned(), 34.0), ("pushes".to_owned(), 12.0)]),
+            nearest: None,
+        };
+        assert_eq!(row.difficulty(), "medium (asked: hard)");
+        assert_eq!(row.remark(true), "34 ticks (shortest), 12 pushes");
+        assert_eq!(row.remark(false), "34 ticks, 12 pushes");
+        row.asked = row.label;
+        row.obstacle = Some("length".to_owned());
+        assert_eq!((row.difficulty().as_str(), row.verdict().as_str()), ("medium", "length not passed"));
+        assert_eq!(row.remark(true), "34 ticks (shortest), 12 pushes, length not passed");
+        row.measures.clear();
+        (row.solved, row.obstacle) = ("impossible", Some("winnable".to_owned()));
+        assert_eq!((row.remark(true).as_str(), row.verdict().as_str()), ("impossible!", "impossible"));
     }
 }

@@ -1,23 +1,21 @@
 //! `cargo xtask side-by-side`: compares two groups of games by the same criteria, line by line.
 
-mod record;
-mod table;
-
+use super::{folders, name_of};
 use crate::levels::load;
-use anyhow::{Context, bail};
+use anyhow::Context;
 use engine::{Digest, Level, Seed};
-use forge::games::survey::{Comparison, GameRow, GameSurvey, SurveyedGame};
-use record::Record;
+use forge::survey::{Comparison, GameRow, GameSurvey};
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, OpenOptions};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use validators::Criteria;
 
-/// Judges the games of two folders by the same criteria under the same budget, and prints a Markdown table: the mean
-/// or share of each group on seven lines, and the difference with its 95 % interval. With --csv, games that were
-/// judged before are not judged again, so an interrupted run can be continued.
+/// Judges the games of two folders by the same verdicts under the same budget, and prints a Markdown table: the mean or share of
+/// each group on seven lines, and the difference with its 95 % interval. With --rows, games that were judged before are not judged
+/// again: a run that was broken off goes on where it was.
 ///
-/// Example: cargo xtask side-by-side --ours corpora --theirs gvgai/games --games 50 --csv side-by-side.csv
+/// Example: cargo xtask side-by-side --ours corpora --theirs gvgai/games --games 50 --rows side-by-side.jsonl
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Folder of game folders, each with game.vgdl or game.txt and lvl*.txt
@@ -35,9 +33,9 @@ pub(crate) struct Args {
     /// Text that the samples and all random draws are derived from
     #[arg(long, value_name = "TEXT", default_value = "side by side")]
     seed: String,
-    /// Rows of games: games in the file are not judged again, new ones are added
+    /// Rows of games, JSON, a line each: those that are there are not judged again, new ones are added
     #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    rows: Option<PathBuf>,
     /// Forward-model calls for the win of a level
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().budget)]
     budget: u64,
@@ -77,40 +75,29 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut judge = Judge {
         survey: GameSurvey::new(&criteria, seed)?,
         levels: args.levels,
-        known: args.csv.as_deref().map_or(Ok(BTreeMap::new()), record::read)?,
-        csv: args.csv.as_deref(),
+        known: args.rows.as_deref().map_or(Ok(BTreeMap::new()), read)?,
+        file: args.rows.as_deref(),
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
     let mut rows: Vec<Vec<GameRow>> = Vec::new();
     for (group, folders) in &groups {
-        rows.push(pool.install(|| judge.group(group, folders))?);
+        println!("\n{group}");
+        rows.push(pool.install(|| judge.group(folders))?);
     }
     if let [ours, theirs] = &rows[..] {
         let comparison = Comparison::of(ours, theirs, seed.child("comparison", 0));
-        println!("\n{}", table::markdown(&comparison));
+        println!("\n{}", comparison.table().to_markdown());
     }
     Ok(())
 }
 
 /// The game folders in a folder, by name: at most `most` of them, drawn by the seed and the folder's own names.
 fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> {
-    let mut folders: Vec<PathBuf> = fs::read_dir(folder)
-        .with_context(|| folder.display().to_string())?
-        .map(|entry| entry.map(|entry| entry.path()))
-        .collect::<Result<_, _>>()?;
-    folders.retain(|path| ["game.vgdl", "game.txt"].iter().any(|file| path.join(file).exists()));
-    folders.sort();
-    if folders.is_empty() {
-        bail!("{}: no folder with a game there", folder.display());
-    }
+    let mut folders = folders(folder)?;
     seed.child("sample", 0).sampler().shuffle(&mut folders);
     folders.truncate(most);
     folders.sort();
     Ok(folders)
-}
-
-fn name_of(folder: &Path) -> String {
-    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// At most `most` of some levels: the first, the last, and some evenly between.
@@ -126,35 +113,53 @@ fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
 struct Judge<'a> {
     survey: GameSurvey,
     levels: usize,
-    /// The known rows, by the digest of their inputs.
+    /// Rows that are known, by their digests.
     known: BTreeMap<Digest, GameRow>,
-    csv: Option<&'a Path>,
+    file: Option<&'a Path>,
 }
 
 impl Judge<'_> {
-    /// The rows of a group. New rows are printed and written as soon as they are finished.
-    fn group(&mut self, group: &str, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
+    /// The rows of a group. New ones are printed and written as soon as they are there.
+    fn group(&mut self, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
         let mut rows = Vec::new();
         for folder in folders {
             let (game, levels) = load(folder)?;
-            let surveyed = SurveyedGame { name: name_of(folder), game, levels: spread(levels, self.levels) };
-            let digest = self.survey.digest(&surveyed);
-            let row = match self.known.get(&digest) {
+            let (name, levels) = (name_of(folder), spread(levels, self.levels));
+            let row = match self.known.get(&self.survey.digest(&game, &levels)) {
                 Some(row) => row.clone(),
                 None => {
-                    let row = self.survey.row(&surveyed);
-                    let record = Record::of(group, &row);
-                    println!("{record}");
-                    if let Some(path) = self.csv {
-                        record::append(path, &record)?;
+                    let row = self.survey.row(&name, &game, &levels);
+                    println!("{row}");
+                    if let Some(path) = self.file {
+                        append(path, &row)?;
                     }
                     row
                 }
             };
-            rows.push(GameRow { name: surveyed.name, ..row });
+            rows.push(GameRow { name, ..row });
         }
         Ok(rows)
     }
+}
+
+/// The rows of a file, by their digests; none of a file that is not there.
+fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
+    if !path.exists() {
+        return Ok(BTreeMap::new());
+    }
+    let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    let row = |line: &str| -> anyhow::Result<(Digest, GameRow)> {
+        let row: GameRow = serde_json::from_str(line).with_context(|| path.display().to_string())?;
+        Ok((row.digest, row))
+    };
+    text.lines().map(row).collect()
+}
+
+fn append(path: &Path, row: &GameRow) -> anyhow::Result<()> {
+    let file = OpenOptions::new().create(true).append(true).open(path);
+    let mut file = file.with_context(|| path.display().to_string())?;
+    let line = serde_json::to_string(row)? + "\n";
+    file.write_all(line.as_bytes()).with_context(|| path.display().to_string())
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
-//! How much better the strongest player does than those who do not look ahead, over all levels of a game.
+//! The edge of the strongest player over those who do not look ahead, over all levels of a game.
 
+use crate::reported::in_order;
 use engine::Game;
 use serde::{Deserialize, Serialize};
-use statistics::{Z95, bootstrap, difference, spearman};
+use statistics::{Z95, bootstrap, difference};
 use validators::{Criteria, Fared, Report};
 
 /// Resamples for an interval of scores.
@@ -11,7 +12,7 @@ const RESAMPLES: usize = 1000;
 /// The name of the player that has found a plan, in games where a plan that won once wins every time.
 pub const SEARCH: &str = "search";
 
-/// How much better the strongest player does than the best of those who do not look ahead.
+/// The edge of the strongest player over the best of those who do not look ahead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
@@ -22,7 +23,7 @@ pub struct Edge {
     pub wins: u64,
     /// Plays of each player, over all levels.
     pub plays: u64,
-    /// Of those who do not look ahead, the one that wins most; that scores most, if they win alike.
+    /// The best of those who do not look ahead: the one that wins most, or that scores most, if they win alike.
     pub floor: String,
     /// Its wins, over all levels.
     pub floor_wins: u64,
@@ -30,12 +31,12 @@ pub struct Edge {
     pub points: f64,
     /// Newcombe's interval of it, 95 %.
     pub interval: [f64; 2],
-    /// By how much the strongest of the ladder scores more than the floor, play by play under the same dice, as a share of the
+    /// The mean gain in score of the strongest of the ladder over the floor, play by play under the same dice, as a share of the
     /// range of all scores on the level; none if no level has scores that differ.
     pub score: Option<f64>,
     /// Its bootstrap interval, 95 %, over plays.
     pub score_interval: Option<[f64; 2]>,
-    /// Whether one of the two differences is as large as the criteria ask, and surely above 0.
+    /// `true` if one of the two differences is as large as the criteria ask, and surely above 0.
     pub pays: bool,
 }
 
@@ -101,12 +102,12 @@ fn players(reports: &[Report]) -> Vec<Player> {
 impl Edge {
     /// Over the ladders that played on the levels, players held out apart; none if none did, or none of their players looks
     /// ahead, or all do. The reports' `skill` must name the players alike.
-    pub fn of(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
+    pub(super) fn of(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
         Edge::among(game, reports, criteria, false)
     }
 
     /// As [`Edge::of`], with the strongest of the players that were held out from all search.
-    pub fn held_out(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
+    pub(crate) fn held_out(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
         Edge::among(game, reports, criteria, true)
     }
 
@@ -157,14 +158,11 @@ fn plays_of(report: &Report) -> u64 {
     report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
 }
 
-/// Spearman's rank correlation of a player's place in the ladder with how it fares over all levels (more wins; of equal wins,
-/// more score): 1 if every stronger player does better, 0 if all fare alike; none if no ladder played.
-pub fn ladder_order(reports: &[Report]) -> Option<f64> {
+/// The rank correlation of a player's place in the ladder with how it fares over all levels (more wins; of equal wins, more score):
+/// 1 if every stronger player does better, 0 if all fare alike; `None` if no ladder played.
+pub(super) fn ladder_order(reports: &[Report]) -> Option<f64> {
     let mut players = players(reports);
     players.retain(|player| !player.held_out);
-    let worse =
-        |player: &Player| players.iter().filter(|other| other.fares() < player.fares()).count() as f64;
-    let pairs: Vec<(f64, f64)> =
-        players.iter().enumerate().map(|(at, player)| (at as f64, worse(player))).collect();
-    (pairs.len() > 1).then(|| spearman(&pairs).unwrap_or(0.0))
+    let fares: Vec<(f64, f64)> = players.iter().map(Player::fares).collect();
+    (fares.len() > 1).then(|| in_order(&fares).unwrap_or(0.0))
 }

@@ -1,8 +1,10 @@
-use super::*;
+use super::page;
 use crate::embedded;
+use crate::set_report::game_report;
 use engine::{Game, Level, Seed};
-use forge::games::report::{GamesCost, GamesSample};
-use snapshots::CorpusGame;
+use forge::games::report::{GameSetReport, GamesCost, GamesSample};
+use forge::survey::SurveyedGame;
+use snapshots::{CorpusGame, Draft};
 use std::collections::BTreeMap;
 use std::path::Path;
 use validators::{Criteria, Panel};
@@ -10,12 +12,12 @@ use validators::{Criteria, Panel};
 /// Some corpus games with two of their levels each, as if they had been made.
 const GAMES: [&str; 3] = ["quiet-jars", "hailglass", "turnip-heist"];
 
-fn judged(game: &CorpusGame, criteria: &Criteria) -> ReportedGame {
+fn judged(game: &CorpusGame, criteria: &Criteria) -> SurveyedGame {
     let CorpusGame { source, levels, card, .. } = game;
     let game = Game::from_source(source).unwrap();
     let levels: Vec<Level> = levels.iter().step_by(3).map(|text| game.level(text).unwrap()).collect();
     let report = Panel::new(criteria).judge_game(&game, &levels, Seed::from_text("judged"));
-    ReportedGame { title: card.title.clone(), goal: card.goal.clone(), game, levels, report }
+    SurveyedGame { name: card.title.clone(), goal: card.goal.clone(), game, levels, report }
 }
 
 fn write(dir: &Path) -> GameSetReport {
@@ -30,7 +32,7 @@ fn write(dir: &Path) -> GameSetReport {
         ..Criteria::full()
     };
     let corpus = embedded::corpus().unwrap();
-    let games: Vec<ReportedGame> =
+    let games: Vec<SurveyedGame> =
         GAMES.iter().map(|name| judged(corpus.find(name).unwrap(), &criteria)).collect();
     let known: Vec<(String, Game)> = corpus
         .games
@@ -48,8 +50,8 @@ fn write(dir: &Path) -> GameSetReport {
         seed: Seed::from_text("report"),
     };
     let report = GameSetReport::of(&sample);
-    let showcase = Showcase { title: "Three games", games: &games, seconds: Some(3.5) };
-    write_game_report(Draft::create(dir).unwrap(), &report, &showcase).unwrap();
+    let draft = Draft::create(dir).unwrap();
+    game_report(draft, &report, &games, ("Three games", "constructive", Some(3.5))).unwrap();
     report
 }
 
@@ -58,21 +60,10 @@ fn a_report_is_three_files_and_the_page_needs_no_other() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path().join("report");
     let report = write(&dir);
-    let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
-    let json: GameSetReport = serde_json::from_slice(&read("report.json")).unwrap();
-    assert_eq!(json, report);
-    assert!(
-        !String::from_utf8(read("report.json")).unwrap().contains("seconds"),
-        "time is no part of the report"
-    );
-    assert!(read("sheet.png").starts_with(b"\x89PNG"));
-    let page = String::from_utf8(read("report.html")).unwrap();
-    assert_eq!(page.matches("<img src=\"data:image/png;base64,").count(), GAMES.len());
-    for outside in ["http://", "https://", "src=\"/", "href=", "<script"] {
-        assert!(!page.contains(outside), "{outside}");
-    }
+    let page = page(&dir, GAMES.len());
     // A copy of a corpus game is told.
-    assert_eq!(report.novelty.near_corpus.count, GAMES.len() as u64);
+    let near = report.set.share("novelty", "near_corpus").unwrap();
+    assert_eq!(near.count, GAMES.len() as u64);
     assert_eq!(report.games[0].nearest_corpus.as_ref().map(|near| near.name.as_str()), Some("quiet-jars"));
     for part in ["Quiet Jars", "Does skill pay?", "made in 3.5 s", "Every game", "3 of 10", "olets:30 wins"] {
         assert!(page.contains(part), "{part}");

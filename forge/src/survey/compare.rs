@@ -2,33 +2,32 @@
 
 use super::row::{GameRow, NO_LEVEL, NO_WIN};
 use engine::Seed;
-use serde::{Deserialize, Serialize};
+use report::{Table, TableCell};
 use statistics::{bootstrap_difference, quantile};
 
 /// Resamples of an interval.
 const RESAMPLES: usize = 4000;
 
-/// How a figure is to be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Unit {
+/// The unit of a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unit {
     /// A share of games, from 0 to 1: 100 points are all of them.
     Share,
     /// A mean of values with a natural scale of length 1: 100 points are 1.
     Scale,
-    /// A mean of counts: 100 points are as many as the others have in the mean.
+    /// A mean of counts: 100 points are as many as the others have on average.
     Count,
 }
 
-/// A line of the comparison: what it is called, how it is read, and its value for a game, or why it has none.
+/// A line of the comparison: its name, its unit, and its value for a game, or the reason that it has none.
 struct Question {
     name: &'static str,
     unit: Unit,
     of: fn(&GameRow) -> Result<f64, &'static str>,
 }
 
-/// How many lines there are.
-pub const LINES: usize = 7;
+/// The number of lines.
+const LINES: usize = 7;
 
 const QUESTIONS: [Question; LINES] = [
     Question {
@@ -53,8 +52,7 @@ fn yes(answer: bool) -> f64 {
 }
 
 /// A group of games in one line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     /// The mean, or the share; none of no games.
     pub mean: Option<f64>,
@@ -62,7 +60,7 @@ pub struct Group {
     pub median: Option<f64>,
     /// Games with a value.
     pub games: u64,
-    /// Games without one, and why.
+    /// Games without one, by reason.
     pub left_out: Vec<(String, u64)>,
 }
 
@@ -81,13 +79,11 @@ impl Group {
 }
 
 /// A line of the comparison.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// What it is about.
-    pub name: String,
-    /// How its figures are to be read.
-    pub unit: Unit,
+    /// Its subject.
+    pub name: &'static str,
+    unit: Unit,
     /// The one group.
     pub ours: Group,
     /// The other.
@@ -96,9 +92,9 @@ pub struct Line {
     pub difference: Option<f64>,
     /// Its interval, 95 %: of the means of games drawn anew from each group.
     pub interval: Option<[f64; 2]>,
-    /// The difference in points; see [`Unit`].
+    /// The difference in points: hundredths of all games, of the scale from 0 to 1, or of the count of the others.
     pub points: Option<f64>,
-    /// Whether the interval includes or exceeds 0: whether ours are at least level.
+    /// `true` if the interval includes or exceeds 0: ours are at least level.
     pub level: Option<bool>,
 }
 
@@ -115,7 +111,7 @@ impl Line {
             Unit::Count => mean(&b),
         };
         Line {
-            name: question.name.to_owned(),
+            name: question.name,
             unit: question.unit,
             ours: Group::of(&a, ours, question),
             theirs: Group::of(&b, theirs, question),
@@ -127,15 +123,38 @@ impl Line {
     }
 }
 
+impl Line {
+    fn group(&self, group: &Group) -> TableCell {
+        TableCell::figure(group.mean.map(|mean| {
+            let mean = match self.unit {
+                Unit::Share => format!("{:.0} %", 100.0 * mean),
+                Unit::Scale => format!("{mean:.2}"),
+                Unit::Count => format!("{mean:.1}"),
+            };
+            format!("{mean} of {}", group.games)
+        }))
+    }
+
+    fn difference(&self) -> TableCell {
+        let figure = |value: f64| match self.unit {
+            Unit::Share => format!("{:+.0}", 100.0 * value),
+            Unit::Scale => format!("{value:+.2}"),
+            Unit::Count => format!("{value:+.1}"),
+        };
+        TableCell::figure(self.difference.zip(self.interval).map(|(difference, [low, high])| {
+            format!("{} ({} to {})", figure(difference), figure(low), figure(high))
+        }))
+    }
+}
+
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// Two groups of games, line by line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// In the order of telling; [`LINES`] of them.
+    /// The lines, in the order of telling.
     pub lines: Vec<Line>,
 }
 
@@ -146,8 +165,34 @@ impl Comparison {
         Comparison { lines: (0..).zip(&QUESTIONS).map(line).collect() }
     }
 
-    /// On how many lines ours are at least level.
-    pub fn level(&self) -> usize {
-        self.lines.iter().filter(|line| line.level == Some(true)).count()
+    /// The comparison as a table; below it, the games that were left out.
+    pub fn table(&self) -> Table {
+        let level = self.lines.iter().filter(|line| line.level == Some(true)).count();
+        let mut note = format!("At least level on {level} of {} lines.", self.lines.len());
+        for (side, of) in
+            [("ours", (|line| &line.ours) as fn(&Line) -> &Group), ("theirs", |line| &line.theirs)]
+        {
+            for line in &self.lines {
+                for (reason, count) in &of(line).left_out {
+                    note += &format!(" {}, {side}: {count} left out, {reason}.", line.name);
+                }
+            }
+        }
+        let columns = ["Line", "Ours", "Theirs", "Difference (95 %)", "Points", "At least level"];
+        let mut table = Table::new("side-by-side", "Side by side", &note, &columns);
+        for line in &self.lines {
+            let measure = if line.unit == Unit::Share { "share" } else { "mean" };
+            let points = line.points.map(|points| format!("{points:+.0}"));
+            let level = line.level.map(|level| if level { "yes" } else { "no" }.to_owned());
+            table.push(vec![
+                TableCell::text(format!("{} ({measure})", line.name)),
+                line.group(&line.ours),
+                line.group(&line.theirs),
+                line.difference(),
+                TableCell::figure(points),
+                TableCell::figure(level),
+            ]);
+        }
+        table
     }
 }

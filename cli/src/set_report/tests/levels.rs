@@ -1,7 +1,11 @@
-use super::*;
+use super::page;
 use crate::input;
-use engine::Seed;
-use forge::levels::report::{Expense, Judged, Sample, Survey};
+use crate::set_report::{Pictures, level_report};
+use engine::{Analysis, Level, Seed};
+use forge::levels::Cost;
+use forge::levels::report::{LevelSetReport, Sample};
+use forge::survey::{LevelSurvey, SurveyedLevel};
+use snapshots::Draft;
 use std::path::Path;
 use validators::{Criteria, Difficulty};
 
@@ -23,9 +27,9 @@ fn write(name: &str, dir: &Path) -> LevelSetReport {
     };
     let asked = |at| Some(if at % 2 == 0 { Difficulty::Hard } else { Difficulty::Easy });
     let asked: Vec<_> = levels.iter().cloned().enumerate().map(|(at, level)| (level, asked(at))).collect();
-    let survey = Survey::new(&analysis, &criteria, Seed::from_text("survey")).unwrap();
-    let set: Vec<Judged> = survey.judge(&asked);
-    let cost = Expense { calls: 123_456, looks: 40, accepted: levels.len() as u64, ..Expense::default() };
+    let survey = LevelSurvey::new(&analysis, &criteria, Seed::from_text("survey")).unwrap();
+    let set: Vec<SurveyedLevel> = survey.judge(&asked);
+    let cost = Cost { calls: 123_456, looks: 40, ..Cost::default() };
     let report = LevelSetReport::of(&Sample {
         analysis: &analysis,
         method: "constructive",
@@ -36,12 +40,13 @@ fn write(name: &str, dir: &Path) -> LevelSetReport {
     });
     let pictures = Pictures {
         title: name,
+        method: "constructive",
         analysis: &analysis,
         levels: &levels,
         examples: &levels[..1],
         seconds: Some(3.5),
     };
-    write_level_report(Draft::create(dir).unwrap(), &report, &pictures).unwrap();
+    level_report(Draft::create(dir).unwrap(), &report, &pictures).unwrap();
     report
 }
 
@@ -50,20 +55,11 @@ fn a_report_is_three_files_and_the_page_needs_no_other() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path().join("report");
     let report = write("quiet-jars", &dir);
-    let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
-    let json: LevelSetReport = serde_json::from_slice(&read("report.json")).unwrap();
-    assert_eq!(json, report);
-    assert!(
-        !String::from_utf8(read("report.json")).unwrap().contains("seconds"),
-        "time is no part of the report"
-    );
-    assert!(read("sheet.png").starts_with(b"\x89PNG"));
-    let page = String::from_utf8(read("report.html")).unwrap();
-    assert_eq!(page.matches("<img src=\"data:image/png;base64,").count(), report.levels.len() + 1);
-    assert_eq!(page.matches("<svg class=\"heat\"").count(), report.ranges.len());
-    for outside in ["http://", "https://", "src=\"/", "href=", "<script"] {
-        assert!(!page.contains(outside), "{outside}");
-    }
+    let json: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(dir.join("report.json")).unwrap()).unwrap();
+    assert_eq!(json["levels"].as_array().unwrap().len(), report.levels.len());
+    let page = page(&dir, report.levels.len() + 1);
+    assert_eq!(page.matches("<svg class=\"plot heat\"").count(), report.ranges.len());
     // Rules are text, not markup.
     assert!(page.contains("&gt; "));
     for part in ["Can they be won?", "Does skill pay?", "As hard", "made in 3.5 s", "Every level"] {

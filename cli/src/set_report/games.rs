@@ -1,0 +1,93 @@
+//! A set of games as a page.
+
+use super::{MOST, Sheet, Shot, Showcase, cell, failed, figure, made_in, write};
+use crate::failure::Failure;
+use crate::page::words;
+use engine::{Analysis, Level, Seed, State};
+use forge::games::report::GameSetReport;
+use forge::survey::SurveyedGame;
+use render::{Looks, Picture, Style, picture};
+use snapshots::Draft;
+use validators::Difficulty;
+
+/// Pixels of the longer side of a board, about.
+const SIDE: u32 = 380;
+
+/// Writes the report on a set of games, which are in the order of its rows. Cost: O(pixels), and half an episode for each game.
+pub(crate) fn game_report(
+    draft: Draft,
+    report: &GameSetReport,
+    games: &[SurveyedGame],
+    (title, method, seconds): (&str, &str, Option<f64>),
+) -> Result<(), Failure> {
+    let (mut entries, mut shots) = (Vec::new(), Vec::new());
+    for ((at, game), entry) in games.iter().enumerate().zip(&report.games) {
+        let drawn = if at < MOST { drawn(game)? } else { None };
+        let chips = entry.levels.iter().enumerate().map(|(number, level)| chip(number, level.label));
+        shots.push(Shot {
+            figure: drawn.as_ref().map(|picture| figure(picture, &entry.title)).transpose()?,
+            head: entry.title.clone(),
+            goal: entry.goal.clone(),
+            line: entry.remark(),
+            chips: chips.collect(),
+        });
+        entries.extend(drawn.map(|picture| (picture, format!("{}\n{}", entry.title, entry.goal))));
+    }
+    let showcase = Showcase {
+        title: title.to_owned(),
+        subtitle: format!(
+            "{} · {method} · semantics {}, generation {}{}",
+            words::many(games.len() as u64, "game"),
+            engine::SEMANTICS,
+            generators::GENERATION,
+            made_in(seconds)
+        ),
+        manual: "game-report",
+        items: ["The games".to_owned(), "A middle level, halfway through a win.".to_owned()],
+        pictures: shots,
+        examples: Vec::new(),
+        ranges: Vec::new(),
+        grids: &["kinds", "difficulty"],
+        sheet: Sheet(entries, 4, 340),
+    };
+    write(draft, &report.set, &showcase)
+}
+
+fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, Failure> {
+    let Some((level, state)) = middle(game) else { return Ok(None) };
+    let looks = Looks::of(&Analysis::of(&game.game));
+    picture(&looks, &state, &Style::bare(cell(level, SIDE, 40))).map(Some).map_err(failed)
+}
+
+/// A level with a known win, as near to the middle as there is, and its state halfway through; or else the middle level as it
+/// begins.
+fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
+    let SurveyedGame { game, levels, report, .. } = surveyed;
+    let half = levels.len() / 2;
+    let won = |at: usize| Some((at, report.levels.get(at)?.witness.as_ref()?));
+    let nearest = (0..levels.len()).filter_map(won).min_by_key(|(at, _)| at.abs_diff(half));
+    let Some((at, witness)) = nearest else {
+        let level = levels.get(half)?;
+        return Some((level, game.start(level, Seed::from_text("picture"))));
+    };
+    let mut state = game.start(&levels[at], witness.seed);
+    for &action in &witness.actions[..witness.actions.len() / 2] {
+        game.step(&mut state, action);
+    }
+    Some((&levels[at], state))
+}
+
+/// The mark of a level: its class and its words.
+fn chip(number: usize, label: Option<Difficulty>) -> (&'static str, String) {
+    let class = match label {
+        Some(Difficulty::VeryEasy) => "d0",
+        Some(Difficulty::Easy) => "d1",
+        Some(Difficulty::Medium) => "d2",
+        Some(Difficulty::Hard) => "d3",
+        Some(Difficulty::VeryHard) => "d4",
+        Some(Difficulty::Unbeaten) => "d5",
+        None => "dx",
+    };
+    let label = label.map_or("not measured".to_owned(), |label| label.to_string());
+    (class, format!("level {number}: {label}"))
+}

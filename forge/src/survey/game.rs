@@ -1,0 +1,88 @@
+//! Games judged for a comparison.
+
+use super::row::{self, GameRow};
+use engine::{Digest, Game, Level, Seed};
+use rayon::prelude::*;
+use report::canonical::to_canonical_json;
+use validators::{Criteria, CriteriaError, GameReport, Judgement, Panel};
+
+/// A game and all that its judges found.
+#[derive(Clone, Debug)]
+pub struct SurveyedGame {
+    /// Title in the game's own fiction, or its name among the games that it is judged with.
+    pub name: String,
+    /// The way to win, for people: a line; may be empty.
+    pub goal: String,
+    /// The game.
+    pub game: Game,
+    /// Its levels that were judged, in their order.
+    pub levels: Vec<Level>,
+    /// The findings of the panel about each level, and about all together.
+    pub report: GameReport,
+}
+
+impl SurveyedGame {
+    /// The first criterion that is not met: on the levels in their order, then on all together.
+    pub(crate) fn obstacle(&self) -> Option<&Judgement> {
+        let of_levels = self.report.levels.iter().find_map(|report| report.first_obstacle());
+        of_levels.or_else(|| self.report.judgements.iter().find(|judged| !judged.finding.verdict.is_pass()))
+    }
+}
+
+/// Judges games one after the other, all alike.
+pub struct GameSurvey {
+    criteria: Criteria,
+    panel: Panel,
+    seed: Seed,
+}
+
+/// The criteria that a survey asks: the others are no matter of the comparison, or these tell what they ask.
+const ASKED: [&str; 2] = ["winnable", "skill"];
+
+impl GameSurvey {
+    /// A survey by these criteria, of which it takes the players of the ladder, budgets and thresholds, and neither what they ask
+    /// nor the players that they hold out.
+    ///
+    /// # Errors
+    /// The criteria are not sensible.
+    pub fn new(criteria: &Criteria, seed: Seed) -> Result<GameSurvey, CriteriaError> {
+        let ask = ASKED.map(str::to_owned).to_vec();
+        let criteria = Criteria { ask, held_out: Vec::new(), ..criteria.clone() };
+        criteria.check()?;
+        Ok(GameSurvey { panel: Panel::new(&criteria), criteria, seed })
+    }
+
+    /// Criteria whose budgets let a hundred games with three levels each be judged in half an hour on two cores.
+    pub fn criteria() -> Criteria {
+        let ladder = ["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:200"];
+        Criteria {
+            ladder: ladder.map(str::to_owned).to_vec(),
+            held_out: Vec::new(),
+            budget: 1_500_000,
+            ladder_plays: 10,
+            ladder_calls: 2_000_000,
+            ..Criteria::full()
+        }
+    }
+
+    /// The digest of all that decides the row of a game: its rules and levels, the criteria, the seed and the rules of the engine.
+    /// Rows with the same digest are the same.
+    pub fn digest(&self, game: &Game, levels: &[Level]) -> Digest {
+        let levels: Vec<Digest> = levels.iter().map(Level::digest).collect();
+        let seed = *self.seed.as_bytes();
+        let of = (row::FORM, engine::SEMANTICS, game.digest(), levels, &self.criteria, seed);
+        Digest::of(to_canonical_json(&of).expect("the criteria were checked").as_bytes())
+    }
+
+    /// The row of a game. It gets the same one alone and among others, on any number of threads. Cost: for each level the
+    /// budgets of the criteria for a witness and for a ladder; all levels at once.
+    pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GameRow {
+        let seed = self.seed.child(&game.digest().to_string(), 0);
+        let judge = |level: &Level| self.panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
+        let report = GameReport { levels: levels.par_iter().map(judge).collect(), judgements: Vec::new() };
+        let (name, game, levels) = (name.to_owned(), game.clone(), levels.to_vec());
+        let digest = self.digest(&game, &levels);
+        let surveyed = SurveyedGame { name, goal: String::new(), game, levels, report };
+        GameRow::of(&surveyed, &self.criteria, digest, seed)
+    }
+}

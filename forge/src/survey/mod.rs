@@ -1,0 +1,20 @@
+//! Surveys: levels and games from anywhere (written by people, or made), all judged by the same verdicts under the same budget, so
+//! that sets of them can be described and compared.
+//!
+//! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) sum a set up; [`Comparison`] sets two
+//! groups of games side by side, as `docs/side-by-side.md` explains.
+
+mod compare;
+mod edge;
+mod game;
+mod level;
+mod row;
+
+pub use compare::{Comparison, Line};
+pub use edge::{Edge, SEARCH};
+pub use game::{GameSurvey, SurveyedGame};
+pub use level::{LevelSurvey, SurveyedLevel};
+pub use row::GameRow;
+
+#[cfg(test)]
+mod tests;

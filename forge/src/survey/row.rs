@@ -1,0 +1,147 @@
+//! The findings about a game.
+
+use super::edge::{Edge, ladder_order};
+use super::game::SurveyedGame;
+use engine::{Analysis, Digest, Episode, Outcome, Seed};
+use report::TableCell;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use validators::game_measures::Guards;
+use validators::{Criteria, GameReport, PlayMeasures, Recorded, Report, RulesShown};
+
+/// The version of the form of a row.
+pub(super) const FORM: u32 = 3;
+
+/// The reason of a missing figure: no win of any level was found.
+pub(super) const NO_WIN: &str = "no win found";
+/// The reason of a missing figure: there was no level to judge.
+pub(super) const NO_LEVEL: &str = "no level";
+
+/// The findings about a game.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GameRow {
+    /// Its name.
+    pub name: String,
+    /// The digest of all that decides the row; see [`GameSurvey::digest`](super::GameSurvey::digest).
+    pub digest: Digest,
+    /// Levels that were judged.
+    pub levels: u64,
+    /// Levels of which a win was found.
+    pub won: u64,
+    /// Interactions of the rules, guards ([`Guards`]) apart.
+    pub rules: u64,
+    /// Those of them that some recorded episode executes.
+    pub executed: u64,
+    /// Types that are declared for sprites of their own.
+    pub types: u64,
+    /// Those of them that were there or held in some recorded episode.
+    pub there: u64,
+    /// The edge of the strongest player over the best of those who do not look ahead.
+    pub edge: Option<Edge>,
+    /// The rank correlation of a player's place in the ladder with how it fares; see [`ladder_order`].
+    pub order: Option<f64>,
+    /// Different interactions, guards apart, that wins execute: over all wins ([`PlayMeasures::mechanics`]).
+    pub mechanics: Option<u64>,
+    /// The despair on the way to a win ([`PlayMeasures::drama`]).
+    pub drama: Option<f64>,
+    /// Forward-model calls of all searches and plays.
+    pub calls: u64,
+}
+
+impl GameRow {
+    /// The columns of [`GameRow::cells`].
+    pub(crate) const COLUMNS: [&str; 13] = [
+        "won",
+        "rules",
+        "run",
+        "sprites",
+        "there",
+        "mechanics",
+        "drama",
+        "strongest",
+        "floor",
+        "points",
+        "95 %",
+        "score",
+        "order",
+    ];
+
+    /// The row of a game whose judges were asked for `winnable` and `skill`. Cost: the recorded episodes are played again three
+    /// times, and that of [`PlayMeasures::of`].
+    pub(crate) fn of(surveyed: &SurveyedGame, criteria: &Criteria, digest: Digest, seed: Seed) -> GameRow {
+        let SurveyedGame { name, game, levels, report: GameReport { levels: reports, .. }, .. } = surveyed;
+        let analysis = Analysis::of(game);
+        let guards: Vec<usize> = Guards::of(&analysis).lines().collect();
+        let inner = |lines: &[usize]| lines.iter().filter(|line| !guards.contains(line)).count() as u64;
+        let shown = RulesShown::of(game, levels, reports, seed.child("rules", 0));
+        let (executed, idle) = (inner(&shown.executed), inner(&shown.idle));
+        let (there, absent) = (shown.there.len() as u64, shown.absent.len() as u64);
+        let wins: Vec<Vec<Episode>> = reports.iter().map(wins).collect();
+        let recording: Vec<Recorded<'_>> = levels
+            .iter()
+            .zip(&wins)
+            .filter(|(_, wins)| !wins.is_empty())
+            .map(|(level, wins)| Recorded { level, episodes: wins })
+            .collect();
+        let judgements = || reports.iter().flat_map(|report| &report.judgements);
+        let play = PlayMeasures::of(&analysis, &recording, seed.child("play", 0));
+        GameRow {
+            name: name.clone(),
+            digest,
+            levels: levels.len() as u64,
+            won: recording.len() as u64,
+            rules: executed + idle,
+            executed,
+            types: there + absent,
+            there,
+            edge: Edge::of(game, reports, criteria),
+            order: ladder_order(reports),
+            drama: play.as_ref().map(|play| play.drama),
+            mechanics: play.as_ref().map(|play| play.mechanics as u64),
+            calls: judgements().map(|judgement| judgement.finding.calls()).sum(),
+        }
+    }
+
+    /// The row as cells of a table.
+    pub(crate) fn cells(&self) -> [TableCell; 13] {
+        let edge = self.edge.as_ref();
+        let points = |value: f64| format!("{:+.0}", 100.0 * value);
+        let signed = |value: Option<f64>| TableCell::figure(value.map(|value| format!("{value:+.2}")));
+        [
+            TableCell::Figure(format!("{} of {}", self.won, self.levels)),
+            TableCell::Count(self.rules),
+            TableCell::Count(self.executed),
+            TableCell::Count(self.types),
+            TableCell::Count(self.there),
+            TableCell::count(self.mechanics),
+            TableCell::number(self.drama, 2),
+            TableCell::figure(edge.map(|edge| format!("{} {} of {}", edge.strongest, edge.wins, edge.plays))),
+            TableCell::figure(edge.map(|edge| format!("{} {}", edge.floor, edge.floor_wins))),
+            TableCell::figure(edge.map(|edge| points(edge.points))),
+            TableCell::figure(edge.map(|edge| edge.interval.map(points).join(" to "))),
+            signed(edge.and_then(|edge| edge.score)),
+            signed(self.order),
+        ]
+    }
+}
+
+impl fmt::Display for GameRow {
+    /// One line for people who wait: `hailglass: won 3 of 3, rules 9, …`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.name)?;
+        let cells = self.cells();
+        let known = GameRow::COLUMNS.iter().zip(&cells).filter(|(_, cell)| **cell != TableCell::Missing);
+        known.enumerate().try_for_each(|(at, (column, cell))| {
+            let comma = if at == 0 { "" } else { "," };
+            write!(f, "{comma} {column} {}", cell.plain())
+        })
+    }
+}
+
+/// The episodes of a level that win: the shortest that is known, then those of players.
+fn wins(report: &Report) -> Vec<Episode> {
+    let mut won = report.episodes();
+    won.retain(|episode| episode.outcome == Outcome::Won);
+    won
+}

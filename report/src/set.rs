@@ -1,0 +1,278 @@
+//! The report on a set of levels or games as data: questions, each answered by figures, with tables beside them.
+//!
+//! A figure is stated once, with its name for people and its key for programs: the page shows the one, [`SetReport::to_json`]
+//! writes the other. The keys are a promise to those who read the JSON; the names may be reworded.
+
+use crate::canonical::{CanonicalError, Node};
+use crate::{Mean, Quantiles, Share, Table};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The report on a set.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SetReport {
+    /// The figures to look at first, under names of their own.
+    pub headlines: Vec<Figure>,
+    /// The questions, in the order of the page.
+    pub sections: Vec<Section>,
+    /// The tables beside the questions.
+    pub tables: Vec<Table>,
+    data: Data,
+}
+
+/// A question with its answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// The name of its object in the JSON.
+    pub key: &'static str,
+    /// The question.
+    pub title: &'static str,
+    /// A remark on the figures; may be empty.
+    pub note: String,
+    /// The figures that the page shows, in their order.
+    pub figures: Vec<Figure>,
+    /// The tables that the page shows below them.
+    pub tables: Vec<Table>,
+    data: Data,
+}
+
+/// A figure of a page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// The name of its value in the JSON; empty for figures that only the page has.
+    pub key: &'static str,
+    /// The name for people.
+    pub name: String,
+    /// The value.
+    pub value: Value,
+}
+
+/// The value of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A share of a count.
+    Share(Share),
+    /// A mean from 0 to 1.
+    Mean(Mean),
+    /// A mean that may be negative.
+    Gain(Mean),
+    /// The quantiles of a sample.
+    Quantiles(Quantiles),
+    /// A number of things.
+    Count(u64),
+    /// A number of things among so many of something.
+    CountOf(u64, u64, &'static str),
+    /// A share without a band, from 0 to 1.
+    Expected(f64),
+    /// Nothing is known.
+    Missing,
+}
+
+impl From<Share> for Value {
+    fn from(share: Share) -> Value {
+        Value::Share(share)
+    }
+}
+
+/// Named values for programs, and the first of them that JSON cannot hold.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Data {
+    fields: BTreeMap<String, Node>,
+    fault: Option<CanonicalError>,
+}
+
+impl Data {
+    fn put(&mut self, key: &str, value: &(impl Serialize + ?Sized)) {
+        match Node::of(value) {
+            Ok(node) => _ = self.fields.insert(key.to_owned(), node),
+            Err(fault) => _ = self.fault.get_or_insert(fault.inside(key)),
+        }
+    }
+}
+
+impl SetReport {
+    /// Adds a value that programs read and the page does not show.
+    #[must_use]
+    pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> SetReport {
+        self.data.put(key, value);
+        self
+    }
+
+    /// Adds a question; `null` in the JSON under the key if it cannot be asked.
+    #[must_use]
+    pub fn section(self, key: &str, section: impl Into<Option<Section>>) -> SetReport {
+        let Some(section) = section.into() else { return self.data(key, &()) };
+        let mut report = self;
+        report.data.fields.insert(key.to_owned(), Node::Object(section.data.fields.clone()));
+        report.data.fault =
+            report.data.fault.or_else(|| section.data.fault.clone().map(|fault| fault.inside(key)));
+        report.sections.push(section);
+        report
+    }
+
+    /// Adds a table.
+    #[must_use]
+    pub fn table(mut self, table: impl Into<Option<Table>>) -> SetReport {
+        self.tables.extend(table.into());
+        self
+    }
+
+    /// Takes figures, each by its section and key, to the head of the page under other names; those that are missing are left
+    /// out.
+    #[must_use]
+    pub fn headlines(mut self, figures: &[(&str, &str, &str)]) -> SetReport {
+        for (section, key, name) in figures {
+            let found = self.figure(section, key).cloned();
+            self.headlines.extend(found.map(|figure| Figure { name: (*name).to_owned(), ..figure }));
+        }
+        self
+    }
+
+    /// A figure by its section and key.
+    pub fn figure(&self, section: &str, key: &str) -> Option<&Figure> {
+        let section = self.sections.iter().find(|found| found.key == section)?;
+        section.figures.iter().find(|figure| figure.key == key)
+    }
+
+    /// A share by its section and key.
+    pub fn share(&self, section: &str, key: &str) -> Option<Share> {
+        match self.figure(section, key)?.value {
+            Value::Share(share) => Some(share),
+            _ => None,
+        }
+    }
+
+    /// Its canonical JSON, with a line feed at the end.
+    ///
+    /// # Errors
+    /// A number is not finite: a score that the game made so.
+    pub fn to_json(&self) -> Result<String, CanonicalError> {
+        match &self.data.fault {
+            Some(fault) => Err(fault.clone()),
+            None => Ok(Node::Object(self.data.fields.clone()).to_text()),
+        }
+    }
+}
+
+impl Section {
+    /// A question without answers.
+    pub fn new(key: &'static str, title: &'static str, note: impl Into<String>) -> Section {
+        let (figures, tables) = (Vec::new(), Vec::new());
+        Section { key, title, note: note.into(), figures, tables, data: Data::default() }
+    }
+
+    /// Adds a value that programs read and the page does not show.
+    #[must_use]
+    pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> Section {
+        self.data.put(key, value);
+        self
+    }
+
+    /// Adds a figure that only the page shows.
+    #[must_use]
+    pub fn shown(self, name: impl Into<String>, value: Value) -> Section {
+        self.figure("", name, value)
+    }
+
+    /// Adds a share.
+    #[must_use]
+    pub fn share(self, key: &'static str, name: impl Into<String>, share: Share) -> Section {
+        self.data(key, &share).figure(key, name, Value::Share(share))
+    }
+
+    /// Adds a mean from 0 to 1, if there is one.
+    #[must_use]
+    pub fn mean(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
+        self.data(key, &mean).known(key, name, mean.map(Value::Mean))
+    }
+
+    /// Adds a mean that may be negative, if there is one.
+    #[must_use]
+    pub fn gain(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
+        self.data(key, &mean).known(key, name, mean.map(Value::Gain))
+    }
+
+    /// Adds the quantiles of some values, if there are any.
+    #[must_use]
+    pub fn quantiles(self, key: &'static str, name: &str, values: &[f64]) -> Section {
+        let found = Quantiles::of(values);
+        self.data(key, &found).known(key, name, found.map(Value::Quantiles))
+    }
+
+    /// Adds a number of things.
+    #[must_use]
+    pub fn count(self, key: &'static str, name: &str, count: u64) -> Section {
+        self.data(key, &count).figure(key, name, Value::Count(count))
+    }
+
+    /// Adds how often each of some things came, as a count or, of so many, as a share.
+    #[must_use]
+    pub fn tally(self, key: &str, name: &str, counts: &BTreeMap<String, u64>, of: Option<u64>) -> Section {
+        counts.iter().fold(self.data(key, counts), |section, (thing, &count)| {
+            let value = of.map_or(Value::Count(count), |of| Value::Share(Share::new(count, of)));
+            section.shown(format!("{name}: {thing}"), value)
+        })
+    }
+
+    /// Adds a table that only the page shows.
+    #[must_use]
+    pub fn table(mut self, table: Table) -> Section {
+        self.tables.push(table);
+        self
+    }
+
+    fn known(self, key: &'static str, name: &str, value: Option<Value>) -> Section {
+        match value {
+            Some(value) => self.figure(key, name, value),
+            None => self,
+        }
+    }
+
+    /// Adds a figure that the page shows and [`SetReport::headlines`] finds by its key; programs read it elsewhere.
+    #[must_use]
+    pub fn figure(mut self, key: &'static str, name: impl Into<String>, value: Value) -> Section {
+        self.figures.push(Figure { key, name: name.into(), value });
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_figure_is_stated_once_and_told_twice() {
+        let validity = Section::new("validity", "Are they levels?", "")
+            .share("passes", "every criterion met", Share::new(1, 2))
+            .gain("order", "order", None)
+            .tally("obstacles", "fail first", &BTreeMap::from([("length".to_owned(), 1)]), Some(2))
+            .data("fit", &[1]);
+        let report = SetReport::default()
+            .data("count", &2)
+            .section("validity", validity)
+            .section("skill", None)
+            .headlines(&[
+                ("validity", "passes", "pass"),
+                ("validity", "order", "order"),
+                ("skill", "wins", "gain"),
+            ]);
+        let names: Vec<&str> = report.sections[0].figures.iter().map(|figure| figure.name.as_str()).collect();
+        assert_eq!(names, ["every criterion met", "fail first: length"]);
+        assert_eq!(report.headlines.iter().map(|figure| figure.name.as_str()).collect::<Vec<_>>(), ["pass"]);
+        let json: serde_json::Value = serde_json::from_str(&report.to_json().unwrap()).unwrap();
+        assert_eq!((&json["skill"], &json["count"]), (&serde_json::Value::Null, &2.into()));
+        let validity = &json["validity"];
+        assert_eq!((&validity["passes"]["count"], &validity["obstacles"]["length"]), (&1.into(), &1.into()));
+        assert_eq!(
+            (&validity["order"], &validity["fit"]),
+            (&serde_json::Value::Null, &serde_json::json!([1]))
+        );
+    }
+
+    #[test]
+    fn a_number_that_json_lacks_is_named() {
+        let skill = Section::new("skill", "Does skill pay?", "").data("points", &f64::NAN);
+        let error = SetReport::default().section("skill", skill).to_json().unwrap_err();
+        assert_eq!(error.at, "skill.points");
+    }
+}
