@@ -18,9 +18,9 @@ use serde::Serialize;
 
 /// The validators of a set of criteria, cheapest first.
 pub struct Panel {
-    validators: Vec<Box<dyn Validator + Send>>,
-    of_game: Vec<Box<dyn GameValidator + Send>>,
-    /// The criteria, and the calls that they share, if bounded.
+    validators: Vec<(Stage, Box<dyn Validator + Send>)>,
+    of_game: Vec<(Subject, Box<dyn GameValidator + Send>)>,
+    /// The criteria, and the calls that they share, if those are bounded.
     bound: Option<(Criteria, u64)>,
     /// The search for a win.
     search: PortfolioConfig,
@@ -28,16 +28,34 @@ pub struct Panel {
     exploration: u64,
 }
 
-/// Criteria that do not apply to a level that cannot be won.
-const NEED_A_WIN: [&str; 2] = ["length", "skill"];
-/// The message for criteria that are skipped on an unwinnable level.
+/// The stage of a criterion of levels: what it takes for granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// It asks nothing of play, or its answer is why the others are not asked.
+    Start,
+    /// It asks about plays that get beyond the first tick.
+    Play,
+    /// It searches for a win.
+    Search,
+    /// It asks about the win.
+    Win,
+    /// It lets a ladder of players play, who may win what no search did; not asked of a level that nobody can win.
+    Ladder,
+}
+
+/// The subject of a criterion of games.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Subject {
+    /// The players.
+    Players,
+    /// The rules: doubts about them may follow from a level that nobody can win.
+    Rules,
+}
+
+/// The words for criteria that are not asked of an unwinnable level.
 const NOT_ASKED: &str = "not asked: the level cannot be won";
-/// Criteria that need no play, or whose failure is the reason why the others are skipped.
-const OF_THE_START: [&str; 2] = ["well-formed", "readable"];
-/// The message for criteria that are skipped because the game stops in its first tick.
+/// The words for criteria that are not asked where no play gets beyond its first tick.
 const STOPPED: &str = "not asked: the game stops in its first tick";
-/// Criteria of a game whose failures or unknowns may follow from a level that cannot be won.
-const OF_RULES: [&str; 2] = ["rule-use", "ablation"];
 
 /// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -159,16 +177,16 @@ impl Panel {
             depths: c.depths.clone(),
             ..PortfolioConfig::default()
         };
-        let level: [(&str, Box<dyn Validator + Send>); 8] = [
-            ("well-formed", Box::new(WellFormed)),
-            ("readable", Box::new(Readable)),
-            ("not-idle", Box::new(IdleWithin(NotIdle { plays: c.idle_plays }, idle))),
+        let level: [(Stage, Box<dyn Validator + Send>); 8] = [
+            (Stage::Start, Box::new(WellFormed)),
+            (Stage::Start, Box::new(Readable)),
+            (Stage::Play, Box::new(IdleWithin(NotIdle { plays: c.idle_plays }, idle))),
             (
-                "not-random",
+                Stage::Play,
                 Box::new(RandomWithin(NotRandom { plays: c.random_plays, most: c.random_wins }, random)),
             ),
             (
-                "early-death",
+                Stage::Play,
                 Box::new(NoEarlyDeath {
                     ticks: c.early_ticks,
                     calls: c.early_calls,
@@ -176,21 +194,24 @@ impl Panel {
                     share: c.early_deaths,
                 }),
             ),
-            ("winnable", Box::new(Reachable(Winnable(search.clone())))),
-            ("length", Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
-            ("skill", Box::new(SkillPays { climb, wins: c.skill_wins, scores: c.skill_scores, play_calls })),
-        ];
-        let game: [(&str, Box<dyn GameValidator + Send>); 3] = [
-            ("skill-overall", Box::new(SkillOverall { wins: c.skill_overall })),
-            ("rule-use", Box::new(RuleUse)),
+            (Stage::Search, Box::new(Reachable(Winnable(search.clone())))),
+            (Stage::Win, Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
             (
-                "ablation",
+                Stage::Ladder,
+                Box::new(SkillPays { climb, wins: c.skill_wins, scores: c.skill_scores, play_calls }),
+            ),
+        ];
+        let game: [(Subject, Box<dyn GameValidator + Send>); 3] = [
+            (Subject::Players, Box::new(SkillOverall { wins: c.skill_overall })),
+            (Subject::Rules, Box::new(RuleUse)),
+            (
+                Subject::Rules,
                 Box::new(RulesMatter { calls: c.ablation_calls, total: allowance.map(Allowance::ablation) }),
             ),
         ];
         Panel {
-            validators: level.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
-            of_game: game.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
+            validators: level.into_iter().filter(|(_, validator)| c.asks(validator.name())).collect(),
+            of_game: game.into_iter().filter(|(_, validator)| c.asks(validator.name())).collect(),
             bound: None,
             search,
             exploration: allowance.map_or(u64::MAX, Allowance::exploration),
@@ -248,7 +269,7 @@ impl Panel {
         let recording = recorded(levels, &episodes);
         let usage = Usage::within(game, &recording, self.exploration);
         let ladders: Vec<Option<&Ladder>> = reports.iter().map(Report::ladder).collect();
-        let judge = |validator: &(dyn GameValidator + Send)| {
+        let judge = |(subject, validator): &(Subject, Box<dyn GameValidator + Send>)| {
             let criterion = validator.name();
             let seed = seed.child(criterion, 0);
             let case = GameCase {
@@ -260,39 +281,38 @@ impl Panel {
                 seed,
             };
             let finding = validator.validate(case);
-            let why = consequence(reports, &finding.verdict).filter(|_| OF_RULES.contains(&criterion));
+            let why = consequence(reports, &finding.verdict).filter(|_| *subject == Subject::Rules);
             Judgement { criterion, finding: why.map_or(finding, |why| not_asked(&why)) }
         };
-        self.of_game.iter().map(|validator| judge(&**validator)).collect()
+        self.of_game.iter().map(judge).collect()
     }
 
     fn ask(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {
         let analysis = Analysis::of(game);
         let mut report = Report { judgements: Vec::new(), witness };
-        let ask = |validator: &(dyn Validator + Send), witness: Option<&Episode>| {
+        let ask = |stage: Stage, validator: &(dyn Validator + Send), witness: Option<&Episode>| {
             let criterion = validator.name();
             let case = Case { game, level, seed: seed.child(criterion, 0), analysis: &analysis, witness };
             let mut finding = validator.validate(case);
-            if criterion == "winnable" && !screen {
+            if stage == Stage::Search && !screen {
                 causes::explain(case, &mut finding);
                 too_soon::explain(case, &mut finding, &self.search);
             }
             Judgement { criterion, finding }
         };
-        for validator in &self.validators {
-            let criterion = validator.name();
-            let why = match criterion {
-                _ if !OF_THE_START.contains(&criterion) && report.is_stopped() => Some(STOPPED),
-                _ if NEED_A_WIN.contains(&criterion) && report.is_unwinnable() => Some(NOT_ASKED),
+        for (stage, validator) in &self.validators {
+            let why = match stage {
+                Stage::Start => None,
+                _ if report.is_stopped() => Some(STOPPED),
+                Stage::Win | Stage::Ladder if report.is_unwinnable() => Some(NOT_ASKED),
                 _ => None,
             };
             if let Some(why) = why {
-                let finding = not_asked(why);
-                report.judgements.push(Judgement { criterion, finding });
+                report.judgements.push(Judgement { criterion: validator.name(), finding: not_asked(why) });
                 continue;
             }
-            let mut judgement = ask(&**validator, report.witness.as_ref());
-            if judgement.criterion == "winnable" {
+            let mut judgement = ask(*stage, &**validator, report.witness.as_ref());
+            if *stage == Stage::Search {
                 report.accept(&mut judgement);
             }
             let passed = judgement.finding.verdict.is_pass();
@@ -304,16 +324,13 @@ impl Panel {
         // A player of the ladder may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
             report.witness = Some(won);
-            for validator in self.validators.iter().filter(|validator| validator.name() != "skill") {
-                let at = report.judgements.iter().position(|judged| judged.criterion == validator.name());
-                let judged = &mut report.judgements[at.expect("all were asked")];
-                match (&judged.finding.verdict, judged.criterion) {
-                    (Verdict::Unknown { .. }, "winnable") => {
-                        judged.finding.verdict = Verdict::Pass { witness: report.witness.clone() };
+            for ((stage, validator), judged) in self.validators.iter().zip(&mut report.judgements) {
+                let Verdict::Unknown { .. } = judged.finding.verdict else { continue };
+                match stage {
+                    Stage::Search => {
+                        judged.finding.verdict = Verdict::Pass { witness: report.witness.clone() }
                     }
-                    (Verdict::Unknown { .. }, "length") => {
-                        *judged = ask(&**validator, report.witness.as_ref())
-                    }
+                    Stage::Win => *judged = ask(*stage, &**validator, report.witness.as_ref()),
                     _ => {}
                 }
             }

@@ -36,11 +36,11 @@ pub struct MadeGame {
     pub game: Game,
     /// The rules as text, headed by title and canary.
     pub text: String,
-    /// What is told of it.
+    /// Its card.
     pub card: Card,
     /// Its levels, from the easiest to the hardest.
     pub levels: Vec<FoundLevel>,
-    /// What was found of all levels together.
+    /// The findings about all levels together.
     pub together: Vec<Judgement>,
     /// The episode that wins each level.
     pub witnesses: Vec<Episode>,

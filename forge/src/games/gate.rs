@@ -21,11 +21,11 @@ pub(super) struct Gate<'a> {
     panel: Panel,
 }
 
-/// Why a game is turned down in which too little happens.
+/// The reason for turning down a game in which too little happens.
 const MEAGRE: &str = "meagre";
-/// Why a game is turned down that owes its first judges' verdict to luck.
+/// The reason for turning down a game that owes its first judges' verdict to luck.
 const SECOND_JUDGES: &str = "second judges";
-/// Why a game is turned down that is too much like another.
+/// The reason for turning down a game that is too much like another.
 pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
 impl<'a> Gate<'a> {

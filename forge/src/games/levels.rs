@@ -12,11 +12,11 @@ use validators::{Criteria, Finding, Judgement, Panel, Rate, Report, SkillOverall
 pub struct FoundLevel {
     /// The level.
     pub level: Level,
-    /// What its judges found; its witness wins it.
+    /// The findings of its judges; its witness wins it.
     pub report: Report,
     /// The difficulty that its generator was asked for, from 0 to 1.
     pub difficulty: f64,
-    /// Which candidate for its place it was, counted from 0.
+    /// Its number among the candidates for its place, from 0.
     pub candidate: u32,
     /// The seed of its judges.
     pub seed: Seed,
@@ -27,9 +27,9 @@ pub struct FoundLevel {
 pub struct FoundLevels {
     /// In the order of the game: from the easiest to the hardest for the ladder, if it played, or else as was asked for.
     pub levels: Vec<FoundLevel>,
-    /// How often plain tree search wins each.
+    /// The win rate of plain tree search on each.
     pub mcts: Vec<Rate>,
-    /// What the judges of the game found.
+    /// The findings of the judges of the game.
     pub together: Vec<Judgement>,
 }
 
@@ -105,8 +105,8 @@ impl Levels<'_> {
         Some(levels)
     }
 
-    /// Whether skill cannot be hoped to pay over all levels, after some of them: before the others cost as much again. After
-    /// all, whether it does not.
+    /// Tests whether skill cannot be hoped to pay over all levels, after some of them: before the others cost as much again. After
+    /// all of them, whether it does not pay.
     fn is_hopeless(&self, game: &Game, levels: &[(u32, FoundLevel)]) -> bool {
         let ladders: Vec<_> = levels.iter().filter_map(|(_, found)| found.report.ladder()).collect();
         let skill = SkillOverall { wins: self.criteria.skill_overall };
@@ -114,7 +114,7 @@ impl Levels<'_> {
             && skill.is_hopeless(&ladders, game.is_deterministic(), self.count as usize)
     }
 
-    /// What the judges of the game find; None if one of them says no.
+    /// Returns the findings of the judges of the game; `None` if one of them says no.
     pub(crate) fn together(
         &self,
         game: &Game,
@@ -135,8 +135,8 @@ impl Levels<'_> {
         }
     }
 
-    /// Whether judges with other dice let the same levels in, as far as chance has a say. The first judges choose among
-    /// candidates, so that what they saw of those they chose is better than what there is: here nothing is chosen. Cost: as of
+    /// Tests whether judges with other dice let the same levels in, as far as chance has a say. The first judges choose among
+    /// candidates, so that their findings about the chosen ones are too good; here nothing is chosen. Cost: as of
     /// judging the levels that were let in, without the search for a win.
     pub(crate) fn hold(&self, game: &Game, levels: &[FoundLevel], seed: Seed, tally: &mut Tally) -> bool {
         let ask =
@@ -229,7 +229,7 @@ impl Levels<'_> {
     }
 }
 
-/// The criteria whose answer does not hang on dice once there is a witness.
+/// The criteria whose answer does not depend on dice once there is a witness.
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
 
 /// The criteria whose plays are dear.
@@ -245,12 +245,12 @@ fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
 }
 
 impl FoundLevel {
-    /// How easy it is for the ladder, from 0 to 1; the same for all levels if none played.
+    /// Its ease for the ladder, from 0 to 1; the same for all levels if none played.
     fn ease(&self) -> f64 {
         self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
     }
 
-    /// What a card tells of the level, and the episode that wins it; none unless its judges were asked about idle and random
+    /// Returns the card of the level and the episode that wins it; `None` unless its judges were asked about idle and random
     /// play and for a win.
     pub(crate) fn card(&self, number: usize, mcts: &Rate) -> Option<(LevelCard, Episode)> {
         let report = &self.report;

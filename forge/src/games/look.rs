@@ -13,7 +13,7 @@ use validators::{Case, Climb, Ladder, Recorded, Rung};
 const DIFFICULTIES: [f64; 3] = [0.0, 0.5, 1.0];
 /// Boards that are tried for each.
 const BOARDS: u64 = 3;
-/// Who plays in a look: none of those that only acceptance asks.
+/// The players of a look: none of those that only acceptance asks.
 const PLAYERS: [&str; 4] = ["do-nothing", "random", "mcts:30", "olets:50"];
 /// Plays of each player on each level.
 const PLAYS: u64 = 4;
@@ -34,7 +34,7 @@ const SIGHT: f64 = 24.0;
 /// The share of plays that the best player wins where a game is neither too easy nor too hard.
 const CHALLENGE: f64 = 0.75;
 
-/// How much of each constraint a game has to meet to be shown to the judges: levels, little luck, an edge, wins.
+/// The part of each constraint that a game has to meet to be shown to the judges: levels, little luck, an edge, wins.
 const PROMISING: [f64; 4] = [1.0, 0.75, 0.5, 0.5];
 
 /// Looks at games for one order, cheaply: three levels, few and weak players.
@@ -43,11 +43,11 @@ pub(super) struct Looker<'a> {
     seed: Seed,
 }
 
-/// What a look found.
+/// The result of a look.
 pub(super) struct Look {
-    /// What the search is told.
+    /// The evaluation for the search.
     pub(super) evaluation: Evaluation,
-    /// Whether it is worth the judges' while: it need not be feasible, since they know stronger players.
+    /// `true` if it is worth the judges' while: it need not be feasible, since they know stronger players.
     pub(super) is_promising: bool,
     /// Forward-model calls.
     pub(super) calls: u64,
@@ -63,7 +63,7 @@ pub(super) fn axes() -> Vec<Axis> {
     ]
 }
 
-/// How one level went.
+/// The results of the players on one level.
 struct Played {
     level: Level,
     ladder: Ladder,

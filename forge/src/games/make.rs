@@ -1,4 +1,4 @@
-//! How games of each method are made.
+//! The making of games by each method.
 
 use super::candidate::{MadeGame, Step};
 use super::gate::{Gate, NEAR_KNOWN};
@@ -19,15 +19,15 @@ use validators::novelty::GameForm;
 /// The games of an order.
 #[derive(Clone, Debug)]
 pub struct GameSet {
-    /// Those that could be made, in the order of their numbers.
+    /// The games that could be made, in the order of their numbers.
     pub games: Vec<MadeGame>,
-    /// What was tried, and why the others failed.
+    /// The candidates that were tried, and why the others failed.
     pub tally: Tally,
     /// Games that a search looked at.
     pub looks: u64,
 }
 
-/// Why no game was made.
+/// The reasons why no game was made.
 #[derive(Debug, thiserror::Error)]
 pub enum GamesError {
     /// The criteria are not sensible.
@@ -104,7 +104,7 @@ struct Maker<'a> {
     progress: &'a dyn Progress,
 }
 
-/// What came of the attempts for one game.
+/// The result of the attempts for one game.
 struct Attempted {
     /// The game, and the attempt after the one that it comes from.
     made: Option<(MadeGame, u32)>,
@@ -275,7 +275,7 @@ fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
 /// The games of a set so far: no two are near, and none of the kinds is crowded.
 struct Company {
     forms: Vec<GameForm>,
-    /// How many there are of each kind of avatar and goal, and how many there may be.
+    /// The number of games with each kind of avatar and goal, and the most that there may be.
     kinds: BTreeMap<(AvatarKind, GoalKind), usize>,
     room: usize,
 }

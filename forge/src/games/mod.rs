@@ -1,7 +1,7 @@
-//! Whole games on request: what `arcade generate games` makes, and what a release is minted of.
+//! Whole games on request: for `arcade generate games`, and for the releases that are minted of them.
 //!
 //! Rules come from a generator, or from a search that is told how weak players fare on a few quick levels. Then levels are
-//! found, what nobody would miss is taken away, and the panel has the last word, with dice of its own and with players that no
+//! found, redundant rules are taken away, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
 
 mod candidate;

@@ -1,4 +1,4 @@
-//! What is asked of a set of games.
+//! Orders of games.
 
 use crate::levels::Method;
 use generators::games::Kind;
@@ -6,12 +6,12 @@ use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
 use validators::{Criteria, CriteriaError};
 
-/// What is asked of a set of games.
+/// An order of games.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
-    /// How they come about.
+    /// The method of making them.
     pub method: Method,
-    /// How many.
+    /// The number of games.
     pub count: u32,
     /// The kinds, which take turns.
     pub kinds: Vec<Kind>,
@@ -19,15 +19,15 @@ pub struct GameOrder {
     pub levels: u32,
     /// Levels that are tried for one place, at most.
     pub level_tries: u32,
-    /// How large levels are.
+    /// The sizes of levels.
     pub board: Board,
     /// Interactions that a game has at least, after shrinking, guards included.
     pub least_interactions: usize,
     /// Different interactions, guards apart, that the wins of its levels execute together, at least.
     pub least_mechanics: usize,
-    /// What each game must show. See [`GameOrder::criteria_by_default`].
+    /// The criteria that each game has to meet. See [`GameOrder::criteria_by_default`].
     pub criteria: Criteria,
-    /// How much is tried.
+    /// The effort.
     pub effort: GameEffort,
 }
 
@@ -54,7 +54,7 @@ impl Default for Board {
     }
 }
 
-/// How much is tried for one game.
+/// The effort for one game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GameEffort {
     /// Attempts: constructive games, searches, or, of an archive, rounds.

@@ -1,4 +1,4 @@
-//! Smaller games that play the same: what nobody would miss is taken away.
+//! Smaller games that play the same: redundant rules are taken away.
 
 use super::candidate::Candidate;
 use super::levels::FoundLevel;
@@ -65,7 +65,7 @@ impl Played {
         self.levels.iter().map(|(text, _)| game.level(text).ok()).collect()
     }
 
-    /// Where the rules of a game, by their text, are executed.
+    /// The places where the rules of a game, by their text, are executed.
     fn executions(&self, game: &Game) -> BTreeMap<String, Vec<[usize; 2]>> {
         let Some(levels) = self.read(game) else { return BTreeMap::new() };
         let recorded =
@@ -73,7 +73,7 @@ impl Played {
         rules(game).zip(executions(game, &recorded.collect::<Vec<_>>())).collect()
     }
 
-    /// Whether a smaller game plays as a game does; `uses` says where rules are executed.
+    /// Tests whether a smaller game plays as a game does; `uses` has the places where rules are executed.
     fn alike(&self, game: &Game, smaller: &Game, uses: &BTreeMap<String, Vec<[usize; 2]>>) -> bool {
         let Some(levels) = self.read(smaller) else { return false };
         let same = |[level, episode]: [usize; 2]| {

@@ -16,11 +16,11 @@ pub(super) struct Gate<'a> {
 
 /// A level that was let in, or why it was not.
 pub(super) struct Judged {
-    /// What stands in the way, by name.
+    /// The first criterion that is not met.
     pub(super) obstacle: Option<&'static str>,
-    /// What the panel found.
+    /// The findings of the panel.
     pub(super) report: Report,
-    /// How hard it is, if that was asked.
+    /// The ladder that tells how hard it is, if that was asked.
     pub(super) ladder: Option<Ladder>,
     /// Forward-model calls.
     pub(super) calls: u64,
@@ -92,19 +92,19 @@ impl<'a> Gate<'a> {
     }
 }
 
-/// How many times the random plays of the criteria are played once more.
+/// The factor by which the random plays of the criteria are played once more.
 const LUCK_PLAYS: u32 = 5;
-/// How many times the share of the criteria they may win: that of the panel is one of a few, and so a strict one.
+/// The factor of the criteria's share that they may win: that of the panel is one of a few, and so a strict one.
 const LUCK_WINS: f64 = 1.6;
 
 /// The ladders that a level has to climb for its difficulty: how many times the plays of the criteria, and how far the ease
 /// must be from any other label.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
 
-/// The share of all plays of a ladder that have to be won: what hardly anybody wins may find nobody the next time.
+/// The share of all plays of a ladder that have to be won: a level that hardly anybody wins may find nobody the next time.
 const BEATEN: f64 = 0.02;
 
-/// Whether a level bears a label, and not just so: another look with other dice should find it too.
+/// Tests whether a level bears a label, and not just so: another look with other dice should find it too.
 fn is_within(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     bears(ladder, asked, margin) && wins(ladder) >= BEATEN
 }

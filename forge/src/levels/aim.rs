@@ -1,11 +1,11 @@
-//! What makes one level better than another, for an order.
+//! The objective of a search for levels.
 
 use super::order::{LevelOrder, Method};
 use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
 use validators::{Case, Climb, Difficulty, Ladder, Measures, RuleRef};
 
-/// What a search strives for.
+/// The aim of a search.
 pub(super) struct Aim<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
@@ -14,13 +14,13 @@ pub(super) struct Aim<'a> {
     climb: Option<Climb>,
 }
 
-/// What the aim says of a level that can be won.
+/// The aim's answer about a level that can be won.
 pub(super) struct Told {
-    /// How much of what the order asks of the win it meets, from 0.0 to 1.0.
+    /// The part of the order's demands on the win that it meets, from 0.0 to 1.0.
     pub(super) constraint: f64,
-    /// How good the level is, from 0.0 to 1.0.
+    /// The quality of the level, from 0.0 to 1.0.
     pub(super) objective: f64,
-    /// What its win is like.
+    /// The measures of its win.
     pub(super) measures: Measures,
     /// Forward-model calls.
     pub(super) calls: u64,
@@ -28,9 +28,9 @@ pub(super) struct Told {
 
 /// Plays of each player of the ladder in a look.
 const PLAYS: u64 = 6;
-/// So much of a label's eases, on the side of another label, is not aimed at: another look may find the level beyond.
+/// The margin of a label's eases, towards another label, that is not aimed at: another look may find the level beyond.
 const MARGIN: f64 = 0.08;
-/// So much of them an archive does without; what just misses the rest counts for nine tenths.
+/// The margin that an archive leaves out; levels that just miss the rest count for nine tenths.
 const KEPT: f64 = 0.03;
 const CLOSE: f64 = 0.9;
 /// The share of all plays of a ladder that are won where another ladder will hardly find nobody who wins.
@@ -86,7 +86,7 @@ impl<'a> Aim<'a> {
         Told { constraint, objective, measures, calls }
     }
 
-    /// How good a level is, whatever is asked: the win is long for the board, most rules take part in it, choices matter,
+    /// Returns the quality of a level, whatever is asked: the win is long for the board, most rules take part in it, choices matter,
     /// losing is never far, and walls are built rather than sprinkled.
     fn quality(&self, level: &Level, measures: &Measures) -> f64 {
         let sides = (level.columns() + level.rows()) as f64;
@@ -124,7 +124,7 @@ fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
 }
 
-/// Whether a ladder found a label, by a margin.
+/// Tests whether a ladder found a label, by a margin.
 pub(super) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
     ladder.difficulty == asked && (low..=high).contains(&ease)

@@ -1,4 +1,4 @@
-//! Which measures an archive of levels tells apart.
+//! The measures by which an archive tells levels apart.
 
 use super::aim::{OF_PLAY, names};
 use super::look::Look;
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!(Axes::of([].iter(), 1000).axes[0].range, (0.0, 1.5));
     }
 
-    /// What nobody has won has no length: it would lie in one bin with all others.
+    /// A level that nobody has won has no length: it would lie in one bin with all others.
     #[test]
     fn levels_without_a_win_are_told_apart_by_their_boards() {
         let names: Vec<&str> = names().collect();

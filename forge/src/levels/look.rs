@@ -30,18 +30,18 @@ pub(super) struct Looker<'a> {
     seed: Seed,
 }
 
-/// What a look found.
+/// The result of a look.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
-    /// What the search is told.
+    /// The evaluation for the search.
     pub(super) evaluation: Evaluation,
     /// The first constraint that is not met.
     pub(super) obstacle: Option<&'static str>,
-    /// Whether a win is known, so that its measures are.
+    /// `true` if a win is known, and with it its measures.
     pub(super) is_won: bool,
     /// Forward-model calls.
     pub(super) calls: u64,
-    /// How many looks of usual cost it counts for: [`LEAST_EFFORT`] if no win was looked for, else one for every
+    /// The number of looks of usual cost that it counts for: [`LEAST_EFFORT`] if no win was looked for, else one for every
     /// [`super::Effort::calls`] that the search for a win took, and at least one.
     pub(super) effort: f64,
 }
@@ -49,12 +49,12 @@ pub(super) struct Look {
 /// The effort of a look that ends with the first, cheap judges.
 pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 
-/// What a look has cost so far.
+/// The cost of a look so far.
 #[derive(Default)]
 struct Spent {
     /// Forward-model calls.
     calls: u64,
-    /// Those of the search for a win, once there is one.
+    /// The calls of the search for a win, once there is one.
     searched: Option<u64>,
 }
 
@@ -64,7 +64,7 @@ impl Spent {
     }
 }
 
-/// What a win of all random plays would take from the objective; one of them takes a third of it.
+/// The loss of objective if random play always wins; one win costs a third of it.
 const LUCK: f64 = 8.0;
 /// Calls for each tick of a play: some decisions of several players.
 const TICK: u64 = 500;
@@ -77,7 +77,7 @@ struct Constraints {
     met: usize,
 }
 
-/// How many there are.
+/// The number of them.
 const CONSTRAINTS: usize = NAMES.len();
 /// Their names; the last is what the order asks of the win.
 const NAMES: [&str; 6] =
@@ -216,7 +216,7 @@ impl<'a> Looker<'a> {
         solve(self.analysis, level, &config, seed)
     }
 
-    /// How near to a win the best of the plays came, from 0.0, not at all, to 1.0.
+    /// The progress of the best of the plays towards a win, from 0.0, none, to 1.0.
     fn nearness(&self, level: &Level, solved: &Solved) -> f64 {
         let wins: Vec<_> = self.analysis.goals().iter().filter(|goal| goal.win).collect();
         let missing =

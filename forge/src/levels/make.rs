@@ -1,4 +1,4 @@
-//! How levels of each method are made.
+//! The making of levels by each method.
 
 use super::accept::{Gate, Judged};
 use super::look::Look;
@@ -19,13 +19,13 @@ pub struct MadeLevel {
     pub number: u32,
     /// The level.
     pub level: Level,
-    /// What its judges found; none of a level that nobody has judged.
+    /// The findings of its judges; `None` for a level that nobody has judged.
     pub report: Option<Report>,
-    /// How hard it is, if that was asked.
+    /// The ladder that tells how hard it is, if that was asked.
     pub ladder: Option<Ladder>,
 }
 
-/// What it cost to make levels.
+/// The cost of making levels. Time is no part of it: it differs from run to run.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {
     /// Levels that a search looked at.
@@ -34,7 +34,7 @@ pub struct Cost {
     pub judged: u64,
     /// Forward-model calls of all looks and judges.
     pub calls: u64,
-    /// How often each criterion, of a look or of the panel, or the generator said no.
+    /// Rejections by criterion, of a look or of the panel, or by the generator.
     pub rejections: BTreeMap<String, u64>,
 }
 
@@ -77,13 +77,13 @@ impl Cost {
 /// The levels of an order.
 #[derive(Clone, Debug)]
 pub struct LevelSet {
-    /// Those that could be made, in the order of their numbers.
+    /// The levels that could be made, in the order of their numbers.
     pub levels: Vec<MadeLevel>,
-    /// What it cost.
+    /// The cost of making them.
     pub cost: Cost,
 }
 
-/// Why no level was made.
+/// The reasons why no level was made.
 #[derive(Debug, thiserror::Error)]
 pub enum LevelsError {
     /// The game leaves the generator no way.
@@ -251,7 +251,7 @@ impl Maker<'_> {
 
 /// Boards that are drawn for a level that nobody judges.
 const DRAWS: u64 = 20;
-/// Why a candidate is no level of the set.
+/// The reasons why a candidate is no level of the set.
 pub(super) const TWICE: &str = "the same level twice";
 pub(super) const NO_BOARD: &str = "no board holds what is asked";
 

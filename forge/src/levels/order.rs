@@ -1,4 +1,4 @@
-//! What is asked of a set of levels.
+//! Orders of levels.
 
 use engine::{Analysis, SpriteType};
 use generators::levels::{LevelConfig, PuzzleConfig};
@@ -7,7 +7,7 @@ use std::fmt;
 use std::str::FromStr;
 use validators::{Criteria, Difficulty, RuleRef};
 
-/// How levels come about.
+/// The method of making levels or games.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
@@ -55,29 +55,29 @@ impl FromStr for Method {
     }
 }
 
-/// What is asked of a set of levels.
+/// An order of levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelOrder {
-    /// How they come about.
+    /// The method of making them.
     pub method: Method,
-    /// How many.
+    /// The number of levels.
     pub count: u32,
     /// Size, and what else the constructive generator is told. Its difficulty is replaced where [`LevelOrder::difficulty`] is
     /// given.
     pub config: LevelConfig,
-    /// How hard each is to be, measured with the ladder of the criteria.
+    /// The difficulty of each, measured with the ladder of the criteria.
     pub difficulty: Option<Difficulty>,
     /// Ticks that the shortest win found takes at least.
     pub min_solution: Option<usize>,
     /// Rules that the win has to use, every one.
     pub uses: Vec<RuleRef>,
-    /// What each level must show. See [`LevelOrder::criteria_by_default`].
+    /// The criteria that each level has to meet. See [`LevelOrder::criteria_by_default`].
     pub criteria: Criteria,
-    /// How much a search may look at.
+    /// The effort of a search.
     pub effort: Effort,
 }
 
-/// How much a search may look at for one level, or for one level of an archive.
+/// The effort of a search for one level, or for one level of an archive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     /// Candidates that are looked at between two attempts to have the best of them accepted.
@@ -121,7 +121,7 @@ impl LevelOrder {
         Criteria { ask, random_wins: 0.025, ..Criteria::default() }
     }
 
-    /// What the constructive generator is told: a difficulty that is asked is a difficulty of its own scale, too.
+    /// The configuration of the constructive generator, with the difficulty that is asked translated to its own scale.
     pub fn config(&self) -> LevelConfig {
         let labels = Difficulty::LABELS.iter().map(|(label, _)| label);
         let place = self.difficulty.and_then(|asked| labels.clone().position(|label| *label == asked));
@@ -129,7 +129,7 @@ impl LevelOrder {
         LevelConfig { difficulty, ..self.config.clone() }
     }
 
-    /// What is told to the makers of puzzles: as many things to push as the configuration counts. An archive sees to it itself
+    /// The configuration of puzzles: as many things to push as the configuration counts. An archive sees to it itself
     /// that its levels get better, one by one. Where a difficulty is asked, the farthest position is seldom the one:
     /// few of the players that measure it win puzzles that long.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
@@ -145,7 +145,7 @@ impl LevelOrder {
         }
     }
 
-    /// Whether something is asked that only playing can tell.
+    /// Tests whether something is asked that only playing can tell.
     pub fn has_to_be_measured(&self) -> bool {
         self.difficulty.is_some() || self.min_solution.is_some() || !self.uses.is_empty()
     }

@@ -31,11 +31,11 @@ pub struct GameRow {
     pub won: u64,
     /// Interactions of the rules, guards ([`Guards`]) apart.
     pub rules: u64,
-    /// Those of them that some recorded episode executes.
+    /// The number of these rules that some recorded episode executes.
     pub executed: u64,
     /// Types that are declared for sprites of their own.
     pub types: u64,
-    /// Those of them that were there or held in some recorded episode.
+    /// The number of these types that were there or held in some recorded episode.
     pub there: u64,
     /// The edge of the strongest player over the best of those who do not look ahead.
     pub edge: Option<Edge>,

@@ -21,7 +21,7 @@ struct Hits {
     within_one: Share,
     /// The expected share if each level were picked from the pool at random; `None` without a pool.
     random_exact: Option<f64>,
-    /// As that, with neighbouring labels.
+    /// The same with neighbouring labels.
     random_within_one: Option<f64>,
 }
 
