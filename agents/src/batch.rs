@@ -103,7 +103,9 @@ pub enum BatchError {
         lanes: usize,
     },
     /// The number of actions is not a multiple of the number of states.
-    #[error("{actions} actions are no plans for {lanes} states; give equally many for each")]
+    #[error(
+        "{actions} actions cannot be divided into plans for {lanes} states; give the same number for each"
+    )]
     Plans {
         /// The number of actions given.
         actions: usize,
@@ -111,7 +113,7 @@ pub enum BatchError {
         lanes: usize,
     },
     /// There is no such lane.
-    #[error("there is no state {lane} among {lanes}; count from 0")]
+    #[error("state {lane} does not exist: there are {lanes}, counted from 0")]
     NoLane {
         /// The index given.
         lane: usize,

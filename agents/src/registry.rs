@@ -136,7 +136,7 @@ impl fmt::Display for UnknownPlanner {
         if PLANNERS.contains(&name) {
             return write!(
                 f,
-                "`{}` is no planner; what follows the colon is a number of calls: `{name}:500`",
+                "`{}` is not a planner; the colon is followed by a number of calls: `{name}:500`",
                 self.0
             );
         }

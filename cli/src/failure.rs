@@ -44,7 +44,7 @@ impl Failure {
                 Failure::malformed(format_args!("{name}: there is no such file"))
             }
             ErrorKind::InvalidFilename => {
-                Failure::malformed(format_args!("{name}: there is no such file, and none can have this name"))
+                Failure::malformed(format_args!("{name}: there is no such file, and the name is invalid"))
             }
             ErrorKind::IsADirectory => {
                 Failure::malformed(format_args!("{name} is a folder: name a file in it"))
@@ -61,7 +61,7 @@ impl Failure {
                 "cannot write `{name}`: its folder does not exist; create it first, or name another file"
             )),
             ErrorKind::InvalidFilename => Failure::malformed(format_args!(
-                "cannot write `{name}`: no file can have this name; choose a shorter one"
+                "cannot write `{name}`: the name is invalid; choose a shorter one"
             )),
             ErrorKind::IsADirectory => {
                 Failure::malformed(format_args!("cannot write `{name}`: it is a folder; name a file in it"))
@@ -109,8 +109,8 @@ impl fmt::Display for Failure {
 fn advice(kind: ErrorKind) -> Option<&'static str> {
     match kind {
         ErrorKind::PermissionDenied => Some("check the permissions of the file and of the folders above it"),
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Some("make room there and try again"),
-        ErrorKind::ReadOnlyFilesystem => Some("choose a place that can be written"),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Some("free some space and try again"),
+        ErrorKind::ReadOnlyFilesystem => Some("choose a writable folder"),
         _ => None,
     }
 }
@@ -147,7 +147,7 @@ mod tests {
         check(
             &Failure::write(at, ErrorKind::StorageFull.into()),
             ENVIRONMENT,
-            "cannot write `a.gif`: no storage space; make room there and try again",
+            "cannot write `a.gif`: no storage space; free some space and try again",
         );
         check(
             &Failure::write(at, ErrorKind::TimedOut.into()),

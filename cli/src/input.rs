@@ -187,7 +187,7 @@ fn no_game_in(folder: &Path) -> Failure {
     let games = sorted_entries(&below).unwrap_or_default();
     match games.iter().find(|game| game.join("game.vgdl").is_file()) {
         Some(first) => Failure::malformed(format!(
-            "{name}: no game in this folder, but in {}: name that folder where several games are taken, or one game, such as {}",
+            "{name}: this folder contains no game, but {} does: name that folder to use all its games, or one game, such as {}",
             below.display(),
             first.display()
         )),
@@ -293,7 +293,7 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     read.map_err(|error| Failure::read(path, error))?;
     if bytes.starts_with(&ZSTD) {
         return Err(Failure::malformed(format!(
-            "{name}: an archive, where a text file is wanted; unpack it (tar -xf {name}), and name a file or folder in it"
+            "{name}: this is an archive, not a text file; unpack it (tar -xf {name}), and name a file or folder in it"
         )));
     }
     if bytes.len() > limit {

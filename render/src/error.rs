@@ -6,7 +6,7 @@ use crate::board::{MAX_CELL, MAX_PIXELS, MIN_CELL};
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// A cell is too small or too large.
-    #[error("{cell} pixels a cell; a cell has {MIN_CELL} to {MAX_CELL}")]
+    #[error("a cell of {cell} pixels is out of range: use {MIN_CELL} to {MAX_CELL}")]
     Cell {
         /// The pixels requested.
         cell: u32,
@@ -21,7 +21,7 @@ pub enum RenderError {
     #[error("a picture without pixels cannot be written")]
     Empty,
     /// A frame of an animation has another size than the first one.
-    #[error("a frame of {width} × {height} pixels in an animation of another size")]
+    #[error("a frame of {width} × {height} pixels does not fit an animation of another size")]
     Frame {
         /// Pixels.
         width: u32,

@@ -29,12 +29,10 @@ pub enum AncestryError {
     #[error("the parent does not verify: {0}")]
     Damaged(String),
     /// The parent's record of its own ancestors is in another version's format.
-    #[error(
-        "what the parent knows of the releases before it cannot be read ({0}): use the arcade that minted it"
-    )]
+    #[error("the parent's list of earlier releases cannot be read ({0}): use the arcade that minted it")]
     Unreadable(serde_json::Error),
     /// A release of the same name is among the ancestors.
-    #[error("a release named `{0}` came before: a release needs a name of its own")]
+    #[error("an earlier release is named `{0}`: choose another name")]
     SameName(String),
     /// The folder cannot be read.
     #[error(transparent)]
@@ -64,7 +62,8 @@ impl Holdings {
     /// # Errors
     /// A card, a game or a level is malformed or cannot be read.
     pub(crate) fn read(contents: &Contents, manifest: &Manifest) -> Result<Holdings, AncestryError> {
-        let damaged = |path: &str| AncestryError::Damaged(format!("{path}: not what a release has there"));
+        let damaged =
+            |path: &str| AncestryError::Damaged(format!("{path}: not the content that a release has there"));
         let read = |path: &str| -> Result<String, AncestryError> {
             String::from_utf8(contents.read(path)?).map_err(|_| damaged(path))
         };

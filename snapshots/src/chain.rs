@@ -158,8 +158,8 @@ fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
                 };
                 if !fits {
                     problems.push(format!(
-                        "`{name}` in {} does not know what the releases before it hold: its recipe's `known` is not what \
-                         follows from the release with root {parent}",
+                        "`{name}` in {} has a wrong list of earlier content: its recipe's `known` does not \
+                         follow from the release with root {parent}",
                         link.place.display()
                     ));
                 }
@@ -169,7 +169,7 @@ fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
             };
             let found = [again(&holdings.forms, &forms), again(&holdings.items, &items)];
             problems.extend(found.into_iter().flatten().map(|found| {
-                format!("`{name}` in {} holds what came before it: {found}", link.place.display())
+                format!("`{name}` in {} repeats earlier content: {found}", link.place.display())
             }));
         }
         let of = |what: &String| format!("{what} of `{name}` again");

@@ -40,14 +40,14 @@ pub enum SnapshotError {
         path: PathBuf,
     },
     /// The output path holds the work of an interrupted mint.
-    #[error("`{}` holds what an interrupted mint has made: go on with --resume, or remove it to begin anew", .path.display())]
+    #[error("`{}` holds the work of an interrupted mint: continue with --resume, or remove it to start over", .path.display())]
     Interrupted {
         /// The folder.
         path: PathBuf,
     },
     /// The finished jobs are those of another mint.
     #[error(
-        "`{}` holds what another recipe, or another arcade, has made: go on with that one, or choose another --out",
+        "`{}` holds the work of another recipe or another arcade version: continue with that one, or choose another --out",
         .path.display()
     )]
     OtherPlan {
@@ -55,7 +55,7 @@ pub enum SnapshotError {
         path: PathBuf,
     },
     /// The release to be packed is sealed, so part of it is withheld.
-    #[error("`{}` is sealed, and an archive is a whole release: pack it when it is revealed", .path.display())]
+    #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .path.display())]
     HeldBack {
         /// The public part.
         path: PathBuf,
@@ -76,7 +76,7 @@ pub enum SnapshotError {
     },
     /// The secret was not drawn by arcade.
     #[error(
-        "`{}` is not a secret that can be trusted: {what}; draw one with `arcade release RECIPE --commit`", .path.display()
+        "`{}` is not a valid secret: {what}; draw one with `arcade release RECIPE --commit`", .path.display()
     )]
     WeakSecret {
         /// The file.
@@ -91,7 +91,7 @@ pub enum SnapshotError {
         path: PathBuf,
     },
     /// The output path ends in `..` or `.` or is the root of the file system.
-    #[error("`{}` has no name of its own: name the folder to create, as in --out releases/new", .path.display())]
+    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .path.display())]
     Nameless {
         /// The output path.
         path: PathBuf,
@@ -105,7 +105,7 @@ pub enum SnapshotError {
         problem: PathProblem,
     },
     /// A symbolic link. A release has only files and folders.
-    #[error("`{}` is a symbolic link, which is not followed: put the file itself there", .path.display())]
+    #[error("`{}` is a symbolic link, and links are not followed: replace it by the file", .path.display())]
     Link {
         /// The link.
         path: PathBuf,
@@ -119,7 +119,7 @@ pub enum SnapshotError {
         expected: &'static str,
     },
     /// A file exceeds the size limit.
-    #[error("`{}` is larger than {limit} bytes, the most that a snapshot may hold: split it", .path.display())]
+    #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -161,7 +161,7 @@ pub enum SnapshotError {
         source: serde_json::Error,
     },
     /// The manifest contradicts itself or its limits.
-    #[error("`{}` is not a sound manifest: {message}", .path.display())]
+    #[error("`{}` is not a valid manifest: {message}", .path.display())]
     Manifest {
         /// The manifest.
         path: PathBuf,
@@ -169,7 +169,7 @@ pub enum SnapshotError {
         message: String,
     },
     /// A folder that is searched for releases holds too many entries.
-    #[error("`{}` holds more than {limit} files and folders: name the releases one by one", .path.display())]
+    #[error("`{}` contains more than {limit} files and folders: name the releases one by one", .path.display())]
     Crowded {
         /// The folder.
         path: PathBuf,
@@ -177,13 +177,13 @@ pub enum SnapshotError {
         limit: usize,
     },
     /// A folder that is searched for releases has none.
-    #[error("`{}` holds no release: name a snapshot folder, its .tar.zst, or a folder of such", .path.display())]
+    #[error("`{}` contains no release: name a snapshot folder, its .tar.zst, or a folder of such", .path.display())]
     NoRelease {
         /// The folder.
         path: PathBuf,
     },
     /// An archive that is damaged before its manifest can be read.
-    #[error("`{}` is not a sound archive: {message}", .path.display())]
+    #[error("`{}` is not a valid archive: {message}", .path.display())]
     Archive {
         /// The archive.
         path: PathBuf,
@@ -207,13 +207,13 @@ pub enum SnapshotError {
         more: usize,
     },
     /// A file changed between two accesses.
-    #[error("`{}` changed while it was read: let nothing write there and try again", .path.display())]
+    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .path.display())]
     Changed {
         /// The file.
         path: PathBuf,
     },
     /// A path is too long for a tar header.
-    #[error("`{path}` is too long a path for an archive: pass the folder on as it is")]
+    #[error("the path `{path}` is too long for an archive: distribute the folder instead")]
     Untarable {
         /// The path in the archive.
         path: String,

@@ -95,7 +95,7 @@ impl fmt::Display for Flaw {
         match self {
             Flaw::Missing => write!(f, "missing"),
             Flaw::Extra => {
-                write!(f, "extra (not in the manifest; what goes along with a release belongs into papers/)")
+                write!(f, "extra (not in the manifest; accompanying files belong in papers/)")
             }
             Flaw::EmptyFolder => write!(f, "extra (an empty folder)"),
             Flaw::Size { found, stated } => {

@@ -25,7 +25,7 @@ const MAX_HEIGHT: usize = 64;
 #[derive(Debug, thiserror::Error)]
 pub enum ProofError {
     /// The release has no such item.
-    #[error("`{}` is no file and no game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]
+    #[error("`{}` is neither a file nor a game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]
     NoSuchItem {
         /// The requested item.
         id: String,
@@ -38,10 +38,10 @@ pub enum ProofError {
     #[error("the proof is larger than {MAX_PROOF} bytes: fetch it again")]
     TooLarge,
     /// The proof is not JSON of this shape.
-    #[error("it is no inclusion proof ({0}): fetch it again")]
+    #[error("this is not an inclusion proof ({0}): fetch it again")]
     Syntax(serde_json::Error),
     /// The proof is well-formed, but no valid proof has these values.
-    #[error("it is no sound inclusion proof ({0}): fetch it again")]
+    #[error("the inclusion proof is not valid ({0}): fetch it again")]
     Unsound(String),
     /// The tree of the manifest cannot be computed.
     #[error(transparent)]
@@ -125,7 +125,10 @@ impl ItemProof {
         let proof: ItemProof = serde_json::from_slice(bytes).map_err(ProofError::Syntax)?;
         let unsound = |what: String| Err(ProofError::Unsound(what));
         if proof.format != PROOF_FORMAT {
-            return unsound(format!("its format is {}, and {PROOF_FORMAT} is understood here", proof.format));
+            return unsound(format!(
+                "its format is {}, but this arcade reads format {PROOF_FORMAT}",
+                proof.format
+            ));
         }
         if proof.files.is_empty() {
             return unsound("it names no file".into());
@@ -136,7 +139,9 @@ impl ItemProof {
                 return unsound(format!("`{path}` cannot be in a snapshot: {problem}"));
             }
             if [HEADER_LEAF, MANIFEST_FILE].iter().any(|reserved| file.path.eq_ignore_ascii_case(reserved)) {
-                return unsound(format!("`{path}` is no file of a release, but stands for its manifest"));
+                return unsound(format!(
+                    "`{path}` is the reserved name of the manifest, not a file of a release"
+                ));
             }
             // The manifest's header is a leaf too, so there are as many leaves as a release can have files including
             // the manifest.
@@ -160,12 +165,12 @@ impl ItemProof {
         };
         if let Some(pair) = proof.files.windows(2).find(|pair| apart(pair)) {
             return unsound(format!(
-                "`{}` and `{}` do not have their places in one release",
+                "`{}` and `{}` cannot be in the same release",
                 pair[0].path, pair[1].path
             ));
         }
         if check_path(&proof.release).is_err() || proof.release.contains('/') {
-            return unsound(format!("`{}` is no name of a release", proof.release.escape_debug()));
+            return unsound(format!("`{}` is not a valid release name", proof.release.escape_debug()));
         }
         if to_canonical_json(&proof).map_err(SnapshotError::from)?.as_bytes() != bytes {
             return unsound("its text is not in canonical form".into());

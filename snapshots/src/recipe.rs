@@ -173,7 +173,7 @@ impl Known {
             let wrong = |_| RecipeError::Value {
                 key: "known.games",
                 message: format!(
-                    "holds a text that is no game, number {at}: name the release before with --parent"
+                    "has an invalid game at index {at}: name the previous release with --parent"
                 ),
             };
             Ok(GameForm::of(&Game::from_source(text).map_err(wrong)?))
@@ -218,13 +218,13 @@ pub enum RecipeError {
     OtherSecret,
     /// The secret is right, but the recipe has changed.
     #[error(
-        "the recipe is not the one that was committed to: something else than its `commitment` was changed after `--commit`; \
+        "the recipe is not the one that was committed to: more than its `commitment` was changed after `--commit`; \
          {0}, or commit again with `arcade release RECIPE --commit`"
     )]
     OtherRecipe(&'static str),
     /// A secret was given for an open release.
     #[error(
-        "the release is open: its recipe has a `seed`, so --secret is not for it; to seal it, put the secret's `commitment` in \
+        "the release is open: its recipe has a `seed`, so it takes no --secret; to seal it, put the secret's `commitment` in \
              the place of `seed`"
     )]
     Open,
@@ -286,7 +286,7 @@ impl Recipe {
             (Some(_), Some(_)) => {
                 return wrong(
                     "commitment",
-                    "and `seed` are both there: a seed is public or sealed".to_owned(),
+                    "and `seed` exclude each other: a seed is public or sealed".to_owned(),
                 );
             }
             (None, None) => {
@@ -349,7 +349,7 @@ impl Recipe {
             criteria.check().map_err(named)?;
             // The criteria that the cards show.
             let shown = ["not-idle", "not-random", "winnable"];
-            if let Some(missing) = shown.into_iter().find(|name| !criteria.asks(name)) {
+            if let Some(missing) = shown.into_iter().find(|name| !criteria.includes(name)) {
                 let message = format!("lacks `{missing}`, which every card shows");
                 return Err(named(CriteriaError { key: "ask", message }));
             }
@@ -367,8 +367,8 @@ impl Recipe {
             {
                 return wrong("difficulty", format!("adds up to {total}; it takes shares that add up to 1"));
             }
-            let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.asks("skill"));
-            if !(self.criteria.asks("skill") && of_corpus) {
+            let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes("skill"));
+            if !(self.criteria.includes("skill") && of_corpus) {
                 let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
                 return wrong("difficulty", help.to_owned());
             }
@@ -426,11 +426,11 @@ impl Recipe {
     fn way_back(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
-            None => "did you forget --parent? Give the one of the commitment, undo what was changed",
+            None => "did you forget --parent? Give the one of the commitment, undo other changes",
             Some(_) if secret.recipe == Some(alone.committed()) => {
-                "only the parent is new: it was committed to without one; leave --parent away"
+                "only the parent is new: the commitment has none; omit --parent"
             }
-            Some(_) => "was it another --parent? Give the one of the commitment, undo what was changed",
+            Some(_) => "is --parent another release? Give the one of the commitment, undo other changes",
         }
     }
 
@@ -502,8 +502,7 @@ mod tests {
         ] {
             let error = changed.root_seed(Some(&secret)).unwrap_err();
             assert!(matches!(error, RecipeError::OtherRecipe(_)), "{error}");
-            let hint =
-                if changed.parent.is_some() { "leave --parent away" } else { "did you forget --parent?" };
+            let hint = if changed.parent.is_some() { "omit --parent" } else { "did you forget --parent?" };
             assert!(error.to_string().contains(hint), "{error}");
         }
         let other = Secret::draw("small", recipe.committed(), [8; 64]);

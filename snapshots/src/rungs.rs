@@ -11,7 +11,7 @@ use engine::Seed;
 use forge::card::Card;
 use serde::{Deserialize, Serialize};
 use statistics::{Interval, Z95, clustered_mean, wilson};
-use validators::Fared;
+use validators::PlayerResult;
 
 /// The number of resamples for an interval.
 const RESAMPLES: usize = 4000;
@@ -57,8 +57,8 @@ impl RungRate {
         Some(SEEN * (2.0 * one).sqrt())
     }
 
-    fn of(first: &Fared, held_out: bool, games: &[Vec<&Fared>]) -> RungRate {
-        let share = |fared: &&Fared| fared.rate.wins as f64 / fared.rate.plays as f64;
+    fn of(first: &PlayerResult, held_out: bool, games: &[Vec<&PlayerResult>]) -> RungRate {
+        let share = |result: &&PlayerResult| result.rate.wins as f64 / result.rate.plays as f64;
         let shares: Vec<Vec<f64>> = games.iter().map(|levels| levels.iter().map(share).collect()).collect();
         let all = || games.iter().flatten();
         let levels = all().count() as u64;
@@ -78,8 +78,8 @@ impl RungRate {
             held_out,
             games: games.len() as u64,
             levels,
-            plays: all().map(|fared| fared.rate.plays).sum(),
-            wins: all().map(|fared| fared.rate.wins).sum(),
+            plays: all().map(|result| result.rate.plays).sum(),
+            wins: all().map(|result| result.rate.wins).sum(),
             mean,
             interval: [interval.low.clamp(0.0, mean), interval.high.clamp(mean, 1.0)],
             error,
@@ -113,18 +113,19 @@ fn alike(rate: f64, games: u64) -> Interval {
 /// the games for each player.
 pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());
-    let mut players: Vec<(&Fared, bool)> = Vec::new();
+    let mut players: Vec<(&PlayerResult, bool)> = Vec::new();
     for held_out in [false, true] {
-        for fared in ladders().flat_map(|ladder| if held_out { &ladder.held_out } else { &ladder.rungs }) {
-            let known = players.iter().any(|(known, held)| known.player == fared.player && *held == held_out);
+        for result in ladders().flat_map(|ladder| if held_out { &ladder.held_out } else { &ladder.rungs }) {
+            let known =
+                players.iter().any(|(known, held)| known.player == result.player && *held == held_out);
             if !known {
-                players.push((fared, held_out));
+                players.push((result, held_out));
             }
         }
     }
-    let rate = |(first, held_out): (&Fared, bool)| {
+    let rate = |(first, held_out): (&PlayerResult, bool)| {
         let of_game = |card| played(card, &first.player, held_out);
-        let mut games: Vec<Vec<&Fared>> = cards.iter().map(of_game).collect();
+        let mut games: Vec<Vec<&PlayerResult>> = cards.iter().map(of_game).collect();
         games.retain(|levels| !levels.is_empty());
         (!games.is_empty()).then(|| RungRate::of(first, held_out, &games))
     };
@@ -132,11 +133,11 @@ pub fn rates(cards: &[Card]) -> Vec<RungRate> {
 }
 
 /// The results of a player on those levels of a game that it played.
-fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a Fared> {
+fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a PlayerResult> {
     let ladders = card.levels.iter().filter_map(|level| level.ladder.as_ref());
     let find = ladders.filter_map(|ladder| {
         let players = if held_out { &ladder.held_out } else { &ladder.rungs };
-        players.iter().find(|fared| fared.player == player && fared.rate.plays > 0)
+        players.iter().find(|result| result.player == player && result.rate.plays > 0)
     });
     find.collect()
 }
@@ -199,10 +200,10 @@ pub(crate) mod tests {
     use forge::card::{LevelCard, Origin};
     use validators::{Difficulty, Ladder, Rate};
 
-    fn fared(player: &str, wins: u64, plays: u64) -> Fared {
+    fn result(player: &str, wins: u64, plays: u64) -> PlayerResult {
         let rate = Rate { wins, plays, interval: [0.0, 1.0], calls: 0, mean_score: 0.0 };
         let looks_ahead = player.contains(':');
-        Fared { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
+        PlayerResult { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
     }
 
     /// A game on whose levels `random` and the held-out `olets:9` win the given numbers of ten plays.
@@ -219,12 +220,12 @@ pub(crate) mod tests {
             witness_score: 1.0,
             optimal_ticks: None,
             search_calls: 1,
-            mcts: fared("", 0, 4).rate,
-            random: fared("", 0, 4).rate,
-            idle: fared("", 0, 4).rate,
+            mcts: result("", 0, 4).rate,
+            random: result("", 0, 4).rate,
+            idle: result("", 0, 4).rate,
             ladder: Some(Ladder {
-                rungs: vec![fared("random", *random, 10)],
-                held_out: vec![fared("olets:9", *olets, 10)],
+                rungs: vec![result("random", *random, 10)],
+                held_out: vec![result("olets:9", *olets, 10)],
                 ease: Some(0.5),
                 difficulty: Difficulty::Medium,
             }),

@@ -279,7 +279,7 @@ fn strangers(secret: &Secret, held: &Path, files: &BTreeSet<&str>) -> Result<Vec
 }
 
 /// The fault of a witness that was not played under the release's secret.
-pub(crate) const STRANGER: &str = "its chance does not come from the release's secret";
+pub(crate) const STRANGER: &str = "its seed is not derived from the release's secret";
 
 #[cfg(test)]
 mod tests {

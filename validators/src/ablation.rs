@@ -3,7 +3,7 @@
 use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
 use crate::recording::{Recorded, Use};
-use crate::rule_use::more;
+use crate::rule_use::with_count;
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
 use engine::analysis::Role;
@@ -16,8 +16,8 @@ use rayon::prelude::*;
 /// There are three tests, the cheapest first: replaying recorded episodes that execute the rule, without it; random
 /// futures from just before its execution, with and without it on the same seeds; and the episode of a searching
 /// player that plays without the rule, replayed with it. One change is enough. A rule is idle, and the criterion
-/// fails, if every level was won and even the sprites look the same in every episode that executes it. If they differ
-/// but no tried episode ends otherwise, the answer is unknown. Rules on walls and the edge of the screen are reported
+/// fails, if every level was won and even the sprites look the same in every episode that executes it. If they compare
+/// but no tried episode result_of otherwise, the answer is unknown. Rules on walls and the edge of the screen are reported
 /// but never fail: they are guards, and sprites that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub struct RulesMatter {
@@ -33,16 +33,16 @@ const FUTURES: u64 = 8;
 const DEPTH: usize = 60;
 /// Calls of a decision of the searching player, and its look-ahead in ticks.
 const DECISION: Budget = Budget(300);
-const SIGHT: u32 = 20;
+const LOOK_AHEAD: u32 = 20;
 /// Ticks of an episode of the searching player.
 const PLAY: usize = 400;
 
 /// The result of disabling one interaction.
-enum Found {
-    /// Something ends otherwise without it.
+enum Effect {
+    /// Something result_of otherwise without it.
     Matters,
-    /// The state differs, but no tried episode ends otherwise.
-    Unshown,
+    /// The state differs, but no tried episode result_of otherwise.
+    Unproven,
     /// Not even the state differs.
     Idle,
 }
@@ -55,41 +55,41 @@ impl GameValidator for RulesMatter {
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let lines = case.usage.lines.iter().enumerate().filter(|(_, uses)| !uses.is_empty());
         let lines: Vec<(usize, &Vec<Use>)> = lines.collect();
-        let found: Vec<(Found, u64)> =
+        let found: Vec<(Effect, u64)> =
             lines.par_iter().map(|(line, uses)| self.try_without(case, *line, uses, lines.len())).collect();
         let spent = found.iter().map(|(_, spent)| spent).sum();
-        let (mut idle, mut unshown, mut guards) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut idle, mut unproven, mut guards) = (Vec::new(), Vec::new(), Vec::new());
         for ((line, uses), (found, _)) in lines.iter().zip(&found) {
             let rule = Line::interaction(case.game, *line);
             let (text, list) = match found {
-                Found::Matters => continue,
+                Effect::Matters => continue,
                 _ if is_guard(case.analysis, *line) => {
-                    let text = format!("nothing shows that `{}` matters; a guard, perhaps", rule.text);
+                    let text = format!("no test shows that `{}` matters; it may be a guard", rule.text);
                     guards.push(Evidence::new(text).of_rule(rule));
                     continue;
                 }
-                Found::Idle => (format!("`{}` runs, and nothing follows from it", rule.text), &mut idle),
-                Found::Unshown => {
-                    let text = format!("without `{}` nothing that was tried ends otherwise", rule.text);
-                    (text, &mut unshown)
+                Effect::Idle => (format!("`{}` runs, but changes nothing", rule.text), &mut idle),
+                Effect::Unproven => {
+                    let text = format!("disabling `{}` changes no outcome or score in the tests", rule.text);
+                    (text, &mut unproven)
                 }
             };
             let first = &uses[0];
             let seen = Evidence { text, tick: Some(first.tick + 1), rule: Some(rule), ..Evidence::default() };
-            list.push(seen.advise("remove it, or let what it does count for a score or an ending"));
+            list.push(seen.advise("remove it, or make its effect count for the score or the outcome"));
         }
-        let verdict = match (idle.first(), unshown.is_empty()) {
-            (Some(first), _) => Verdict::fail(more(&first.text, idle.len() - 1)),
+        let verdict = match (idle.first(), unproven.is_empty()) {
+            (Some(first), _) => Verdict::fail(with_count(&first.text, idle.len() - 1)),
             (None, false) => Verdict::Unknown { spent },
             (None, true) => Verdict::pass(),
         };
-        Finding::from(verdict).seen(idle).seen(unshown).seen(guards)
+        Finding::from(verdict).seen(idle).seen(unproven).seen(guards)
     }
 }
 
 impl RulesMatter {
     /// Tests one of `lines` lines.
-    fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use], lines: usize) -> (Found, u64) {
+    fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use], lines: usize) -> (Effect, u64) {
         let without = case.game.without(line);
         let share = self.total.map(|total| total / lines.max(1) as u64);
         let most = share.map_or(self.calls, |share| share.min(self.calls));
@@ -103,8 +103,10 @@ impl RulesMatter {
                 break;
             }
             calls += episode.actions.len() as u64;
-            if ends(&without, recorded, episode.seed, &episode.actions) != (episode.outcome, episode.score) {
-                return (Found::Matters, calls);
+            if result_of(&without, recorded, episode.seed, &episode.actions)
+                != (episode.outcome, episode.score)
+            {
+                return (Effect::Matters, calls);
             }
         }
         let mut differs = false;
@@ -116,11 +118,11 @@ impl RulesMatter {
             }
             let seed = case.seed.child("line", line as u64).child("future", number as u64);
             let futures = Futures { with: case.game, without: &without, recorded, episode, tick: at.tick };
-            let (matters, state, spent) = futures.differ(seed);
+            let (matters, state, spent) = futures.compare(seed);
             calls += spent;
             differs |= state;
             if matters {
-                return (Found::Matters, calls);
+                return (Effect::Matters, calls);
             }
             // Half is kept for the searching player.
             if calls >= most / 2 {
@@ -136,18 +138,18 @@ impl RulesMatter {
             }
             let recorded = case.recording[level];
             let seed = case.seed.child("line", line as u64).child("play", number as u64);
-            let mut planner = Mcts::new(MctsConfig::bold(SIGHT), seed.child("planner", 0));
+            let mut planner = Mcts::new(MctsConfig::bold(LOOK_AHEAD), seed.child("planner", 0));
             let limits = Limits { ticks: PLAY, calls: most - calls };
             let played =
                 play(&without, recorded.level, &mut planner, DECISION, seed.child("chance", 0), limits);
             calls += played.calls;
             let Episode { seed, actions, outcome, score, .. } = &played.episode;
-            if ends(case.game, recorded, *seed, actions) != (*outcome, *score) {
-                return (Found::Matters, calls);
+            if result_of(case.game, recorded, *seed, actions) != (*outcome, *score) {
+                return (Effect::Matters, calls);
             }
         }
         // A rule that may have an effect later is not idle as long as no level is won.
-        (if differs || cut || !case.usage.won { Found::Unshown } else { Found::Idle }, calls)
+        (if differs || cut || !case.usage.won { Effect::Unproven } else { Effect::Idle }, calls)
     }
 }
 
@@ -163,7 +165,7 @@ fn is_guard(analysis: &Analysis, line: usize) -> bool {
 }
 
 /// Returns the outcome and score of an episode with these actions.
-fn ends(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]) -> (Outcome, f64) {
+fn result_of(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]) -> (Outcome, f64) {
     let mut state = game.start(recorded.level, seed);
     for &action in actions {
         game.step(&mut state, action);
@@ -181,9 +183,9 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Returns whether some future ends otherwise without the rule, whether the episode ever looks different, and the
+    /// Returns whether some future result_of otherwise without the rule, whether the episode ever observable different, and the
     /// calls.
-    fn differ(&self, seed: Seed) -> (bool, bool, u64) {
+    fn compare(&self, seed: Seed) -> (bool, bool, u64) {
         // A state carries predictions of its own game, so each game replays the prefix to get its own state.
         let before = [self.with, self.without].map(|game| {
             let mut state = game.start(self.recorded.level, self.episode.seed);
@@ -200,7 +202,7 @@ impl Futures<'_> {
             self.with.step(with, action);
             self.without.step(without, action);
             calls += 2;
-            if self.looks(with) != self.looks(without) {
+            if self.observable(with) != self.observable(without) {
                 differs = true;
                 break;
             }
@@ -220,7 +222,7 @@ impl Futures<'_> {
                 self.with.step(with, action);
                 self.without.step(without, action);
                 calls += 2;
-                if told(with) != told(without) {
+                if result(with) != result(without) {
                     return (true, true, calls);
                 }
                 if with.is_over() {
@@ -232,12 +234,12 @@ impl Futures<'_> {
     }
 
     /// Returns the observable state, without the internal memory of its rules.
-    fn looks(&self, state: &State) -> (Vec<SpriteRecord>, Vec<i32>, (Outcome, f64)) {
-        (self.with.records(state), state.counters().to_vec(), told(state))
+    fn observable(&self, state: &State) -> (Vec<SpriteRecord>, Vec<i32>, (Outcome, f64)) {
+        (self.with.records(state), state.counters().to_vec(), result(state))
     }
 }
 
-fn told(state: &State) -> (Outcome, f64) {
+fn result(state: &State) -> (Outcome, f64) {
     (state.outcome(), state.score())
 }
 
@@ -267,18 +269,15 @@ mod tests {
     }
 
     #[test]
-    fn a_rule_without_consequence_is_idle_and_one_that_only_looks_different_is_unknown() {
+    fn ineffective_rules_are_idle_and_visible_differences_are_unknown() {
         let [used, matter] = findings(GAME);
         // The dew that would make a difference is nowhere.
         let Verdict::Fail { reason, .. } = &used.verdict else { panic!("{used:?}") };
-        assert_eq!(reason.0, "no `dew` is ever there");
+        assert_eq!(reason.0, "`dew` never appears");
         let Verdict::Fail { reason, .. } = &matter.verdict else { panic!("{matter:?}") };
-        assert_eq!(
-            reason.0,
-            "`avatar fern > killIfHasMore resource=dew limit=2` runs, and nothing follows from it"
-        );
+        assert_eq!(reason.0, "`avatar fern > killIfHasMore resource=dew limit=2` runs, but changes nothing");
         let texts: Vec<&str> = matter.evidence.iter().map(|seen| seen.text.as_str()).collect();
-        assert!(texts[1].starts_with("without `mud avatar > transformTo"), "{texts:?}");
+        assert!(texts[1].starts_with("disabling `mud avatar > transformTo"), "{texts:?}");
     }
 
     #[test]

@@ -10,7 +10,7 @@ use engine::{Action, Game, Level, Meeting, Seed, Watch};
 /// The work of a tick, as `engine` counts it, up to which a call counts as one.
 const USUAL_WORK: u64 = 4096;
 /// Ticks that are played to estimate the work of a level's ticks.
-const WEIGHED: u64 = 16;
+const SAMPLED_TICKS: u64 = 16;
 
 /// Forward-model calls for each level, and for the game over all its levels, to divide among the criteria.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,9 +21,9 @@ pub(crate) struct Allowance {
 }
 
 /// Adds up the work of ticks.
-struct Scales(u64);
+struct WorkCounter(u64);
 
-impl Watch for Scales {
+impl Watch for WorkCounter {
     fn interaction(&mut self, _: usize) {}
 
     fn meeting(&mut self, _: Meeting) {}
@@ -37,17 +37,17 @@ impl Allowance {
     /// Returns the calls allowed for these levels: fewer where the ticks of one of them are unusually heavy. Cost:
     /// some ticks of each.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
-        let weigh = |level: &Level| {
+        let weight_of = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));
-            let mut scales = Scales(0);
+            let mut counter = WorkCounter(0);
             let mut ticks = 0;
-            while ticks < WEIGHED && !state.is_over() {
-                game.step_watched(&mut state, Action::Nil, &mut scales);
+            while ticks < SAMPLED_TICKS && !state.is_over() {
+                game.step_watched(&mut state, Action::Nil, &mut counter);
                 ticks += 1;
             }
-            scales.0 / ticks.max(1) / USUAL_WORK + 1
+            counter.0 / ticks.max(1) / USUAL_WORK + 1
         };
-        Allowance { calls, weight: levels.into_iter().map(weigh).max().unwrap_or(1) }
+        Allowance { calls, weight: levels.into_iter().map(weight_of).max().unwrap_or(1) }
     }
 
     /// A share of the calls, at least `least`.
@@ -69,18 +69,18 @@ impl Allowance {
 
     /// Returns the criteria with the call limits of this allowance.
     pub(crate) fn bounds(self, criteria: &Criteria) -> Criteria {
-        let chances = u64::from(criteria.early_chances.max(1));
+        let seeds = u64::from(criteria.early_seeds.max(1));
         Criteria {
             budget: self.share(1, 1, 1).min(criteria.budget),
-            early_calls: self.share(1, 2 * chances, 1).min(criteria.early_calls),
+            early_calls: self.share(1, 2 * seeds, 1).min(criteria.early_calls),
             ladder_calls: self.share(5, 3, 1).min(criteria.ladder_calls),
             ..criteria.clone()
         }
     }
 
-    /// Calls of one play of the ladder, with `of_a_round` plays a round.
-    pub(crate) fn ladder_play(self, of_a_round: u64) -> u64 {
-        self.share(2, of_a_round, 1)
+    /// Calls of one play of the ladder, with `round_plays` plays a round.
+    pub(crate) fn ladder_play(self, round_plays: u64) -> u64 {
+        self.share(2, round_plays, 1)
     }
 
     /// Ticks of the random walks that look for rules which were never executed, for each level.
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn the_usual_budget_takes_nothing_from_usual_levels() {
+    fn the_default_budget_covers_usual_levels() {
         let game = Game::from_source(GAME).unwrap();
         let criteria = Criteria::full();
         let allowance = Allowance::of(criteria.budget, &game, [&game.level(LEVEL).unwrap()]);

@@ -41,7 +41,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let chains = analysis.causes(level);
     let mut reason = None;
     for (chain, sentence) in chains.iter().zip(&told).take(MAX_CHAINS) {
-        let mut words = Words { analysis, level, links: Vec::new() };
+        let mut words = Explanation { analysis, level, links: Vec::new() };
         words.chain(chain);
         let links: Vec<&str> = words.links.iter().map(|link| link.text.as_str()).collect();
         reason.get_or_insert_with(|| match &chain.obstacles[..] {
@@ -53,10 +53,8 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
         evidence.extend(words.links);
     }
     let Some(reason) = reason else { return };
-    finding.verdict = Verdict::Fail {
-        reason: Reason(format!("no way to win, whatever is played: {reason}")),
-        witness: None,
-    };
+    finding.verdict =
+        Verdict::Fail { reason: Reason(format!("the level cannot be won: {reason}")), witness: None };
     finding.evidence = evidence;
 }
 
@@ -67,13 +65,13 @@ pub(crate) fn lower(sentence: &str) -> String {
 }
 
 /// The links of a chain, in words.
-struct Words<'a> {
+struct Explanation<'a> {
     analysis: &'a Analysis,
     level: &'a Level,
     links: Vec<Evidence>,
 }
 
-impl Words<'_> {
+impl Explanation<'_> {
     /// The termination, with the first sprite that would have to be removed.
     fn ending(&self, chain: &Chain, sentence: &str) -> Evidence {
         let goal = &self.analysis.goals()[chain.goal];
@@ -96,17 +94,18 @@ impl Words<'_> {
                 let target = sprites.first().map(|(stype, _)| *stype);
                 match target.is_some_and(|stype| self.is_ended(stype)) {
                     true => (
-                        format!("no rule that ends {} ever runs on it there", article(name)),
-                        "open a way to it, or make it go".to_owned(),
+                        format!("no rule that removes {} can run on this one", article(name)),
+                        "open a path to it, or remove it".to_owned(),
                     ),
-                    false => {
-                        (format!("no rule ends {}", article(name)), format!("add a rule that ends `{name}`"))
-                    }
+                    false => (
+                        format!("no rule removes {}", article(name)),
+                        format!("add a rule that removes `{name}`"),
+                    ),
                 }
             }
             Cause::AtMost(_) => (
-                "no rule makes more of what it counts".to_owned(),
-                "place more of what it counts, or ask for fewer".to_owned(),
+                "no rule creates more of the counted sprites".to_owned(),
+                "place more of the counted sprites, or lower the limit".to_owned(),
             ),
         };
         self.links.push(Evidence::new(text).advise(advice));
@@ -133,18 +132,18 @@ impl Words<'_> {
             Missing::Resource(shortage) => self.shortage(*target, rule, shortage),
             Missing::Unreachable(unreachable) => {
                 let there = self.standing(unreachable.cell, *target);
-                let text = format!("{} cannot get to {}", self.who(unreachable.stype), self.the(there));
+                let text = format!("{} cannot reach {}", self.acting(unreachable.stype), self.the(there));
                 self.unreachable(unreachable, text, rule);
             }
             Missing::Blocked(stype, by) => {
                 let by = Line::interaction(self.analysis.game(), *by);
                 let text = format!(
-                    "{} is put back from {} by `{}` before a later rule ends it",
-                    self.who(*stype),
+                    "{} is put back from {} by `{}` before a later rule can remove it",
+                    self.acting(*stype),
                     self.the(*target),
                     by.text
                 );
-                let advice = format!("put the rule that ends `{}` before that one", self.name(*target));
+                let advice = format!("move the rule that removes `{}` before that one", self.name(*target));
                 self.links.push(Evidence::new(text).of_rule(by).advise(advice));
             }
             Missing::Absent(absent) => {
@@ -153,24 +152,21 @@ impl Words<'_> {
                     Some(_) => format!("a rule on {} needs {}", self.the(*target), article(name)),
                     None => format!("{} makes {}", article(name), article(self.name(*target))),
                 };
-                let text = format!("{what}; none is placed here, and nothing makes one");
+                let text = format!("{what}; the level places none, and no rule creates one");
                 let advice = format!("place {} in the level", article(name));
                 self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
             }
             Missing::Unmade(unmade, obstacles) => {
                 let name = self.name(*unmade);
-                let text = format!(
-                    "a rule on {} needs {}, and there never is one",
-                    self.the(*target),
-                    article(name)
-                );
+                let text =
+                    format!("a rule on {} needs {}, and none can exist", self.the(*target), article(name));
                 self.links.push(Evidence { rule, ..Evidence::new(text) });
                 obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
             }
             Missing::Nowhere(first, second) => {
-                let second = second.map_or("the edge of the screen".to_owned(), |second| self.who(second));
-                let text = format!("{} and {second} never meet", self.who(*first));
-                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise("let them meet"));
+                let second = second.map_or("the edge of the screen".to_owned(), |second| self.acting(second));
+                let text = format!("{} and {second} never meet", self.acting(*first));
+                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise("open a path between them"));
             }
         }
     }
@@ -180,20 +176,20 @@ impl Words<'_> {
         let Shortage { resource, needed, capacity, most, rules, sources } = shortage;
         let name = self.name(*resource).to_owned();
         let still = self.analysis.facts(target).motion == Motion::Still;
-        let verb = if still { "opens" } else { "goes" };
+        let verb = if still { "opens" } else { "is removed" };
         let text = format!("{} {verb} for {}", self.the(target), count(i64::from(*needed), &name));
         self.links.push(Evidence { rule, ..Evidence::new(text) });
         let class = self.analysis.game().class(*resource);
         if let Some(class) = class.filter(|class| capacity.is_some() && !class.is_a(SpriteClass::Resource)) {
-            let text = format!("collectResource takes only a Resource; {name} is {}", class.name());
+            let text = format!("collectResource collects only a Resource; {name} is {}", class.name());
             let advice = format!("make it a Resource: `{name} > Resource limit={needed}`");
             let rule = Line::sprite(self.analysis.game(), &name);
             self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
             return;
         }
         if let Some(capacity) = capacity {
-            let text = format!("nobody can hold more than {}", count(i64::from(*capacity), &name));
-            let advice = format!("raise the `limit=` of `{name}` to {needed}, or ask for fewer");
+            let text = format!("the avatar can hold at most {}", count(i64::from(*capacity), &name));
+            let advice = format!("raise the `limit=` of `{name}` to {needed}, or require fewer");
             let rule = Line::sprite(self.analysis.game(), &name);
             self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
             return;
@@ -214,19 +210,19 @@ impl Words<'_> {
             sources.iter().filter_map(|source| Some((source, source.unreachable.as_ref()?))).collect();
         for (source, unreachable) in &lost {
             let text =
-                format!("{} cannot get to the {}", self.who(unreachable.stype), self.name(source.stype));
+                format!("{} cannot reach the {}", self.acting(unreachable.stype), self.name(source.stype));
             self.unreachable(unreachable, text, None);
         }
         if !lost.is_empty() && *most > 0 {
-            self.links.push(Evidence::new(format!("{most} can be got")));
+            self.links.push(Evidence::new(format!("{most} can be collected")));
         }
         let missing = count(i64::from(*needed) - all, &name);
         let advice = match (lost.is_empty(), *most) {
             (true, 0) => format!("place {missing}"),
-            (true, most) => format!("place {missing} more, or ask for {most}"),
-            (false, _) => format!("open a way to {}, or place more where it can be got", article(&name)),
+            (true, most) => format!("place {missing} more, or require only {most}"),
+            (false, _) => format!("open a path to {}, or place more where it can be reached", article(&name)),
         };
-        self.links.push(Evidence::new("nothing makes more").advise(advice));
+        self.links.push(Evidence::new("no rule creates more").advise(advice));
     }
 
     /// A place that a sprite never reaches, and the obstacle.
@@ -235,13 +231,13 @@ impl Words<'_> {
         let link = Evidence { cell, rule, ..Evidence::new(text) };
         // For one source among several, the shortage gives the advice.
         let alone = unreachable.blockers.is_empty() && link.rule.is_some();
-        self.links.push(if alone { link.advise("open a way to it") } else { link });
+        self.links.push(if alone { link.advise("open a path to it") } else { link });
         for Blocker { stype, cell, obstacles } in &unreachable.blockers {
             let name = self.name(*stype);
             let again = obstacles.is_empty();
             let text = format!("{} {name} is in the way", if again { "that" } else { "the" });
             let link = Evidence { cell: Some(self.place(*cell)), ..Evidence::new(text) };
-            let advice = format!("let what opens the {name} be had without passing it");
+            let advice = format!("make what opens the {name} reachable without passing it");
             self.links.push(if again { link.advise(advice) } else { link });
             obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
         }
@@ -263,7 +259,7 @@ impl Words<'_> {
     }
 
     /// The acting sprite: the avatar, whatever its name, or sprites of a type.
-    fn who(&self, stype: SpriteType) -> String {
+    fn acting(&self, stype: SpriteType) -> String {
         let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
         if own { "the avatar".to_owned() } else { self.the(stype) }
     }
@@ -300,7 +296,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_have_their_plural() {
+    fn names_get_their_plural() {
         let words = [count(1, "lamp"), count(2, "lamp"), count(3, "penny"), count(2, "box"), count(0, "key")];
         assert_eq!(words, ["1 lamp", "2 lamps", "3 pennies", "2 boxes", "0 keys"]);
         assert_eq!([article("exit"), article("lamp")], ["an exit", "a lamp"]);

@@ -1,6 +1,6 @@
 //! The thresholds of all criteria, in one place.
 
-use crate::ladder::{Climb, Rung};
+use crate::ladder::{LadderConfig, Rung};
 use serde::{Deserialize, Serialize};
 
 /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/validate.md` explains each.
@@ -34,7 +34,8 @@ pub struct Criteria {
     /// Forward-model calls to look for a way to survive them, for each random seed.
     pub early_calls: u64,
     /// Random seeds to try that with.
-    pub early_chances: u32,
+    #[serde(rename = "early_chances")]
+    pub early_seeds: u32,
     /// The greatest share of them in which death may be unavoidable.
     pub early_deaths: f64,
     /// The players that difficulty and skill are measured with, the weakest first: `mcts:500`.
@@ -82,7 +83,7 @@ impl Default for Criteria {
             most_ticks: 1000,
             early_ticks: 12,
             early_calls: 20_000,
-            early_chances: 20,
+            early_seeds: 20,
             early_deaths: 0.05,
             ladder: names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
             held_out: names(&["mcts:300", "olets:200"]),
@@ -116,13 +117,13 @@ impl Criteria {
     }
 
     /// Returns all criteria: for generated games, of which there are many candidates.
-    pub fn of_made_games() -> Criteria {
+    pub fn of_generated_games() -> Criteria {
         let all = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA);
         Criteria { ask: all.map(|&name| name.to_owned()).collect(), ..Criteria::default() }
     }
 
     /// Returns `true` if a criterion is checked.
-    pub fn asks(&self, name: &str) -> bool {
+    pub fn includes(&self, name: &str) -> bool {
         self.ask.iter().any(|asked| asked == name)
     }
 
@@ -142,7 +143,7 @@ impl Criteria {
                 format!("names no criterion `{unknown}`{help} There are {}", all.join(", ")),
             );
         }
-        if self.asks("skill-overall") && !self.asks("skill") {
+        if self.includes("skill-overall") && !self.includes("skill") {
             return wrong(
                 "ask",
                 "names `skill-overall`, which needs the plays of `skill`: name both".to_owned(),
@@ -169,7 +170,7 @@ impl Criteria {
         }
         for (key, count, most) in [
             ("early_ticks", self.early_ticks as u64, 100),
-            ("early_chances", u64::from(self.early_chances), 1000),
+            ("early_chances", u64::from(self.early_seeds), 1000),
             ("early_calls", self.early_calls, 1_000_000_000),
             ("budget", self.budget, 1_000_000_000_000),
             ("mcts_plays", u64::from(self.mcts_plays), 1000),
@@ -182,9 +183,10 @@ impl Criteria {
                 return wrong(key, format!("is {count}; it takes 1 to {most}"));
             }
         }
-        if self.asks("skill") && self.ladder.len() < 2 {
+        if self.includes("skill") && self.ladder.len() < 2 {
             let message =
-                "takes at least two players: skill is what a stronger one has before a weaker one".to_owned();
+                "takes at least two players: skill is the advantage of a stronger player over a weaker one"
+                    .to_owned();
             return wrong("ladder", message);
         }
         if self.least_ticks > self.most_ticks {
@@ -203,8 +205,8 @@ impl Criteria {
     ///
     /// # Errors
     /// A name that is no planner's.
-    pub fn climb(&self) -> Result<Climb, agents::UnknownPlanner> {
-        Ok(Climb {
+    pub fn ladder_config(&self) -> Result<LadderConfig, agents::UnknownPlanner> {
+        Ok(LadderConfig {
             rungs: self.rungs(&self.ladder)?,
             held_out: self.rungs(&self.held_out)?,
             plays: self.ladder_plays,
@@ -232,10 +234,10 @@ mod tests {
     }
 
     #[test]
-    fn values_out_of_range_are_told_with_their_key() {
+    fn out_of_range_values_are_reported_with_their_key() {
         assert_eq!(Criteria::default().check(), Ok(()));
         assert_eq!(Criteria::full().check(), Ok(()));
-        assert_eq!(Criteria::of_made_games().check(), Ok(()));
+        assert_eq!(Criteria::of_generated_games().check(), Ok(()));
         check(|criteria| criteria.ask.push("winable".to_owned()), "did you mean `winnable`?");
         check(|criteria| criteria.ladder.push("mtcs:9".to_owned()), "`ladder` is not a list of players");
         check(|criteria| criteria.held_out.push("mcts:x".to_owned()), "`held_out` is not a list of players");

@@ -20,20 +20,20 @@ pub struct NoEarlyDeath {
     /// Forward-model calls for each seed.
     pub calls: u64,
     /// Random seeds, in a stochastic game.
-    pub chances: u32,
+    pub seeds: u32,
     /// The greatest share of them in which death may be unavoidable.
     pub share: f64,
 }
 
 /// The most states of one tick to expand; beyond that, the answer is unknown instead of no.
-const WIDEST: usize = 2000;
+const MAX_STATES: usize = 2000;
 /// Random episodes to try before a search.
-const TRIES: u64 = 24;
+const RANDOM_PLAYS: u64 = 24;
 
 /// The result for one seed.
-struct Look {
+struct Survival {
     /// `true` if some way of playing survived.
-    lived: bool,
+    survived: bool,
     /// `true` if all ways of playing were searched.
     complete: bool,
     /// The longest episode found, and the episode of doing nothing.
@@ -48,17 +48,19 @@ impl Validator for NoEarlyDeath {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        let chances = if case.game.is_deterministic() { 1 } else { u64::from(self.chances.max(1)) };
-        let looks: Vec<Look> =
-            (0..chances).into_par_iter().map(|run| self.look(case, case.seed.child("chance", run))).collect();
-        let doomed = looks.iter().filter(|look| !look.lived && look.complete).count() as u64;
-        let open = looks.iter().filter(|look| !look.lived && !look.complete).count() as u64;
-        let spent: u64 = looks.iter().map(|look| look.calls).sum();
-        let share = |count: u64| count as f64 / chances as f64;
+        let seeds = if case.game.is_deterministic() { 1 } else { u64::from(self.seeds.max(1)) };
+        let results: Vec<Survival> = (0..seeds)
+            .into_par_iter()
+            .map(|run| self.survival(case, case.seed.child("chance", run)))
+            .collect();
+        let doomed = results.iter().filter(|result| !result.survived && result.complete).count() as u64;
+        let open = results.iter().filter(|result| !result.survived && !result.complete).count() as u64;
+        let spent: u64 = results.iter().map(|result| result.calls).sum();
+        let share = |count: u64| count as f64 / seeds as f64;
         let verdict = if share(doomed) > self.share {
-            let shown = looks.iter().filter(|look| !look.lived && look.complete);
-            let longest = shown.max_by_key(|look| look.longest.actions.len()).expect("one is doomed");
-            let reason = self.doom(longest.longest.actions.len(), doomed, chances);
+            let shown = results.iter().filter(|result| !result.survived && result.complete);
+            let longest = shown.max_by_key(|result| result.longest.actions.len()).expect("one is doomed");
+            let reason = self.failure_reason(longest.longest.actions.len(), doomed, seeds);
             Verdict::Fail { reason: Reason(reason), witness: Some(longest.longest.clone()) }
         } else if share(doomed + open) > self.share {
             Verdict::Unknown { spent }
@@ -72,85 +74,83 @@ impl Validator for NoEarlyDeath {
             if let Some(last) = evidence.last_mut() {
                 last.advice = Some("give the player room and time at the start".to_owned());
             }
-        } else if let Some(note) = self.idleness(case, &looks) {
+        } else if let Some(note) = self.idle_note(case, &results) {
             evidence.push(note);
         }
-        if chances > 1 && verdict.is_pass() {
-            let lived = looks.iter().filter(|look| look.lived).count();
+        if seeds > 1 && verdict.is_pass() {
+            let survived = results.iter().filter(|result| result.survived).count();
             evidence.push(Evidence::new(format!(
-                "some way of playing lives through the first {} ticks in {lived} of {chances} games of chance",
+                "some sequence of actions survives the first {} ticks with {survived} of {seeds} random seeds",
                 self.ticks
             )));
         }
-        Finding::from(verdict).seen(evidence).played(looks.into_iter().map(|look| look.longest))
+        Finding::from(verdict).seen(evidence).played(results.into_iter().map(|result| result.longest))
     }
 }
 
 impl NoEarlyDeath {
-    fn doom(&self, ticks: usize, doomed: u64, chances: u64) -> String {
-        if chances == 1 {
-            return format!(
-                "whatever is played, the game is lost within {ticks} ticks: all ways were searched"
-            );
+    fn failure_reason(&self, ticks: usize, doomed: u64, seeds: u64) -> String {
+        if seeds == 1 {
+            return format!("every play loses within {ticks} ticks: all action sequences were searched");
         }
-        let interval = statistics::wilson(doomed, chances, statistics::Z95);
+        let interval = statistics::wilson(doomed, seeds, statistics::Z95);
         let (low, high) = (100.0 * interval.low, 100.0 * interval.high);
         format!(
-            "in {doomed} of {chances} games of chance no way of playing lives through the first {} ticks \
+            "with {doomed} of {seeds} random seeds no sequence of actions survives the first {} ticks \
              (95 %: {low:.0} to {high:.0} %)",
             self.ticks
         )
     }
 
     /// Returns a note if doing nothing is deadly although there are ways to survive.
-    fn idleness(&self, case: Case<'_>, looks: &[Look]) -> Option<Evidence> {
+    fn idle_note(&self, case: Case<'_>, results: &[Survival]) -> Option<Evidence> {
         let dead: Vec<&Episode> =
-            looks.iter().map(|look| &look.idle).filter(|idle| idle.outcome == Outcome::Lost).collect();
+            results.iter().map(|result| &result.idle).filter(|idle| idle.outcome == Outcome::Lost).collect();
         let first = dead.iter().min_by_key(|idle| idle.actions.len())?;
         let ticks = first.actions.len();
-        let of = if looks.len() == 1 {
+        let of = if results.len() == 1 {
             String::new()
         } else {
-            format!(", in {} of {} games of chance", dead.len(), looks.len())
+            format!(", with {} of {} random seeds", dead.len(), results.len())
         };
-        let text = format!("who does nothing is lost in tick {ticks}{of}; who acts can live");
+        let text = format!("doing nothing loses in tick {ticks}{of}; other actions survive");
         let ending = Ending::of(case.analysis, case.level, first).evidence(case.game);
         let cause = ending.into_iter().next().unwrap_or_default();
         Some(Evidence { text, board: None, ..cause })
     }
 
     /// Looks for a way to survive with one seed: doing nothing, random actions, then an exhaustive search.
-    fn look(&self, case: Case<'_>, seed: Seed) -> Look {
-        let idle = self.live(case, seed, |_| Action::Nil);
+    fn survival(&self, case: Case<'_>, seed: Seed) -> Survival {
+        let idle = self.play_start(case, seed, |_| Action::Nil);
         let mut calls = idle.actions.len() as u64;
         let mut longest = idle.clone();
-        let lives = |episode: &Episode| !matches!(episode.outcome, Outcome::Lost | Outcome::Stopped(_));
-        for number in 0..TRIES {
-            if lives(&longest) {
+        let survives = |episode: &Episode| !matches!(episode.outcome, Outcome::Lost | Outcome::Stopped(_));
+        for number in 0..RANDOM_PLAYS {
+            if survives(&longest) {
                 break;
             }
             let mut sampler = seed.child("keys", number).sampler();
-            let tried = self.live(case, seed, |state| *sampler.choose(case.game.actions(state)));
+            let tried = self.play_start(case, seed, |state| *sampler.choose(case.game.actions(state)));
             calls += tried.actions.len() as u64;
-            if lives(&tried) || tried.actions.len() > longest.actions.len() {
+            if survives(&tried) || tried.actions.len() > longest.actions.len() {
                 longest = tried;
             }
         }
-        if lives(&longest) {
-            return Look { lived: true, complete: true, longest, idle, calls };
+        if survives(&longest) {
+            return Survival { survived: true, complete: true, longest, idle, calls };
         }
         let (found, complete, spent) = self.search(case, seed);
         let mut actions = found.iter();
-        let found = self.live(case, seed, |_| actions.next().copied().unwrap_or(Action::Nil));
-        let lived = lives(&found);
-        if lived || found.actions.len() >= longest.actions.len() {
+        let found = self.play_start(case, seed, |_| actions.next().copied().unwrap_or(Action::Nil));
+        let survived = survives(&found);
+        if survived || found.actions.len() >= longest.actions.len() {
             longest = found;
         }
-        Look { lived, complete, longest, idle, calls: calls + spent }
+        Survival { survived, complete, longest, idle, calls: calls + spent }
     }
 
     /// Plays the first ticks.
-    fn live(&self, case: Case<'_>, seed: Seed, mut choose: impl FnMut(&State) -> Action) -> Episode {
+    fn play_start(&self, case: Case<'_>, seed: Seed, mut choose: impl FnMut(&State) -> Action) -> Episode {
         let (mut episode, mut state) = Episode::begin(case.game, case.level, seed);
         while !state.is_over() && episode.actions.len() < self.ticks {
             let action = choose(&state);
@@ -188,7 +188,7 @@ impl NoEarlyDeath {
                             }
                         }
                         Outcome::Ongoing if !seen.insert(after.search_key(game)) => {}
-                        Outcome::Ongoing if next.len() >= WIDEST => complete = false,
+                        Outcome::Ongoing if next.len() >= MAX_STATES => complete = false,
                         Outcome::Ongoing => next.push((after, path)),
                     }
                 }
@@ -215,7 +215,7 @@ mod tests {
         let level = game.level(level).unwrap();
         let (analysis, seed) = (Analysis::of(&game), Seed::from_text("early"));
         let case = Case { game: &game, level: &level, seed, analysis: &analysis, witness: None };
-        let finding = NoEarlyDeath { ticks: 12, calls, chances: 10, share: 0.05 }.validate(case);
+        let finding = NoEarlyDeath { ticks: 12, calls, seeds: 10, share: 0.05 }.validate(case);
         if let Verdict::Fail { witness: Some(witness), .. } = &finding.verdict {
             assert_eq!(witness.replay(&game, &level).unwrap().outcome(), Outcome::Lost);
         }
@@ -231,31 +231,27 @@ mod tests {
     }
 
     #[test]
-    fn death_that_nothing_avoids_is_told_from_the_death_of_who_does_nothing() {
+    fn unavoidable_death_differs_from_idle_death() {
         let doomed = check(&calm(), "wwwwwwww\nwA  rr d\nwwwwwwww\n", 10_000);
         let Verdict::Fail { reason, .. } = &doomed.verdict else { panic!("{doomed:?}") };
-        assert!(reason.0.contains("within 4 ticks: all ways were searched"), "{reason:?}");
+        assert!(reason.0.contains("within 4 ticks: all action sequences were searched"), "{reason:?}");
         assert_eq!(doomed.evidence[0].rule.as_ref().unwrap().text, "avatar rock > killSprite");
         let alive = check(&calm(), "wwwwwwww\nwA  rr d\nw      w\nwwwwwwww\n", 10_000);
         assert!(alive.verdict.is_pass());
-        assert!(
-            alive.evidence[0].text.starts_with("who does nothing is lost in tick 4"),
-            "{:?}",
-            alive.evidence
-        );
+        assert!(alive.evidence[0].text.starts_with("doing nothing loses in tick 4"), "{:?}", alive.evidence);
     }
 
     #[test]
-    fn a_search_that_is_cut_short_proves_nothing() {
+    fn an_incomplete_search_is_unknown() {
         let found = check(&calm(), "wwwwwwww\nwA  rr d\nwwwwwwww\n", 2);
         assert!(matches!(found.verdict, Verdict::Unknown { spent: 2.. }), "{found:?}");
     }
 
     #[test]
-    fn games_of_chance_are_counted() {
+    fn random_seeds_are_counted() {
         let doomed = check(GAME, "wwwwwd\nwAooow\nwwwwww\n", 10_000);
         let Verdict::Fail { reason, .. } = &doomed.verdict else { panic!("{doomed:?}") };
-        assert!(reason.0.contains("of 10 games of chance"), "{reason:?}");
+        assert!(reason.0.contains("of 10 random seeds"), "{reason:?}");
         assert!(check(GAME, "A       d\n         \n        o\n", 10_000).verdict.is_pass());
     }
 }

@@ -14,7 +14,7 @@ pub(crate) struct Ending {
     /// The termination that holds, as an index into the description.
     termination: Option<usize>,
     /// The interaction of the last tick that caused it: it removed the avatar, or the sprite that had to go.
-    blow: Option<Meeting>,
+    cause: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
     /// The last action.
@@ -23,16 +23,16 @@ pub(crate) struct Ending {
 
 /// Records the meetings of a tick.
 #[derive(Default)]
-struct Ear(Vec<Meeting>);
+struct MeetingRecorder(Vec<Meeting>);
 
 /// The most meetings of a tick to record.
-const HEARD: usize = 256;
+const MAX_MEETINGS: usize = 256;
 
-impl Watch for Ear {
+impl Watch for MeetingRecorder {
     fn interaction(&mut self, _: usize) {}
 
     fn wants_meetings(&self) -> bool {
-        self.0.len() < HEARD
+        self.0.len() < MAX_MEETINGS
     }
 
     fn meeting(&mut self, meeting: Meeting) {
@@ -46,13 +46,13 @@ impl Ending {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
         let mut before = None;
-        let mut ear = Ear::default();
+        let mut recorder = MeetingRecorder::default();
         if let Some((&last, rest)) = episode.actions.split_last() {
             for &action in rest {
                 game.step(&mut state, action);
             }
             before = Some(Board::of(game, &state));
-            game.step_watched(&mut state, last, &mut ear);
+            game.step_watched(&mut state, last, &mut recorder);
         }
         let termination = game.ended_by(&state);
         let avatars = || analysis.avatars().iter().map(|avatar| avatar.stype).collect();
@@ -69,7 +69,7 @@ impl Ending {
             ticks: episode.actions.len(),
             outcome: state.outcome(),
             termination,
-            blow: ear.0.into_iter().rev().find(|meeting| ends(analysis, meeting, &ended)),
+            cause: recorder.0.into_iter().rev().find(|meeting| ends(analysis, meeting, &ended)),
             before,
             action: episode.actions.last().copied(),
         }
@@ -81,14 +81,14 @@ impl Ending {
         let key = self.action.filter(|action| *action != Action::Nil);
         let key = key.map_or(String::new(), |action| format!(" (the key was {action})"));
         let word = if self.outcome == Outcome::Won { "won" } else { "lost" };
-        if let Some(Meeting { line, first, second, cell }) = self.blow {
+        if let Some(Meeting { line, first, second, cell }) = self.cause {
             let (first, partner) = (game.name(first), second.map(|second| game.name(second)));
             let text = format!("{first} meets {}{key}", partner.unwrap_or("the edge of the screen"));
             let rule = Some(Line::interaction(game, line));
             list.push(Evidence { text, cell: placed(cell), rule, ..Evidence::default() });
         }
         if let Some(line) = self.termination {
-            let text = format!("with that the game is {word}");
+            let text = format!("then the game is {word}");
             let text = if list.is_empty() { format!("the game is {word} by this line{key}") } else { text };
             let rule = Some(Line::termination(game, line));
             list.push(Evidence { text, rule, ..Evidence::default() });

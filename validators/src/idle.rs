@@ -41,7 +41,7 @@ impl NotIdle {
                 let ticks = play.episode.actions.len();
                 let reason = format!("doing nothing wins after {ticks} ticks");
                 let ending = Ending::of(case.analysis, case.level, &play.episode).evidence(case.game);
-                let advice = "let the win ask for something that only the player can do";
+                let advice = "make the win require an action of the player";
                 let ending = ending.into_iter().map(|seen| seen.advise(advice));
                 Finding::from(Verdict::fail_with(reason, play.episode.clone())).seen(ending)
             }
@@ -56,6 +56,6 @@ pub(crate) fn broken_off(played: &[Play], ticks: usize) -> Option<Finding> {
         |play: &&Play| play.episode.outcome == Outcome::Ongoing && play.episode.actions.len() >= ticks;
     let cut = played.iter().filter(is_cut).count();
     let spent = played.iter().map(|play| play.episode.actions.len() as u64).sum();
-    let text = format!("{cut} of {} plays were broken off after {ticks} ticks, by the budget", played.len());
+    let text = format!("{cut} of {} plays were stopped after {ticks} ticks by the budget", played.len());
     (cut > 0).then(|| Finding::from(Verdict::Unknown { spent }).seen([Evidence::new(text)]))
 }

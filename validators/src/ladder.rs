@@ -31,7 +31,7 @@ impl Rung {
 
     /// Returns `true` if the player looks ahead. Players that do nothing or act at random are the baselines.
     pub fn looks_ahead(&self) -> bool {
-        !FLOORS.contains(&self.planner.as_str())
+        !BASELINES.contains(&self.planner.as_str())
     }
 
     fn play(&self, case: Case<'_>, run: u64, limits: Limits) -> Play {
@@ -44,12 +44,12 @@ impl Rung {
 }
 
 /// Planners that do not look ahead.
-const FLOORS: &[&str] = &["do-nothing", "random", "random-with-nil"];
+const BASELINES: &[&str] = &["do-nothing", "random", "random-with-nil"];
 
 /// The results of one player.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Fared {
+pub struct PlayerResult {
     /// Its name: `mcts:500`.
     pub player: String,
     /// `true` if it looks ahead.
@@ -68,9 +68,9 @@ pub struct Fared {
 #[serde(deny_unknown_fields)]
 pub struct Ladder {
     /// From the weakest to the strongest, as the criteria name them.
-    pub rungs: Vec<Fared>,
+    pub rungs: Vec<PlayerResult>,
     /// Players that are held out until acceptance.
-    pub held_out: Vec<Fared>,
+    pub held_out: Vec<PlayerResult>,
     /// The ease, from 0 to 1 (`spec/06` §2.6); none without a player that looks ahead.
     pub ease: Option<f64>,
     /// The label of that ease.
@@ -118,7 +118,7 @@ impl Difficulty {
 
 /// The label is none of [`Difficulty::LABELS`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no difficulty `{0}`; there are very_easy, easy, medium, hard, very_hard")]
+#[error("unknown difficulty `{0}`: choose very_easy, easy, medium, hard or very_hard")]
 pub struct UnknownDifficulty(String);
 
 impl FromStr for Difficulty {
@@ -147,7 +147,7 @@ impl fmt::Display for Difficulty {
 
 /// The players of a ladder and the limits of their plays.
 #[derive(Clone, Debug)]
-pub struct Climb {
+pub struct LadderConfig {
     /// From the weakest to the strongest.
     pub rungs: Vec<Rung>,
     /// Held-out players: they never guide a search.
@@ -169,11 +169,11 @@ const GRACE: usize = 50;
 const ROUND: u64 = 2;
 
 /// The plays of each player, by number: the rungs, then the held-out players.
-pub(crate) struct Climbed {
+pub(crate) struct LadderPlays {
     pub(crate) plays: Vec<Vec<Play>>,
 }
 
-impl Climbed {
+impl LadderPlays {
     /// Returns the number of plays that were broken off because their calls were spent.
     pub(crate) fn broken_off(&self, calls: u64) -> usize {
         let is_cut = |play: &&Play| {
@@ -184,35 +184,35 @@ impl Climbed {
     }
 }
 
-impl Climb {
+impl LadderConfig {
     fn players(&self) -> impl Iterator<Item = &Rung> {
         self.rungs.iter().chain(&self.held_out)
     }
 
     /// Measures the players on a level and the difficulty that follows.
     pub fn ladder(&self, case: Case<'_>) -> Ladder {
-        self.measure(&self.climb(case))
+        self.measure(&self.play_all(case))
     }
 
     /// Measures the players, and returns all their plays.
     pub fn play(&self, case: Case<'_>) -> (Ladder, Vec<Episode>) {
-        let climbed = self.climb(case);
-        (self.measure(&climbed), climbed.plays.into_iter().flatten().map(|play| play.episode).collect())
+        let played = self.play_all(case);
+        (self.measure(&played), played.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 
     /// Returns the number of plays of a round.
-    pub(crate) fn of_a_round(&self) -> u64 {
+    pub(crate) fn round_plays(&self) -> u64 {
         ROUND * self.players().count() as u64
     }
 
     /// Lets every player play equally often. Rounds go on until the plays, or the calls, are spent.
-    pub(crate) fn climb(&self, case: Case<'_>) -> Climbed {
-        self.climb_within(case, u64::MAX)
+    pub(crate) fn play_all(&self, case: Case<'_>) -> LadderPlays {
+        self.play_within(case, u64::MAX)
     }
 
-    /// Like [`Climb::climb`], but a play is broken off at the first decision after `calls` calls, or at its tick
+    /// Like [`LadderConfig::play_all`], but a play is broken off at the first decision after `calls` calls, or at its tick
     /// limit.
-    pub(crate) fn climb_within(&self, case: Case<'_>, calls: u64) -> Climbed {
+    pub(crate) fn play_within(&self, case: Case<'_>, calls: u64) -> LadderPlays {
         let patient = |witness: &Episode| self.patience.saturating_mul(witness.actions.len()) + GRACE;
         let ticks = self.ticks.min(case.witness.map_or(usize::MAX, patient));
         let ticks = ticks.min(usize::try_from(calls).unwrap_or(usize::MAX));
@@ -236,23 +236,23 @@ impl Climb {
                 plays[player].push(play);
             }
         }
-        Climbed { plays }
+        LadderPlays { plays }
     }
 
     /// Computes the results of the plays. The rewards of held-out players are scaled by the scores of the others, so
     /// that difficulty does not depend on held-out players.
-    pub(crate) fn measure(&self, climbed: &Climbed) -> Ladder {
-        let all = || climbed.plays[..self.rungs.len()].iter().flatten().map(|play| &play.episode);
+    pub(crate) fn measure(&self, played: &LadderPlays) -> Ladder {
+        let all = || played.plays[..self.rungs.len()].iter().flatten().map(|play| &play.episode);
         let scores = || all().map(|episode| episode.score);
         let (least, greatest) =
             (scores().fold(f64::INFINITY, f64::min), scores().fold(f64::NEG_INFINITY, f64::max));
         let longest = all().map(|episode| episode.actions.len()).max().unwrap_or_default() as f64;
-        let fared = |(rung, plays): (&Rung, &Vec<Play>)| {
+        let result = |(rung, plays): (&Rung, &Vec<Play>)| {
             let rate = Rate::of(plays);
             let won: Vec<f64> = plays.iter().filter_map(|play| won_in(&play.episode)).collect();
             let reward =
                 (least < greatest).then(|| ((rate.mean_score - least) / (greatest - least)).clamp(0.0, 1.0));
-            Fared {
+            PlayerResult {
                 player: rung.name.clone(),
                 looks_ahead: rung.looks_ahead(),
                 win_ticks: statistics::Summary::of(&won).map(|summary| summary.mean),
@@ -260,12 +260,12 @@ impl Climb {
                 rate,
             }
         };
-        let mut rungs: Vec<Fared> = self.players().zip(&climbed.plays).map(fared).collect();
+        let mut rungs: Vec<PlayerResult> = self.players().zip(&played.plays).map(result).collect();
         let held_out = rungs.split_off(self.rungs.len());
         let eases: Vec<f64> =
-            rungs.iter().filter(|fared| fared.looks_ahead).map(|fared| ease(fared, longest)).collect();
+            rungs.iter().filter(|result| result.looks_ahead).map(|result| ease(result, longest)).collect();
         let ease = statistics::Summary::of(&eases).map(|summary| summary.mean);
-        let beaten = rungs.iter().any(|fared| fared.rate.wins > 0);
+        let beaten = rungs.iter().any(|result| result.rate.wins > 0);
         let difficulty = if beaten { Difficulty::of(ease.unwrap_or_default()) } else { Difficulty::Unbeaten };
         Ladder { rungs, held_out, ease, difficulty }
     }
@@ -277,11 +277,11 @@ fn won_in(episode: &Episode) -> Option<f64> {
 
 /// The weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2), which is
 /// `1 − mean ticks of wins / ticks of the longest play`; a missing value (equal scores; no win) leaves its weight to the others.
-fn ease(fared: &Fared, longest: f64) -> f64 {
-    let Rate { wins, plays, .. } = fared.rate;
+fn ease(result: &PlayerResult, longest: f64) -> f64 {
+    let Rate { wins, plays, .. } = result.rate;
     let won = wins as f64 / plays.max(1) as f64;
-    let efficiency = fared.win_ticks.filter(|_| longest > 0.0).map(|ticks| 1.0 - ticks / longest);
-    let terms = [(0.6, Some(won)), (0.2, fared.reward), (0.2, efficiency)];
+    let efficiency = result.win_ticks.filter(|_| longest > 0.0).map(|ticks| 1.0 - ticks / longest);
+    let terms = [(0.6, Some(won)), (0.2, result.reward), (0.2, efficiency)];
     let weight: f64 = terms.iter().filter(|(_, term)| term.is_some()).map(|(weight, _)| weight).sum();
     terms.iter().map(|(weight, term)| weight * term.unwrap_or_default()).sum::<f64>() / weight
 }
@@ -291,7 +291,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rungs_are_read() {
+    fn players_are_parsed() {
         let rung = Rung::new("mcts:70", 500).unwrap();
         assert_eq!((rung.budget, rung.looks_ahead()), (Budget(70), true));
         assert_eq!(Rung::new("mcts", 500).unwrap().budget, Budget(500));
@@ -304,14 +304,14 @@ mod tests {
     #[track_caller]
     fn check(wins: u64, reward: Option<f64>, win_ticks: Option<f64>, expect: f64, label: Difficulty) {
         let rate = Rate { wins, plays: 10, interval: [0.0, 1.0], calls: 0, mean_score: 0.0 };
-        let fared = Fared { player: String::new(), looks_ahead: true, rate, win_ticks, reward };
-        let found = ease(&fared, 100.0);
+        let result = PlayerResult { player: String::new(), looks_ahead: true, rate, win_ticks, reward };
+        let found = ease(&result, 100.0);
         assert!((found - expect).abs() < 1e-12, "{found}");
         assert_eq!(Difficulty::of(found), label);
     }
 
     #[test]
-    fn ease_is_a_weighted_mean_of_what_is_known() {
+    fn ease_is_a_weighted_mean_of_known_terms() {
         check(10, Some(1.0), Some(10.0), 0.98, Difficulty::VeryEasy);
         check(10, None, Some(100.0), 0.75, Difficulty::Easy);
         check(5, Some(0.5), Some(50.0), 0.5, Difficulty::Medium);

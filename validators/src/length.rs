@@ -27,10 +27,10 @@ impl Validator for LengthWithin {
         };
         if ticks < self.least {
             let reason = format!("won in {ticks} ticks, fewer than {}", self.least);
-            Finding::from(Verdict::fail(reason)).seen(seen("put the goal farther off"))
+            Finding::from(Verdict::fail(reason)).seen(seen("move the goal farther away"))
         } else if ticks > self.most {
             let reason = format!("the shortest win found takes {ticks} ticks, more than {}", self.most);
-            Finding::from(Verdict::fail(reason)).seen(seen("make the level smaller, or ask for less"))
+            Finding::from(Verdict::fail(reason)).seen(seen("make the level smaller, or raise `most_ticks`"))
         } else {
             Verdict::pass().into()
         }

@@ -42,7 +42,7 @@ pub use evidence::{Evidence, Line};
 pub use game_measures::{GameKind, PlayMeasures};
 pub use game_report::{GameCase, GameReport, GameValidator};
 pub use idle::NotIdle;
-pub use ladder::{Climb, Difficulty, Fared, Ladder, Rung, UnknownDifficulty};
+pub use ladder::{Difficulty, Ladder, LadderConfig, PlayerResult, Rung, UnknownDifficulty};
 pub use length::LengthWithin;
 pub use mcts_rate::mcts_rate;
 pub use measures::{FORESIGHT, Measures, SkillGap, is_guard, used_rules};

@@ -1,6 +1,6 @@
 //! Measures of a level in play: the axes of archives and of expressive range.
 
-use crate::ladder::{Fared, Ladder};
+use crate::ladder::{Ladder, PlayerResult};
 use crate::panel::Report;
 use engine::analysis::EffectSummary;
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteType, State, Watch};
@@ -41,7 +41,7 @@ pub struct Measures {
 pub struct SkillGap {
     /// Difference of the win rates, from −1 to 1.
     pub wins: f64,
-    /// Difference of the rewards ([`Fared::reward`]), from −1 to 1; none if all plays scored alike.
+    /// Difference of the rewards ([`PlayerResult::reward`]), from −1 to 1; none if all plays scored alike.
     pub reward: Option<f64>,
 }
 
@@ -77,7 +77,7 @@ impl Measures {
     pub fn of_episode(analysis: &Analysis, level: &Level, episode: &Episode, seed: Seed) -> Measures {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
-        let mut ear = Ear::new(game);
+        let mut recorder = MeetingRecorder::new(game);
         let (mut pushes, mut branching, mut pressure) = (0, Mean::default(), Mean::default());
         let stride = episode.actions.len().div_ceil(MOMENTS).max(1);
         for (tick, &action) in episode.actions.iter().enumerate() {
@@ -86,14 +86,14 @@ impl Measures {
                 pressure.add(danger(game, &state, seed.child("tick", tick as u64)));
             }
             let before = state.clone();
-            ear.meetings.clear();
-            game.step_watched(&mut state, action, &mut ear);
-            pushes += pushed(analysis, &ear.meetings, &before, &state);
+            recorder.meetings.clear();
+            game.step_watched(&mut state, action, &mut recorder);
+            pushes += pushed(analysis, &recorder.meetings, &before, &state);
         }
-        let rules: Vec<usize> = (0..ear.lines.len()).filter(|&line| ear.lines[line]).collect();
+        let rules: Vec<usize> = (0..recorder.lines.len()).filter(|&line| recorder.lines[line]).collect();
         let inner = |line: &usize| !is_guard(game, *line);
         let (of, used) =
-            ((0..ear.lines.len()).filter(inner).count(), rules.iter().copied().filter(inner).count());
+            ((0..recorder.lines.len()).filter(inner).count(), rules.iter().copied().filter(inner).count());
         Measures {
             ticks: episode.actions.len(),
             pushes,
@@ -111,16 +111,16 @@ impl SkillGap {
     /// Compares the players of a ladder; none unless some look ahead and some do not.
     pub fn of(ladder: &Ladder) -> Option<SkillGap> {
         let players = || ladder.rungs.iter().chain(&ladder.held_out);
-        let gap = |value: &dyn Fn(&Fared) -> Option<f64>| {
+        let gap = |value: &dyn Fn(&PlayerResult) -> Option<f64>| {
             let mean = |looks_ahead: bool| {
-                let kind = players().filter(|fared| fared.looks_ahead == looks_ahead);
+                let kind = players().filter(|result| result.looks_ahead == looks_ahead);
                 let values: Option<Vec<f64>> = kind.map(value).collect();
                 statistics::Summary::of(&values?).map(|summary| summary.mean)
             };
             Some(mean(true)? - mean(false)?)
         };
-        let wins = gap(&|fared| Some(fared.rate.wins as f64 / fared.rate.plays.max(1) as f64))?;
-        Some(SkillGap { wins, reward: gap(&|fared| fared.reward) })
+        let wins = gap(&|result| Some(result.rate.wins as f64 / result.rate.plays.max(1) as f64))?;
+        Some(SkillGap { wins, reward: gap(&|result| result.reward) })
     }
 }
 
@@ -213,27 +213,27 @@ fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &Sta
 }
 
 /// Records the executed interactions, and the meetings of the current tick.
-struct Ear {
+struct MeetingRecorder {
     lines: Vec<bool>,
     meetings: Vec<Meeting>,
 }
 
 /// The most meetings of a tick to record.
-const HEARD: usize = 256;
+const MAX_MEETINGS: usize = 256;
 
-impl Ear {
-    fn new(game: &Game) -> Ear {
-        Ear { lines: vec![false; game.description().interactions.len()], meetings: Vec::new() }
+impl MeetingRecorder {
+    fn new(game: &Game) -> MeetingRecorder {
+        MeetingRecorder { lines: vec![false; game.description().interactions.len()], meetings: Vec::new() }
     }
 }
 
-impl Watch for Ear {
+impl Watch for MeetingRecorder {
     fn interaction(&mut self, line: usize) {
         self.lines[line] = true;
     }
 
     fn wants_meetings(&self) -> bool {
-        self.meetings.len() < HEARD
+        self.meetings.len() < MAX_MEETINGS
     }
 
     fn meeting(&mut self, meeting: Meeting) {
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn branching_tells_room_from_a_dead_end() {
+    fn branching_is_higher_in_open_space() {
         // In a niche of the wall the only option is to stay; in the open five actions lead to five states.
         let caged = check("wwwwww\nwAw ow\nwww cw\nwwwwww\n", &[Up]);
         let free = check("wwwwww\nw    w\nw A  w\nw   ow\nw   cw\nwwwwww\n", &[Action::Nil]);
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn the_skill_gap_is_between_kinds_of_players() {
-        let fared = |looks_ahead, wins, reward| Fared {
+        let result = |looks_ahead, wins, reward| PlayerResult {
             player: String::new(),
             looks_ahead,
             rate: Rate { wins, plays: 10, interval: [0.0, 1.0], calls: 0, mean_score: 0.0 },
@@ -323,11 +323,11 @@ mod tests {
             reward,
         };
         let ladder = |rungs| Ladder { rungs, held_out: Vec::new(), ease: None, difficulty: Difficulty::Easy };
-        let rungs = vec![fared(false, 1, Some(0.2)), fared(true, 5, Some(0.5)), fared(true, 9, Some(0.9))];
+        let rungs = vec![result(false, 1, Some(0.2)), result(true, 5, Some(0.5)), result(true, 9, Some(0.9))];
         let gap = SkillGap::of(&ladder(rungs)).unwrap();
         assert!((gap.wins - 0.6).abs() < 1e-12 && (gap.reward.unwrap() - 0.5).abs() < 1e-12, "{gap:?}");
-        assert_eq!(SkillGap::of(&ladder(vec![fared(true, 5, None)])), None);
-        let flat = SkillGap::of(&ladder(vec![fared(false, 0, None), fared(true, 5, None)])).unwrap();
+        assert_eq!(SkillGap::of(&ladder(vec![result(true, 5, None)])), None);
+        let flat = SkillGap::of(&ladder(vec![result(false, 0, None), result(true, 5, None)])).unwrap();
         assert_eq!(flat, SkillGap { wins: 0.5, reward: None });
     }
 }

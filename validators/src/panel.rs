@@ -39,7 +39,7 @@ enum Stage {
     Search,
     /// It asks about the win.
     Win,
-    /// It lets a ladder of players play, who may win what no search did; not asked of a level that nobody can win.
+    /// It lets a ladder of players play, who may win what no search did; skipped on a level that nobody can win.
     Ladder,
 }
 
@@ -52,10 +52,10 @@ enum Subject {
     Rules,
 }
 
-/// The words for criteria that are not asked of an unwinnable level.
-const NOT_ASKED: &str = "not asked: the level cannot be won";
-/// The words for criteria that are not asked where no play gets beyond its first tick.
-const STOPPED: &str = "not asked: the game stops in its first tick";
+/// The message for criteria that are skipped on an unwinnable level.
+const UNWINNABLE: &str = "skipped: the level cannot be won";
+/// The message for criteria that are skipped because the game stops in its first tick.
+const STOPPED: &str = "skipped: the game stops in its first tick";
 
 /// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -147,7 +147,7 @@ impl Panel {
     /// # Panics
     /// If they name unknown players or criteria; see [`Criteria::check`].
     pub fn new(criteria: &Criteria) -> Panel {
-        Panel::allowed(criteria, None)
+        Panel::with_allowance(criteria, None)
     }
 
     /// Like [`Panel::new`], with a number of forward-model calls for each level, and for the game over all its
@@ -161,11 +161,11 @@ impl Panel {
         Panel { bound: Some((criteria.clone(), calls)), ..Panel::new(criteria) }
     }
 
-    fn allowed(criteria: &Criteria, allowance: Option<Allowance>) -> Panel {
+    fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>) -> Panel {
         let bounded = allowance.map(|allowance| allowance.bounds(criteria));
         let c = bounded.as_ref().unwrap_or(criteria);
-        let climb = c.climb().expect("the criteria name planners that exist");
-        let play_calls = allowance.map_or(u64::MAX, |allowance| allowance.ladder_play(climb.of_a_round()));
+        let players = c.ladder_config().expect("the criteria name planners that exist");
+        let play_calls = allowance.map_or(u64::MAX, |allowance| allowance.ladder_play(players.round_plays()));
         let [idle, random] = match allowance {
             None => [usize::MAX; 2],
             Some(allowance) => [allowance.idle_play(), allowance.random_play()],
@@ -190,7 +190,7 @@ impl Panel {
                 Box::new(NoEarlyDeath {
                     ticks: c.early_ticks,
                     calls: c.early_calls,
-                    chances: c.early_chances,
+                    seeds: c.early_seeds,
                     share: c.early_deaths,
                 }),
             ),
@@ -198,7 +198,7 @@ impl Panel {
             (Stage::Win, Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
             (
                 Stage::Ladder,
-                Box::new(SkillPays { climb, wins: c.skill_wins, scores: c.skill_scores, play_calls }),
+                Box::new(SkillPays { players, wins: c.skill_wins, scores: c.skill_scores, play_calls }),
             ),
         ];
         let game: [(Subject, Box<dyn GameValidator + Send>); 3] = [
@@ -210,8 +210,8 @@ impl Panel {
             ),
         ];
         Panel {
-            validators: level.into_iter().filter(|(_, validator)| c.asks(validator.name())).collect(),
-            of_game: game.into_iter().filter(|(_, validator)| c.asks(validator.name())).collect(),
+            validators: level.into_iter().filter(|(_, validator)| c.includes(validator.name())).collect(),
+            of_game: game.into_iter().filter(|(_, validator)| c.includes(validator.name())).collect(),
             bound: None,
             search,
             exploration: allowance.map_or(u64::MAX, Allowance::exploration),
@@ -221,22 +221,22 @@ impl Panel {
     /// Runs every validator of levels.
     pub fn judge(&self, game: &Game, level: &Level, seed: Seed) -> Report {
         match &self.bound {
-            None => self.ask(game, level, None, seed, false),
+            None => self.run(game, level, None, seed, false),
             Some((criteria, calls)) => {
                 let allowance = Allowance::of(*calls, game, [level]);
-                Panel::allowed(criteria, Some(allowance)).ask(game, level, None, seed, false)
+                Panel::with_allowance(criteria, Some(allowance)).run(game, level, None, seed, false)
             }
         }
     }
 
     /// Runs the validators until one does not pass: for minting, where candidates are many.
     pub fn screen(&self, game: &Game, level: &Level, seed: Seed) -> Report {
-        self.ask(game, level, None, seed, true)
+        self.run(game, level, None, seed, true)
     }
 
     /// Like [`Panel::screen`], for a level that `witness` is known to win.
     pub fn screen_won(&self, game: &Game, level: &Level, witness: Episode, seed: Seed) -> Report {
-        self.ask(game, level, Some(witness), seed, true)
+        self.run(game, level, Some(witness), seed, true)
     }
 
     /// Runs every validator, on the levels and on the game. Each level has a seed derived from its text, so that it gets
@@ -261,7 +261,7 @@ impl Panel {
         }
         if let Some((criteria, calls)) = &self.bound {
             let allowance = Allowance::of(*calls, game, levels);
-            let panel = Panel::allowed(criteria, Some(allowance));
+            let panel = Panel::with_allowance(criteria, Some(allowance));
             return panel.judge_together(game, levels, reports, seed);
         }
         let analysis = Analysis::of(game);
@@ -282,15 +282,15 @@ impl Panel {
             };
             let finding = validator.validate(case);
             let why = consequence(reports, &finding.verdict).filter(|_| *subject == Subject::Rules);
-            Judgement { criterion, finding: why.map_or(finding, |why| not_asked(&why)) }
+            Judgement { criterion, finding: why.map_or(finding, |why| skipped(&why)) }
         };
         self.of_game.iter().map(judge).collect()
     }
 
-    fn ask(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {
+    fn run(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {
         let analysis = Analysis::of(game);
         let mut report = Report { judgements: Vec::new(), witness };
-        let ask = |stage: Stage, validator: &(dyn Validator + Send), witness: Option<&Episode>| {
+        let run = |stage: Stage, validator: &(dyn Validator + Send), witness: Option<&Episode>| {
             let criterion = validator.name();
             let case = Case { game, level, seed: seed.child(criterion, 0), analysis: &analysis, witness };
             let mut finding = validator.validate(case);
@@ -304,14 +304,14 @@ impl Panel {
             let why = match stage {
                 Stage::Start => None,
                 _ if report.is_stopped() => Some(STOPPED),
-                Stage::Win | Stage::Ladder if report.is_unwinnable() => Some(NOT_ASKED),
+                Stage::Win | Stage::Ladder if report.is_unwinnable() => Some(UNWINNABLE),
                 _ => None,
             };
             if let Some(why) = why {
-                report.judgements.push(Judgement { criterion: validator.name(), finding: not_asked(why) });
+                report.judgements.push(Judgement { criterion: validator.name(), finding: skipped(why) });
                 continue;
             }
-            let mut judgement = ask(*stage, &**validator, report.witness.as_ref());
+            let mut judgement = run(*stage, &**validator, report.witness.as_ref());
             if *stage == Stage::Search {
                 report.accept(&mut judgement);
             }
@@ -330,7 +330,7 @@ impl Panel {
                     Stage::Search => {
                         judged.finding.verdict = Verdict::Pass { witness: report.witness.clone() }
                     }
-                    Stage::Win => *judged = ask(*stage, &**validator, report.witness.as_ref()),
+                    Stage::Win => *judged = run(*stage, &**validator, report.witness.as_ref()),
                     _ => {}
                 }
             }
@@ -340,7 +340,7 @@ impl Panel {
 }
 
 /// Returns the finding of a criterion that is skipped, with the reason.
-fn not_asked(why: &str) -> Finding {
+fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
@@ -355,11 +355,11 @@ fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
         Verdict::Pass { .. } => None,
         _ if lost == 0 => None,
         _ if lost == all => {
-            Some(if all == 1 { NOT_ASKED } else { "not asked: no level can be won" }.to_owned())
+            Some(if all == 1 { UNWINNABLE } else { "skipped: no level can be won" }.to_owned())
         }
         // A proof over all levels holds even if some cannot be won.
         Verdict::Fail { .. } => None,
-        Verdict::Unknown { .. } => Some(format!("not asked: {lost} of {all} levels cannot be won")),
+        Verdict::Unknown { .. } => Some(format!("skipped: {lost} of {all} levels cannot be won")),
     }
 }
 
@@ -425,7 +425,7 @@ mod tests {
     }
 
     #[test]
-    fn a_goal_out_of_reach_is_proved_so() {
+    fn unreachable_goals_are_proved() {
         let report = check(
             GAME,
             &WALLED.replace("wp w\n", "wpww\n"),
@@ -443,7 +443,7 @@ mod tests {
     }
 
     #[test]
-    fn a_win_for_nothing_is_found() {
+    fn wins_by_doing_nothing_are_found() {
         let idle = GAME.replace("Timeout limit=60 win=False", "Timeout limit=60 win=True");
         let report = check(
             &idle,
@@ -462,7 +462,7 @@ mod tests {
     }
 
     #[test]
-    fn a_game_over_at_the_start_or_never_won_is_not_well_formed() {
+    fn games_decided_at_the_start_or_unwinnable_are_not_well_formed() {
         let faults = [
             ("limit=60", "limit=0", "lost in its first tick"),
             (

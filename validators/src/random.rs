@@ -50,7 +50,7 @@ impl NotRandom {
                 let most = 100.0 * self.most;
                 let reason = format!("random play wins {wins} of {plays} episodes, more than {most:.0} %");
                 let ending = Ending::of(case.analysis, case.level, shortest).evidence(case.game);
-                let advice = "put the goal farther off, or something in the way that takes a plan";
+                let advice = "move the goal farther away, or add an obstacle that takes a plan";
                 let ending = ending.into_iter().map(|seen| seen.advise(advice));
                 Finding::from(Verdict::fail_with(reason, shortest.clone())).seen(ending)
             }

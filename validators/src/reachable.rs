@@ -32,18 +32,17 @@ impl<V: Validator> Validator for Reachable<V> {
         let evidence = wins.zip(&told).map(|(impossible_goal, sentence)| {
             let (cell, advice) = match &impossible_goal.cause {
                 Cause::Permanent(sprites) => {
-                    let advice = "open a way to it, or make it go";
+                    let advice = "open a path to it, or remove it";
                     let first = sprites.first();
                     (first.map(|(_, cell)| (cell % columns + 1, cell / columns + 1)), advice)
                 }
-                Cause::AtMost(_) => (None, "place more of what it counts, or ask for fewer"),
+                Cause::AtMost(_) => (None, "place more of the counted sprites, or lower the limit"),
             };
             let rule = Some(Line::termination(game, analysis.goals()[impossible_goal.goal].line));
             Evidence { text: sentence.clone(), cell, rule, ..Evidence::default() }.advise(advice)
         });
         let evidence: Vec<Evidence> = evidence.collect();
         let why = told.first().map_or("no termination that wins can ever hold in it", String::as_str);
-        Finding::from(Verdict::fail(format!("no way to win, whatever is played: {}", lower(why))))
-            .seen(evidence)
+        Finding::from(Verdict::fail(format!("the level cannot be won: {}", lower(why)))).seen(evidence)
     }
 }

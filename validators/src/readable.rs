@@ -27,22 +27,24 @@ impl Validator for Readable {
         let reach = analysis.reach(level);
         let mut faults = Vec::new();
         let mut notes = Vec::new();
-        let hidden = |stype: &&SpriteType| is_there(&reach, **stype);
+        let hidden = |stype: &&SpriteType| is_present(&reach, **stype);
         for &stype in analysis.unseen().iter().filter(hidden) {
             let name = game.name(stype);
             let seen = Evidence { rule: Line::sprite(game, name), ..Evidence::default() };
             if decides(analysis, stype) {
-                let text = format!("`{name}` decides how the game goes, but is hidden");
+                let text = format!("`{name}` affects the outcome, but is hidden");
                 faults.push(Evidence { text, ..seen }.advise("remove `hidden=True`"));
             } else {
-                notes.push(Evidence { text: format!("`{name}` is hidden, and makes others"), ..seen });
+                notes.push(Evidence { text: format!("`{name}` is hidden, and spawns others"), ..seen });
             }
         }
         faults.extend(covered(analysis, level));
-        let visible = |stype: &SpriteType| is_there(&reach, *stype) && !analysis.facts(*stype).hidden;
+        let visible = |stype: &SpriteType| is_present(&reach, *stype) && !analysis.facts(*stype).hidden;
         let types = game.sprite_types().filter(visible).count();
         if types > CHARACTERS {
-            faults.push(Evidence::new(format!("{types} types are visible, more than there are characters")));
+            faults.push(Evidence::new(format!(
+                "{types} types are visible, but there are only {CHARACTERS} characters"
+            )));
         }
         let verdict = match faults.first() {
             None => Verdict::pass(),
@@ -52,7 +54,7 @@ impl Validator for Readable {
     }
 }
 
-fn is_there(reach: &Reach, stype: SpriteType) -> bool {
+fn is_present(reach: &Reach, stype: SpriteType) -> bool {
     reach.touched(stype).next().is_some()
 }
 
@@ -136,14 +138,14 @@ mod tests {
     }
 
     #[test]
-    fn what_decides_is_to_be_seen() {
+    fn decisive_types_must_be_visible() {
         check(GAME, "A.gr", None, 0);
         // Hidden, but it only makes others.
         check(GAME, "Ang.", None, 1);
         // Some character shows gems, so players can recognize them.
         check(GAME, "A.xg", None, 0);
         let hidden = GAME.replace("gem > Immovable", "gem > Immovable hidden=True");
-        check(&hidden, "A.gr", Some("`gem` decides how the game goes, but is hidden"), 1);
+        check(&hidden, "A.gr", Some("`gem` affects the outcome, but is hidden"), 1);
         let covered = GAME.replace("    g > floor gem\n", "");
         let fault = "`gem` has no symbol of its own: `x` shows the `rock` above it";
         check(&covered, "A.xr", Some(fault), 1);

@@ -40,12 +40,12 @@ const USES: usize = 24;
 /// Ticks of a level's episodes to replay; the most informative episodes come first.
 const TICKS: u64 = 100_000;
 
-struct Ear<'a> {
+struct MeetingRecorder<'a> {
     usage: &'a mut Usage,
     at: Use,
 }
 
-impl Watch for Ear<'_> {
+impl Watch for MeetingRecorder<'_> {
     fn interaction(&mut self, line: usize) {
         let uses = &mut self.usage.lines[line];
         let of_this = |last: &Use| (last.level, last.episode) == (self.at.level, self.at.episode);
@@ -113,7 +113,7 @@ impl Usage {
             usage.note_types(game, &state);
             for (tick, &action) in played.actions.iter().enumerate() {
                 let at = Use { level: number, episode, tick };
-                game.step_watched(&mut state, action, &mut Ear { usage: &mut usage, at });
+                game.step_watched(&mut state, action, &mut MeetingRecorder { usage: &mut usage, at });
                 usage.note_types(game, &state);
             }
             usage.episodes += 1;
@@ -141,9 +141,9 @@ pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]
 }
 
 /// Random walks on each level, if some rule was never executed.
-const TRIES: u64 = 400;
+const MAX_WALKS: u64 = 400;
 /// Random actions of a walk.
-const KEYS: usize = 40;
+const WALK_TICKS: usize = 40;
 
 /// Looks for executions of interactions that a recording does not show, by random walks from random moments of the
 /// episodes of each level: up to `most` ticks a level, and one walk more. Returns, by level, the episodes that show
@@ -162,26 +162,26 @@ pub(crate) fn explore(
     let numbered: Vec<(u64, &Recorded<'_>)> = (0..).zip(recording).collect();
     let of_level = |&(number, recorded): &(u64, &Recorded<'_>)| {
         let mut unseen = unseen.clone();
-        let tries = (0..TRIES).map(|number| seed.child("way", number));
+        let tries = (0..MAX_WALKS).map(|number| seed.child("way", number));
         let tries = tries.map(|way| way.child("level", number));
         let mut left = most;
-        let tries =
-            tries.map_while(|way| (left > 0).then(|| try_way(game, *recorded, &mut unseen, way, &mut left)));
+        let tries = tries
+            .map_while(|way| (left > 0).then(|| random_walk(game, *recorded, &mut unseen, way, &mut left)));
         tries.flatten().collect()
     };
     numbered.par_iter().map(of_level).collect()
 }
 
 /// Takes a random walk and marks the new interactions that it shows. Returns the episode up to the last of them.
-fn try_way(
+fn random_walk(
     game: &Game,
     recorded: Recorded<'_>,
     unseen: &mut [bool],
     seed: Seed,
     left: &mut u64,
 ) -> Option<Episode> {
-    struct News<'a>(&'a mut [bool], bool);
-    impl Watch for News<'_> {
+    struct NewLines<'a>(&'a mut [bool], bool);
+    impl Watch for NewLines<'_> {
         fn interaction(&mut self, line: usize) {
             self.1 |= std::mem::replace(&mut self.0[line], false);
         }
@@ -196,8 +196,8 @@ fn try_way(
     let start = sampler.below(from.actions.len().max(1));
     let mut state = game.start(recorded.level, from.seed);
     let mut actions: Vec<Action> = Vec::new();
-    let mut telling = 0;
-    for tick in 0..start + KEYS {
+    let mut informative = 0;
+    for tick in 0..start + WALK_TICKS {
         if state.is_over() {
             break;
         }
@@ -205,19 +205,19 @@ fn try_way(
             Some(&action) => action,
             None => *sampler.choose(game.actions(&state)),
         };
-        let mut news = News(unseen, false);
-        game.step_watched(&mut state, action, &mut news);
+        let mut new_lines = NewLines(unseen, false);
+        game.step_watched(&mut state, action, &mut new_lines);
         actions.push(action);
         *left = left.saturating_sub(1);
-        if news.1 {
-            telling = actions.len();
+        if new_lines.1 {
+            informative = actions.len();
         }
     }
-    if telling == 0 {
+    if informative == 0 {
         return None;
     }
     let (mut episode, mut state) = Episode::begin(game, recorded.level, from.seed);
-    for action in actions.into_iter().take(telling) {
+    for action in actions.into_iter().take(informative) {
         episode.play(game, &mut state, action);
     }
     Some(episode)

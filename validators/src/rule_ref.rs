@@ -27,7 +27,7 @@ pub struct RuleRefError {
 /// The name of the edge of the screen in interactions.
 const EDGE: &str = "EOS";
 /// The most interactions that a message lists.
-const LISTED: usize = 4;
+const MAX_LISTED: usize = 4;
 
 impl RuleRef {
     /// Reads the name of a rule: the number of its line in the InteractionSet, from 1; or the two sprites, as the
@@ -87,7 +87,7 @@ impl RuleRef {
         if meant.is_empty() {
             let effects: Vec<&str> = met.iter().map(|(line, _)| lines[*line].effect.text.as_str()).collect();
             let help = suggestion(effect, effects.iter().copied());
-            return wrong(format!("what happens there is {}, not `{effect}`{help}", quoted(&effects)));
+            return wrong(format!("their effect is {}, not `{effect}`{help}", quoted(&effects)));
         }
         Ok(named(meant))
     }
@@ -105,23 +105,23 @@ impl RuleRef {
     /// Returns `true` if an episode executes one of them on sprites of the named types. Cost: that of the episode.
     pub fn is_used(&self, analysis: &Analysis, level: &Level, episode: &Episode) -> bool {
         let game = analysis.game();
-        let mut ear = Ear { rule: self, analysis, heard: false };
+        let mut recorder = MeetingRecorder { rule: self, analysis, heard: false };
         let mut state = game.start(level, episode.seed);
         episode.actions.iter().any(|&action| {
-            game.step_watched(&mut state, action, &mut ear);
-            ear.heard
+            game.step_watched(&mut state, action, &mut recorder);
+            recorder.heard
         })
     }
 }
 
 /// Watches for a rule.
-struct Ear<'a> {
+struct MeetingRecorder<'a> {
     rule: &'a RuleRef,
     analysis: &'a Analysis,
     heard: bool,
 }
 
-impl Watch for Ear<'_> {
+impl Watch for MeetingRecorder<'_> {
     fn interaction(&mut self, line: usize) {
         self.heard |= self.rule.meant.contains(&(line, None));
     }
@@ -182,8 +182,9 @@ fn meetings_of(analysis: &Analysis, name: &str) -> String {
     match known.len() {
         0 => String::new(),
         many => {
-            let listed: Vec<&str> = known.iter().take(LISTED).map(String::as_str).collect();
-            let more = if many > LISTED { format!(", and {} more", many - LISTED) } else { String::new() };
+            let listed: Vec<&str> = known.iter().take(MAX_LISTED).map(String::as_str).collect();
+            let more =
+                if many > MAX_LISTED { format!(", and {} more", many - MAX_LISTED) } else { String::new() };
             format!("; `{name}` has `{}`{more}", listed.join("`, `"))
         }
     }
@@ -227,13 +228,13 @@ mod tests {
     }
 
     #[test]
-    fn what_names_no_rule_is_told_with_what_may_be_meant() {
+    fn unknown_rules_are_reported_with_a_suggestion() {
         refuse("7", "lines 1 to 6");
         refuse("0", "lines 1 to 6");
         refuse("crate", "name two sprites");
         refuse("crate pti", "no sprite `pti`; did you mean `pit`?");
         refuse("barrel pit", "`barrel` and `pit` do not meet");
-        refuse("crate avatar killSprite", "what happens there is `bounceForward`, not `killSprite`");
+        refuse("crate avatar killSprite", "their effect is `bounceForward`, not `killSprite`");
         refuse("crate pit kilSprite", "did you mean `killSprite`?");
         refuse("pit pit", "`pit` has `avatar wall pit > stepBack`, `crate pit > killSprite scoreChange=1`");
     }

@@ -31,7 +31,7 @@ impl GameValidator for RuleUse {
         let (mut dead, mut unseen, mut guards) = (Vec::new(), Vec::new(), Vec::new());
         for stype in unused_types(game, usage) {
             let name = game.name(stype);
-            let text = format!("no `{name}` is ever there");
+            let text = format!("`{name}` never appears");
             let never = reaches.iter().all(|reach| reach.touched(stype).next().is_none());
             let rule = Line::sprite(game, name);
             let advice = format!("place it in a level, or remove `{name}` and its rules");
@@ -42,7 +42,7 @@ impl GameValidator for RuleUse {
             let rule = Line::interaction(game, line);
             let written = &game.description().interactions[line];
             if written.second.iter().any(|word| word.text == EDGE) || written.first.text == EDGE {
-                let text = format!("`{}` never runs; a guard at the edge, perhaps", rule.text);
+                let text = format!("`{}` never runs; it may be a guard at the edge", rule.text);
                 guards.push(Evidence::new(text).of_rule(rule));
                 continue;
             }
@@ -51,15 +51,17 @@ impl GameValidator for RuleUse {
                 true => ("", &mut unseen),
             };
             let text = format!("`{}` never runs{why}", rule.text);
-            list.push(Evidence::new(text).of_rule(rule).advise("remove it, or make a level that needs it"));
+            list.push(Evidence::new(text).of_rule(rule).advise("remove it, or add a level that needs it"));
         }
         let verdict = match (dead.first(), unseen.is_empty()) {
-            (Some(first), _) => Verdict::fail(more(&first.text, dead.len() - 1)),
+            (Some(first), _) => Verdict::fail(with_count(&first.text, dead.len() - 1)),
             (None, false) => Verdict::Unknown { spent: usage.ticks },
             (None, true) => Verdict::pass(),
         };
-        let shown =
-            Evidence::new(format!("{} episodes of {} ticks were looked at", usage.episodes, usage.ticks));
+        let shown = Evidence::new(format!(
+            "{} episodes of {} ticks in total were examined",
+            usage.episodes, usage.ticks
+        ));
         Finding::from(verdict).seen(dead).seen(unseen).seen(guards).seen([shown])
     }
 }
@@ -73,7 +75,7 @@ pub struct RulesShown {
     /// Interactions that none executes, without those with the edge of the screen.
     pub idle: Vec<usize>,
     /// Types that are declared for their own sprites, and of which a sprite was present or held.
-    pub there: Vec<SpriteType>,
+    pub present: Vec<SpriteType>,
     /// Types of which no sprite was ever present.
     pub absent: Vec<SpriteType>,
 }
@@ -87,13 +89,13 @@ impl RulesShown {
         let usage = Usage::of(game, &recorded(levels, &episodes));
         let inner = (0..usage.lines.len()).filter(|&line| !is_guard(game, line));
         let (idle, executed) = inner.partition(|&line| usage.lines[line].is_empty());
-        let (there, absent) = own_types(game).into_iter().partition(|stype| usage.types[stype.index()]);
-        RulesShown { executed, idle, there, absent }
+        let (present, absent) = own_types(game).into_iter().partition(|stype| usage.types[stype.index()]);
+        RulesShown { executed, idle, present, absent }
     }
 }
 
 /// A reason, and the number of further ones.
-pub(crate) fn more(first: &str, others: usize) -> String {
+pub(crate) fn with_count(first: &str, others: usize) -> String {
     match others {
         0 => first.to_owned(),
         _ => format!("{first}, and {others} more"),

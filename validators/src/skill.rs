@@ -1,7 +1,7 @@
 //! The `skill` criterion: playing well pays on a level.
 
 use crate::evidence::Evidence;
-use crate::ladder::{Climb, Climbed, Fared, Ladder};
+use crate::ladder::{Ladder, LadderConfig, LadderPlays, PlayerResult};
 use crate::verdict::{Case, Finding, Reason, Validator, Verdict};
 use agents::Play;
 use engine::Outcome;
@@ -16,7 +16,7 @@ use statistics::{Interval, Z95};
 #[derive(Clone, Debug)]
 pub struct SkillPays {
     /// The players and the limits of their plays.
-    pub climb: Climb,
+    pub players: LadderConfig,
     /// The difference that win rates must reach.
     pub wins: f64,
     /// Or the difference that mean scores must reach, as a share of the range of all scores.
@@ -29,7 +29,7 @@ pub struct SkillPays {
 const RESAMPLES: usize = 1000;
 
 /// The advantage of one player over another.
-struct Edge {
+struct Advantage {
     text: String,
     /// `true` if it is large enough and significant.
     pays: bool,
@@ -43,47 +43,51 @@ impl Validator for SkillPays {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        let climbed = self.climb.climb_within(case, self.play_calls);
-        let cut = climbed.broken_off(self.play_calls);
-        let ladder = self.climb.measure(&climbed);
-        let spent = climbed.plays.iter().flatten().map(|play| play.calls).sum();
-        let range = range(&climbed);
+        let played = self.players.play_within(case, self.play_calls);
+        let cut = played.broken_off(self.play_calls);
+        let ladder = self.players.measure(&played);
+        let spent = played.plays.iter().flatten().map(|play| play.calls).sum();
+        let range = range(&played);
         // The baseline is the best of the players that do not look ahead.
-        let floor = |&at: &usize| !ladder.rungs[at].looks_ahead;
-        let Some(weak) = (0..ladder.rungs.len()).filter(floor).max_by(|&a, &b| better(&ladder, a, b)) else {
+        let is_baseline = |&at: &usize| !ladder.rungs[at].looks_ahead;
+        let Some(weak) = (0..ladder.rungs.len()).filter(is_baseline).max_by(|&a, &b| better(&ladder, a, b))
+        else {
             return Verdict::Unknown { spent }.into();
         };
-        let strong = (0..ladder.rungs.len()).filter(|at| !floor(at));
-        let edges: Vec<Edge> = strong
-            .map(|at| self.edge(&ladder.rungs[at], &climbed.plays[at], (&ladder, &climbed), weak, range))
+        let strong = (0..ladder.rungs.len()).filter(|at| !is_baseline(at));
+        let advantages: Vec<Advantage> = strong
+            .map(|at| self.advantage(&ladder.rungs[at], &played.plays[at], (&ladder, &played), weak, range))
             .collect();
         let first = ladder.rungs.len();
-        let mut held: Vec<Edge> = ladder
+        let mut held: Vec<Advantage> = ladder
             .held_out
             .iter()
             .enumerate()
-            .map(|(at, fared)| self.edge(fared, &climbed.plays[first + at], (&ladder, &climbed), weak, range))
+            .map(|(at, result)| {
+                self.advantage(result, &played.plays[first + at], (&ladder, &played), weak, range)
+            })
             .collect();
         // In a deterministic game any win is a plan that wins every time.
-        let won = case.witness.is_some() || climbed.plays.iter().flatten().any(is_won);
+        let won = case.witness.is_some() || played.plays.iter().flatten().any(is_won);
         let planned = won && case.game.is_deterministic();
         let by_search = planned.then(|| self.against_search(&ladder.rungs[weak]));
-        let searched = by_search.as_ref().is_some_and(|edge| edge.pays);
-        let shown = edges.iter().any(|edge| edge.pays) || searched;
+        let searched = by_search.as_ref().is_some_and(|advantage| advantage.pays);
+        let shown = advantages.iter().any(|advantage| advantage.pays) || searched;
         held.extend(by_search);
-        let accepted = held.iter().any(|edge| edge.pays);
-        let unsure = edges.iter().chain(&held).any(|edge| edge.unsure);
+        let accepted = held.iter().any(|advantage| advantage.pays);
+        let unsure = advantages.iter().chain(&held).any(|advantage| advantage.unsure);
         let verdict = if shown && accepted {
             Verdict::pass()
         } else if unsure || !won || (shown && !accepted) || cut > 0 {
             Verdict::Unknown { spent }
         } else {
-            let strongest = edges.last().or(held.last()).map(|edge| edge.text.as_str());
-            let reason = format!("playing well does not pay: {}", strongest.unwrap_or("nobody looks ahead"));
+            let strongest = advantages.last().or(held.last()).map(|advantage| advantage.text.as_str());
+            let reason =
+                format!("playing well does not pay: {}", strongest.unwrap_or("no player looks ahead"));
             Verdict::Fail { reason: Reason(reason), witness: None }
         };
         let mut evidence: Vec<Evidence> =
-            edges.iter().chain(&held).map(|edge| Evidence::new(edge.text.clone())).collect();
+            advantages.iter().chain(&held).map(|advantage| Evidence::new(advantage.text.clone())).collect();
         if let (Verdict::Fail { .. }, Some(last)) = (&verdict, evidence.last_mut()) {
             last.advice = Some(
                 "let choices matter: dangers that foresight avoids, points that a plan earns, less luck"
@@ -91,32 +95,32 @@ impl Validator for SkillPays {
             );
         }
         if cut > 0 {
-            let text = format!("{cut} plays were broken off, by the budget");
+            let text = format!("{cut} plays were stopped by the budget");
             evidence.insert(0, Evidence::new(text));
         }
-        let episodes = climbed.plays.into_iter().flatten().map(|play| play.episode);
+        let episodes = played.plays.into_iter().flatten().map(|play| play.episode);
         Finding { ladder: Some(ladder), ..Finding::from(verdict).seen(evidence).played(episodes) }
     }
 }
 
 impl SkillPays {
-    fn edge(
+    fn advantage(
         &self,
-        fared: &Fared,
+        result: &PlayerResult,
         plays: &[Play],
-        (ladder, climbed): (&Ladder, &Climbed),
+        (ladder, played): (&Ladder, &LadderPlays),
         weak: usize,
         range: f64,
-    ) -> Edge {
+    ) -> Advantage {
         let weaker = &ladder.rungs[weak];
         let ([won, lost], [of, out_of]) =
-            ([fared.rate.wins, weaker.rate.wins], [fared.rate.plays, weaker.rate.plays]);
+            ([result.rate.wins, weaker.rate.wins], [result.rate.plays, weaker.rate.plays]);
         let interval = statistics::difference([won, lost], [of, out_of], Z95);
         let more = won as f64 / of.max(1) as f64 - lost as f64 / out_of.max(1) as f64;
         let (points, least, most) = (100.0 * more, 100.0 * interval.low, 100.0 * interval.high);
         let mut text = format!(
             "{} wins {won} of {of}, {} {lost} of {out_of} ({points:+.0} points; 95 %: {least:+.0} to {most:+.0})",
-            fared.player, weaker.player,
+            result.player, weaker.player,
         );
         let (mut pays, mut unsure) = (interval.low > 0.0 && more >= self.wins, more >= self.wins);
         if range <= 0.0 {
@@ -124,7 +128,7 @@ impl SkillPays {
         } else {
             let gains: Vec<f64> = plays
                 .iter()
-                .zip(&climbed.plays[weak])
+                .zip(&played.plays[weak])
                 .map(|(strong, weak)| strong.episode.score - weak.episode.score)
                 .collect();
             let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
@@ -136,16 +140,17 @@ impl SkillPays {
                 unsure |= gain >= self.scores * range;
             }
         }
-        Edge { text, pays, unsure: unsure && !pays }
+        Advantage { text, pays, unsure: unsure && !pays }
     }
 
     /// Compares the witness, which wins every time, with the weaker player.
-    fn against_search(&self, weaker: &Fared) -> Edge {
+    fn against_search(&self, weaker: &PlayerResult) -> Advantage {
         let (wins, plays) = (weaker.rate.wins, weaker.rate.plays);
-        let text = format!("who knows the way wins every time, {} {wins} of {plays}", weaker.player);
+        let text =
+            format!("a player that knows the solution wins every time, {} {wins} of {plays}", weaker.player);
         let high = weaker.rate.interval[1];
         let pays = 1.0 - wins as f64 / plays.max(1) as f64 >= self.wins && high < 1.0;
-        Edge { text, pays, unsure: false }
+        Advantage { text, pays, unsure: false }
     }
 }
 
@@ -156,8 +161,8 @@ fn better(ladder: &Ladder, a: usize, b: usize) -> std::cmp::Ordering {
 }
 
 /// The greatest score of all plays minus the least.
-fn range(climbed: &Climbed) -> f64 {
-    let scores = || climbed.plays.iter().flatten().map(|play| play.episode.score);
+fn range(played: &LadderPlays) -> f64 {
+    let scores = || played.plays.iter().flatten().map(|play| play.episode.score);
     scores().fold(f64::NEG_INFINITY, f64::max) - scores().fold(f64::INFINITY, f64::min)
 }
 

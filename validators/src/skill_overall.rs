@@ -2,7 +2,7 @@
 
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameValidator};
-use crate::ladder::{Fared, Ladder};
+use crate::ladder::{Ladder, PlayerResult};
 use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
@@ -11,7 +11,7 @@ use statistics::{Interval, Z95, wilson};
 /// look ahead, and so does the strongest held-out player: by a margin that even the lower end of the 95 % interval of
 /// the difference (Newcombe's) reaches. One level has too few plays for such a test; five have enough.
 ///
-/// In a deterministic game whose levels all have a win, a player that knows the solutions counts as such a player,
+/// In a deterministic game whose levels all have a win, a player that solver the solutions counts as such a player,
 /// and as held out. Cost: none; the plays are those of the criterion `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
@@ -35,15 +35,15 @@ impl Total {
     }
 
     /// Extrapolates by `times` as many further plays, won at the rate `share`.
-    fn going_on(&self, times: f64, share: f64) -> Total {
+    fn extrapolated(&self, times: f64, share: f64) -> Total {
         let plays = (self.plays as f64 * times).round();
         let wins = self.wins + (plays * share).round() as u64;
         Total { wins, plays: self.plays + plays as u64, ..self.clone() }
     }
 
-    /// Returns the interval of the difference to the win rate of `floor`.
-    fn above(&self, floor: &Total) -> Interval {
-        statistics::difference([self.wins, floor.wins], [self.plays, floor.plays], Z95)
+    /// Returns the interval of the difference to the win rate of `baseline`.
+    fn difference_to(&self, baseline: &Total) -> Interval {
+        statistics::difference([self.wins, baseline.wins], [self.plays, baseline.plays], Z95)
     }
 }
 
@@ -60,25 +60,26 @@ impl GameValidator for SkillOverall {
         let won = |episodes: &[Episode]| episodes.iter().any(|played| played.outcome == Outcome::Won);
         let planned =
             case.game.is_deterministic() && case.recording.iter().all(|recorded| won(recorded.episodes));
-        let Some((floor, sides)) = sides(&ladders, planned) else {
+        let Some((baseline, sides)) = sides(&ladders, planned) else {
             return Verdict::Unknown { spent: 0 }.into();
         };
         let evidence = sides.iter().map(|total| {
-            let interval = total.above(&floor);
+            let interval = total.difference_to(&baseline);
             Evidence::new(format!(
                 "on all levels {} wins {} of {}, {} {} of {} (95 %: {:+.0} to {:+.0} points)",
                 total.player,
                 total.wins,
                 total.plays,
-                floor.player,
-                floor.wins,
-                floor.plays,
+                baseline.player,
+                baseline.wins,
+                baseline.plays,
                 100.0 * interval.low,
                 100.0 * interval.high,
             ))
         });
         let evidence: Vec<Evidence> = evidence.collect();
-        let least = sides.iter().map(|total| total.above(&floor).low).fold(f64::INFINITY, f64::min);
+        let least =
+            sides.iter().map(|total| total.difference_to(&baseline).low).fold(f64::INFINITY, f64::min);
         let verdict = if least >= self.wins {
             Verdict::pass()
         } else {
@@ -99,10 +100,10 @@ impl SkillOverall {
     /// all levels given, the answer is that of the criterion.
     pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
         let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;
-        sides(ladders, planned).is_some_and(|(floor, sides)| {
-            let floor = floor.going_on(ahead, floor.share());
-            let hoped = |total: &Total| total.going_on(ahead, wilson(total.wins, total.plays, Z95).high);
-            sides.iter().any(|total| hoped(total).above(&floor).low < self.wins)
+        sides(ladders, planned).is_some_and(|(baseline, sides)| {
+            let baseline = baseline.extrapolated(ahead, baseline.share());
+            let hoped = |total: &Total| total.extrapolated(ahead, wilson(total.wins, total.plays, Z95).high);
+            sides.iter().any(|total| hoped(total).difference_to(&baseline).low < self.wins)
         })
     }
 }
@@ -112,27 +113,27 @@ impl SkillOverall {
 fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let rungs = totals(ladders, |ladder| &ladder.rungs);
     let held_out = totals(ladders, |ladder| &ladder.held_out);
-    let floor = strongest(rungs.iter().filter(|total| !total.looks_ahead))?.clone();
-    let knows = planned.then(|| Total {
-        player: "who knows the way".to_owned(),
+    let baseline = strongest(rungs.iter().filter(|total| !total.looks_ahead))?.clone();
+    let solver = planned.then(|| Total {
+        player: "a player that solver the solutions".to_owned(),
         looks_ahead: true,
-        wins: floor.plays,
-        plays: floor.plays,
+        wins: baseline.plays,
+        plays: baseline.plays,
     });
     let climbing = rungs.iter().filter(|total| total.looks_ahead);
     let sides =
-        [strongest(climbing.chain(&knows))?.clone(), strongest(held_out.iter().chain(&knows))?.clone()];
-    Some((floor, sides))
+        [strongest(climbing.chain(&solver))?.clone(), strongest(held_out.iter().chain(&solver))?.clone()];
+    Some((baseline, sides))
 }
 
 /// Sums the results of each player over all levels; all ladders have the same players.
-fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<Fared>) -> Vec<Total> {
+fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Vec<Total> {
     let first = ladders.first().map_or(&[][..], |ladder| of(ladder));
-    let total = |(at, fared): (usize, &Fared)| {
-        let rates = || ladders.iter().filter_map(|ladder| of(ladder).get(at)).map(|fared| &fared.rate);
+    let total = |(at, result): (usize, &PlayerResult)| {
+        let rates = || ladders.iter().filter_map(|ladder| of(ladder).get(at)).map(|result| &result.rate);
         Total {
-            player: fared.player.clone(),
-            looks_ahead: fared.looks_ahead,
+            player: result.player.clone(),
+            looks_ahead: result.looks_ahead,
             wins: rates().map(|rate| rate.wins).sum(),
             plays: rates().map(|rate| rate.plays).sum(),
         }
@@ -196,14 +197,14 @@ mod tests {
     }
 
     #[test]
-    fn what_only_a_plan_wins_pays_and_what_anybody_wins_does_not() {
+    fn skill_pays_only_if_plans_are_needed() {
         check(GAME, FAR, ["olets:200", "olets:300"], true, "olets:300 wins");
         check(GAME, "wwwwww\nwAg rw\nwwwwww\n", ["olets:200", "olets:300"], false, "olets:200 wins");
     }
 
     #[test]
-    fn where_nothing_is_left_to_chance_who_knows_the_way_is_a_player() {
+    fn deterministic_solutions_count_as_a_player() {
         let plain = GAME.replace("RandomNPC cooldown=4", "Immovable");
-        check(&plain, FAR, ["mcts:5", "mcts:6"], true, "knows the way");
+        check(&plain, FAR, ["mcts:5", "mcts:6"], true, "solver the solutions");
     }
 }

@@ -36,7 +36,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
     let fewest = if shortest { " at the earliest" } else { "" };
     let rule = Line::termination(game, line);
     let reason = format!(
-        "no way to win before `{}` ends the game; without it, it is won in {ticks} ticks{fewest}",
+        "the level cannot be won before `{}` ends the game; without it, it is won in {ticks} ticks{fewest}",
         rule.text
     );
     finding.verdict = Verdict::Fail { reason: Reason(reason), witness: None };
@@ -51,13 +51,12 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
         until += 1;
     }
     let seen = Evidence {
-        text: format!("it ends the game in tick {until}, on the way to that win"),
+        text: format!("it ends the game in tick {until}, before that win"),
         rule: Some(rule),
         board: Some(Board::of(game, &state)),
         ..Evidence::default()
     };
-    finding.evidence =
-        vec![seen.advise(format!("raise its `limit=` beyond {ticks}, or make the way shorter"))];
+    finding.evidence = vec![seen.advise(format!("raise its `limit=` beyond {ticks}, or shorten the path"))];
 }
 
 #[cfg(test)]
@@ -74,10 +73,10 @@ mod tests {
         let report = Panel::new(&Criteria::default()).judge(&game, &level, Seed::from_text("soon"));
         let finding = report.finding("winnable").unwrap();
         let Verdict::Fail { reason, .. } = &finding.verdict else { panic!("{finding:?}") };
-        let meant = "no way to win before `Timeout limit=4 win=False` ends the game; without it, it is won in 6 ticks";
+        let meant = "the level cannot be won before `Timeout limit=4 win=False` ends the game; without it, it is won in 6 ticks";
         assert!(reason.0.starts_with(meant), "{reason:?}");
         let advice = finding.evidence[0].advice.as_deref();
-        assert_eq!(advice, Some("raise its `limit=` beyond 6, or make the way shorter"));
+        assert_eq!(advice, Some("raise its `limit=` beyond 6, or shorten the path"));
         // With enough time the same level can be won.
         let game = Game::from_source(&GAME.replace("limit=4", "limit=40")).unwrap();
         let level = game.level(&level.to_string()).unwrap();

@@ -73,7 +73,7 @@ impl Finding {
     /// Returns all forward-model calls: of measured plays, of searches, and of the players of a ladder.
     pub fn calls(&self) -> u64 {
         let ladder = self.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
-        let ladder: u64 = ladder.map(|fared| fared.rate.calls).sum();
+        let ladder: u64 = ladder.map(|result| result.rate.calls).sum();
         self.searched.unwrap_or(0) + self.measured.as_ref().map_or(0, |rate| rate.calls) + ladder
     }
 

@@ -44,9 +44,8 @@ impl Validator for WellFormed {
             Outcome::Stopped(limit) => format!("the game stops in its first tick: {limit}"),
         };
         if episode.outcome == Outcome::Stopped(Limit::NoPaths) {
-            let seen = Evidence { rule: path_seeker(game), ..Evidence::new("this looks for a path") };
-            let seen =
-                seen.advise("add `obs=` and what paths go around to the first line: `BasicGame obs=wall`");
+            let seen = Evidence { rule: path_finder(game), ..Evidence::new("this type searches for a path") };
+            let seen = seen.advise("name the obstacles of paths in the first line: `BasicGame obs=wall`");
             return Finding::from(Verdict::fail_with(reason, episode)).seen([seen]);
         }
         let seen = Ending::of(analysis, level, &episode).evidence(game);
@@ -55,7 +54,7 @@ impl Validator for WellFormed {
 }
 
 /// The line of the first sprite that uses path finding.
-fn path_seeker(game: &Game) -> Option<Line> {
+fn path_finder(game: &Game) -> Option<Line> {
     let seeks = |class: SpriteClass| {
         [SpriteClass::PathChaser, SpriteClass::PathAltChaser].iter().any(|&seeker| class.is_a(seeker))
     };

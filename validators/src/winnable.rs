@@ -27,8 +27,8 @@ impl Validator for Winnable {
                 Finding { optimal, ..Finding::from(Verdict::Pass { witness: Some(*episode) }) }
             }
             Solution::Impossible { states, nearest } => {
-                let reason = format!("no way to win: all {states} states that can be reached were looked at");
-                let note = "no single cause is known: rules and places alone do not rule a win out";
+                let reason = format!("the level cannot be won: all {states} reachable states were searched");
+                let note = "no single cause is known: the static analysis does not exclude a win";
                 Finding::from(Verdict::fail(reason))
                     .seen([Evidence::new(note)])
                     .seen(nearest_to_a_win(case, &nearest))
@@ -64,16 +64,16 @@ fn nearest_to_a_win(
     let names = names.join(" or ");
     let text = match goal.condition {
         Condition::AtMost(..) => format!("{missing} too many of {names} are left"),
-        Condition::AtLeast(..) => format!("{missing} of {names} are still to come"),
+        Condition::AtLeast(..) => format!("{missing} of {names} are still missing"),
         Condition::Exactly(..) => format!("the number of {names} is off by {missing}"),
-        Condition::Tick(_) => format!("{missing} ticks are still to pass"),
+        Condition::Tick(_) => format!("{missing} ticks are still left"),
     };
     let tick = Some(actions.len()).filter(|&tick| tick > 0);
     let rule = Some(Line::termination(game, goal.line));
     let board = Some(Board::of(game, &state));
-    let text = format!("as near to a win as any play comes, {text}");
+    let text = format!("in the reachable state closest to a win, {text}");
     Some(
         Evidence { text, tick, rule, board, ..Evidence::default() }
-            .advise("make it possible from here, or give the player more of what it takes"),
+            .advise("make a win possible from this state, or place more of what it requires"),
     )
 }

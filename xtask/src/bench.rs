@@ -170,7 +170,7 @@ fn mcts_calls(subject: &Subject) -> f64 {
     calls as f64 / time.as_secs_f64()
 }
 
-#[allow(clippy::disallowed_methods, reason = "how long it took is shown, and decides nothing")]
+#[allow(clippy::disallowed_methods, reason = "the duration is printed only")]
 pub(crate) fn now() -> Instant {
     Instant::now()
 }

@@ -55,13 +55,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let text = fs::read_to_string(&args.expected).with_context(|| path.to_string())?;
     let known = text.lines().next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default();
     if known != compiler {
-        println!("SKIPPED: {path} counts what {known} makes; this is {compiler}");
+        println!("SKIPPED: {path} was recorded with {known}; this is {compiler}");
         return Ok(());
     }
     let mut slower = false;
     for line in text.lines().skip(2) {
-        let (name, expected) = line.split_once(',').with_context(|| format!("{path}: `{line}` is no row"))?;
-        let expected: u64 = expected.parse().with_context(|| format!("{path}: `{line}` holds no number"))?;
+        let (name, expected) =
+            line.split_once(',').with_context(|| format!("{path}: `{line}` is not a row"))?;
+        let expected: u64 =
+            expected.parse().with_context(|| format!("{path}: `{line}` contains no number"))?;
         let count = *counts.get(name).with_context(|| format!("{path}: there is no game `{name}`"))?;
         let change = 100.0 * (count as f64 / expected as f64 - 1.0);
         println!("{name}: {count} instructions a tick, expected {expected} ({change:+.1} %)");
@@ -69,7 +71,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     if slower {
         bail!(
-            "a tick costs over {} % more than {path} says; if that is meant, run this with --bless",
+            "a tick costs over {} % more than {path} says; if that is intended, run this with --bless",
             args.tolerance
         );
     }
@@ -99,6 +101,6 @@ pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> 
     let text = String::from_utf8_lossy(&output.stderr);
     let collected =
         text.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse::<u64>().ok());
-    let collected = collected.with_context(|| format!("{name}: valgrind counted nothing:\n{text}"))?;
+    let collected = collected.with_context(|| format!("{name}: valgrind reported no count:\n{text}"))?;
     Ok(Some(collected / TICKS))
 }

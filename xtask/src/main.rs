@@ -1,6 +1,6 @@
 //! Chores of the repository, `cargo xtask <chore>`.
 
-#![allow(clippy::print_stdout, reason = "a chore talks to whoever runs it")]
+#![allow(clippy::print_stdout, reason = "a task prints for its user")]
 
 mod bench;
 mod course;
@@ -15,7 +15,7 @@ mod sweep;
 
 use clap::{Parser, Subcommand};
 
-/// Chores of the repository.
+/// Development tasks of the repository.
 #[derive(Parser)]
 #[command(name = "xtask")]
 struct Args {

@@ -44,7 +44,7 @@ impl Hasher for KeyHasher {
 }
 
 /// The node of each state found so far.
-#[expect(clippy::disallowed_types, reason = "asked for keys, never iterated")]
+#[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
 /// The most steps to replay to restore a state: seldom more expensive than storing it whole.

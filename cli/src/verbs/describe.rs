@@ -52,9 +52,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "can_lose": analysis.can_lose(),
         "level": prospects,
     }))?;
-    console.say(format_args!("{guide}\nWhat kind of game it is:\n  {}", guide.kind.join("\n  ")));
+    console.say(format_args!("{guide}\nKind of game:\n  {}", guide.kind.join("\n  ")));
     if let Some(Prospects { level, text, .. }) = prospects {
-        console.say(format_args!("\nWhat is certain of {level}:\n  {}", text.join("\n  ")));
+        console.say(format_args!("\nProved about {level}:\n  {}", text.join("\n  ")));
     }
     Ok(true)
 }

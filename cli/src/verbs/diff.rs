@@ -66,9 +66,7 @@ fn say(diff: &Diff, console: &Console) {
         console.say("the two have the same root: they are one release");
     }
     if before.semantics != after.semantics {
-        console.say(
-            "the two were minted under different semantics: what was measured by play is not comparable",
-        );
+        console.say("the two were minted under different semantics: measurements of play are not comparable");
     }
     console.say(format_args!("\ngames  {}", counts(games)));
     console.say(format_args!("items  {}", counts(items)));
@@ -81,7 +79,7 @@ fn say(diff: &Diff, console: &Console) {
         items.each.iter().filter(|one| matches!(one.status, Status::Kept | Status::Changed)).collect();
     for change in returned.iter().take(RETURNED) {
         let was = change.was.as_deref().unwrap_or_default();
-        let how = if change.status == Status::Kept { "is" } else { "is, in another dress," };
+        let how = if change.status == Status::Kept { "is" } else { "is, with another theme," };
         console.say(format_args!("  {} {how} {was}", change.id));
     }
     if returned.len() > RETURNED {
@@ -102,7 +100,7 @@ fn side(what: &str, side: &Side) -> String {
 
 fn counts(changes: &Changes) -> String {
     let Changes { new, kept, changed, gone, .. } = changes;
-    format!("{new} new, {kept} kept, {changed} kept in another dress, {gone} gone")
+    format!("{new} new, {kept} kept, {changed} kept with another theme, {gone} gone")
 }
 
 /// Describes a distance, and whether it may be due to chance.
@@ -169,13 +167,14 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
         console.say("\nwin rates: no player of a ladder played in both");
         return;
     }
-    console.say("\nwin rates in percent, levels alike, with 95 % intervals clustered by game:");
+    console
+        .say("\nwin rates in percent, all levels weighted equally, with 95 % intervals clustered by game:");
     for rung in rungs {
         let points = |share: f64| 100.0 * share;
         let [low, high] = rung.interval.map(points);
         let detectable = rung.detectable.map_or("–".to_owned(), |apart| format!("{:.1}", points(apart)));
         console.say(format_args!(
-            "  {:<14} {:>5.1} → {:>5.1}   difference {:+.1} ({low:+.1} to {high:+.1}){}; these sizes show {detectable}",
+            "  {:<14} {:>5.1} → {:>5.1}   difference {:+.1} ({low:+.1} to {high:+.1}){}; detectable at these sizes: {detectable}",
             rung.ours.player,
             points(rung.theirs.mean),
             points(rung.ours.mean),
@@ -186,7 +185,7 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
 }
 
 fn near(neighbours: &Neighbours, console: &Console) {
-    console.say("\nhow far the later games' rules are from the nearest earlier ones (0 the same, 1 nothing in common):");
+    console.say("\ndistance of each later game's rules to the nearest earlier ones (0 identical, 1 nothing in common):");
     let lines = [
         ("across", &neighbours.across),
         ("across, generated", &neighbours.across_generated),

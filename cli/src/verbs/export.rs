@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let Some(format) = args.format.of_export() else { return archive(args, console) };
     if args.solutions && matches!(args.format, FormatName::Games) {
         return Err(Failure::malformed(
-            "folders of games hold no solutions: leave --solutions away, or choose --format jsonl",
+            "folders of games contain no solutions: omit --solutions, or choose --format jsonl",
         ));
     }
     // A folder that is taken is reported before the work.
@@ -123,7 +123,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn archive(args: &Args, console: &Console) -> Answer {
     if args.twin.is_some() || args.solutions {
         return Err(Failure::malformed(
-            "an archive is the release itself, solutions and all: leave --twin and --solutions away, or choose another --format",
+            "an archive is the whole release, with its solutions: omit --twin and --solutions, or choose another --format",
         ));
     }
     let Packed { root, digest, unpacked, size } = match pack(&args.snapshot, &args.out) {

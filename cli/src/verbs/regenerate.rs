@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         None => Box::new(Memory::default()),
     };
     if let Some(out) = &args.out {
-        interrupt::watch(|| (), format!("interrupted; go on with: {}", args.resumed(out)));
+        interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     }
     let bars = Bars::new(console);
     let result = in_pool(args.jobs, || {

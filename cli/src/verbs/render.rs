@@ -84,7 +84,7 @@ impl Format {
             Some("svg") => Ok(Format::Svg),
             Some("gif") => Ok(Format::Gif),
             _ => Err(Failure::malformed(format!(
-                "{}: the ending says the format, and this is none; end it in .png, .svg, .gif or .txt",
+                "{}: unknown picture format; use a file name that ends in .png, .svg, .gif or .txt",
                 path.display()
             ))),
         }

@@ -23,10 +23,10 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let player: PromptPlayer = args.player.parse().map_err(Failure::malformed)?;
     let name = player.to_string();
-    let server =
-        Server::bind(player, args.port).map_err(|error| Failure::environment(error, "there is no server"))?;
+    let server = Server::bind(player, args.port)
+        .map_err(|error| Failure::environment(error, "the server cannot be started"))?;
     console.line(&json!({"base_url": server.base_url(), "port": server.address().port(), "model": name}));
-    console.remark("serving until it is killed");
+    console.remark("serving until this process is stopped");
     server.run().map_err(|error| Failure::environment(error, "the server has stopped"))?;
     Ok(true)
 }

@@ -74,7 +74,7 @@ fn what_cannot_be_drawn_is_said_with_the_next_move() {
         let message = text(&output.stderr);
         assert!(message.contains(words), "`{words}` is not in\n{message}");
     };
-    check(&["quiet-jars", "-o", "x.jpg"], "end it in .png, .svg, .gif or .txt");
+    check(&["quiet-jars", "-o", "x.jpg"], "a file name that ends in .png, .svg, .gif or .txt");
     check(&["quiet-jars", "-o", "x.gif"], "--planner NAME");
     check(&["quiet-jars", "--tick", "3", "-o", "x.png"], "--episode FILE");
     check(&["quiet-jars", "--scale", "2", "-o", "x.png"], "4 to 256");

@@ -120,7 +120,7 @@ fn what_a_release_before_has_is_not_minted_again() {
     let said = text(&output.stderr);
     assert!(said.contains("can be taken") && said.contains("in a release before"), "{said}");
     let output = run(folder, &["release", "tiny", "--parent", "tiny", "--out", "next"], 2);
-    assert!(text(&output.stderr).contains("a release needs a name of its own"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("choose another name"), "{}", text(&output.stderr));
     // Another seed gives other candidates; the parent's items are known.
     let recipe = fs::read_to_string(folder.join("next.toml")).unwrap().replacen("a coin", "another coin", 1);
     fs::write(folder.join("next.toml"), recipe).unwrap();
@@ -224,7 +224,7 @@ fn a_place_that_is_taken_is_refused_before_minting() {
     // A dry run writes nothing.
     let output = run(folder.path(), &["release", "tiny", "--out", "mine", "--dry-run"], 0);
     let said = text(&output.stdout);
-    assert!(said.contains("would mint 2 new games") && said.contains("which is taken"), "{said}");
+    assert!(said.contains("would mint 2 new games") && said.contains("which exists"), "{said}");
 }
 
 /// A repeated job of a job array has nothing to do, and succeeds.
@@ -429,12 +429,12 @@ fn what_is_no_snapshot_is_named() {
     let takes = "a snapshot is a folder with MANIFEST.json, or its .tar.zst";
     for (place, what) in [
         ("passwd", "`passwd` is a file, and not the archive of a snapshot"),
-        ("game.vgdl", "is a text: check a game with `arcade validate`"),
+        ("game.vgdl", "is a text file: check a game with `arcade validate`"),
         ("recipe.toml", "mint it with `arcade release`"),
         ("game", "is the folder of a game"),
         ("sealed", "name its folder `public`"),
         ("sealed/public/MANIFEST.json", "is a manifest: name the folder that it is in"),
-        ("empty", "is a folder that has no MANIFEST.json"),
+        ("empty", "is a folder without MANIFEST.json"),
     ] {
         let said = text(&run(folder, &["verify", place], 2).stderr);
         assert!(said.contains(what) && said.contains(takes), "{place}: {said}");

@@ -61,7 +61,7 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     }
 
     let output = run(folder, &["verify", "out/public"], 0);
-    assert!(text(&output.stdout).contains("held back"), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).contains("withheld"), "{}", text(&output.stdout));
     let output = run(folder, &["regenerate", "out/public"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
     // Common mistakes are named.
@@ -86,10 +86,14 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     };
     assert_eq!(papers("revealed"), papers("out/public"));
     let archived = run(folder, &["export", "out/public", "--format", "archive", "--out", "x.tar.zst"], 2);
-    assert!(text(&archived.stderr).contains("pack it when it is revealed"), "{}", text(&archived.stderr));
+    assert!(
+        text(&archived.stderr).contains("only a complete release can be packed"),
+        "{}",
+        text(&archived.stderr)
+    );
     let solved = ["export", "out/public", "--format", "jsonl", "--solutions", "--out", "none"];
     let said = text(&run(folder, &solved, 2).stderr);
-    assert!(said.contains("its solutions are held back") && !folder.join("none").exists(), "{said}");
+    assert!(said.contains("its solutions are withheld") && !folder.join("none").exists(), "{said}");
     run(folder, &["export", "revealed", "--format", "jsonl", "--solutions", "--out", "rows"], 0);
     let rows = files(&folder.join("rows"));
     let (_, rows) = rows.iter().find(|(name, _)| name.ends_with(".jsonl")).unwrap();
@@ -209,7 +213,7 @@ fn what_commit_proposes_works() {
     assert!(said.contains("arcade release tiny.toml --secret tiny.secret.json"), "{said}");
 }
 
-/// A shard holds winning episodes, as the held-back part does.
+/// A shard holds winning episodes, as the withheld part does.
 #[cfg(unix)]
 #[test]
 fn shards_of_a_sealed_release_are_their_owners() {

@@ -94,11 +94,11 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     let output = child.wait_with_output().unwrap();
     let said = text(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains(&format!("interrupted; go on with: arcade {}", mint.join(" "))), "{said}");
+    assert!(said.contains(&format!("interrupted; continue with: arcade {}", mint.join(" "))), "{said}");
     assert!(said.contains("--resume"), "{said}");
     assert!(lots() > 0 && !folder.join("out").exists());
     let said = text(&run(folder, &[mint, &["--out", "out"]].concat(), 2).stderr);
-    assert!(said.contains("go on with --resume"), "{said}");
+    assert!(said.contains("continue with --resume"), "{said}");
     if mint[0] == "release" {
         let plan = |resume: &[&str]| {
             let output = run(folder, &[mint, &["--out", "out", "--dry-run", "--json"], resume].concat(), 0);
@@ -119,7 +119,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     }
     if !folder.join("out").exists() {
         let output = run(folder, &[mint, &["--out", "out", "--resume"]].concat(), 0);
-        assert!(text(&output.stderr).contains("lots were made before"), "{}", text(&output.stderr));
+        assert!(text(&output.stderr).contains("jobs were finished before"), "{}", text(&output.stderr));
     }
     assert!(!folder.join("out.partial").exists());
 }
@@ -152,7 +152,7 @@ fn a_full_disk_says_how_to_go_on() {
     let output = Command::new("sh").args(["-c", script, binary]).current_dir(folder).output().unwrap();
     let said = text(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("go on with: arcade release slices.toml --out 'my release' --resume"), "{said}");
+    assert!(said.contains("continue with: arcade release slices.toml --out 'my release' --resume"), "{said}");
 }
 
 /// Finished jobs are kept if only the selection changes.
@@ -167,6 +167,6 @@ fn more_candidates_go_on_from_those_that_were_made() {
     assert!(said.contains("avatar watches 0 (asked 2 to 2)"), "{said}");
     recipe(folder);
     let output = run(folder, &["release", "slices.toml", "--out", "out", "--resume"], 0);
-    assert!(text(&output.stderr).contains("4 of 4 lots were made before"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("4 of 4 jobs were finished before"), "{}", text(&output.stderr));
     run(folder, &["verify", "out"], 0);
 }

@@ -42,7 +42,7 @@ fn a_full_device_is_told() {
         assert_eq!(output.status.code(), Some(3), "{args:?}: {message}");
         assert!(message.contains("cannot write to standard output: No space left"), "{args:?}: {message}");
     }
-    says(home.path(), &["render", "hailglass", "-o", "/dev/full"], 2, &["the ending says the format"]);
+    says(home.path(), &["render", "hailglass", "-o", "/dev/full"], 2, &["unknown picture format"]);
 }
 
 /// A reader that leaves before anything is written causes no message, and the verb keeps its own exit status.

@@ -88,7 +88,10 @@ fn a_goal_walled_in_fails_with_its_line_and_cell() {
     let output = run(folder.path(), &["validate", "."], 1);
     let said = text(&output.stdout);
     let first = said.lines().next().unwrap();
-    assert!(first.contains("lvl0.txt") && first.contains("FAILS winnable: no way to win"), "{said}");
+    assert!(
+        first.contains("lvl0.txt") && first.contains("FAILS winnable: the level cannot be won"),
+        "{said}"
+    );
     assert!(said.contains("column 9, row 4; ./game.vgdl:19 `SpriteCounter stype=nectar"), "{said}");
 }
 
@@ -265,7 +268,7 @@ fn rules_are_described() {
         "You are the avatar",
         "You win when no nectar is left",
         "You die on touching the thorn",
-        "\nWhat kind of game it is:\n  Genre: puzzle and collect.\n  Turn-based:",
+        "\nKind of game:\n  Genre: puzzle and collect.\n  Turn-based:",
     ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
@@ -339,18 +342,18 @@ fn a_level_that_cannot_be_won_is_explained_as_a_chain() {
     let folder = folder(CORRIDOR, "wwwwwwwww\nwA  L  gw\nwwwwwwwww\n");
     let said = text(&run(folder.path(), &["validate", "."], 1).stdout);
     for words in [
-        "FAILS winnable: no way to win, whatever is played: the exit opens for 2 lamps; 1 lamp exists; nothing makes more\n",
+        "FAILS winnable: the level cannot be won: the exit opens for 2 lamps; 1 lamp exists; no rule creates more\n",
         "column 8, row 2; ./game.vgdl:16 `SpriteCounter stype=exit win=True`",
         "- the exit opens for 2 lamps; ./game.vgdl:14 `exit avatar > killIfOtherHasMore resource=lamp limit=2`",
         "- 1 lamp exists; column 5, row 2; ./game.vgdl:13 `lamp avatar > collectResource`",
-        "try: place 1 lamp more, or ask for 1",
+        "try: place 1 lamp more, or require only 1",
         // Criteria that do not apply to it.
-        "-    length       not asked: the level cannot be won",
-        "-    skill        not asked: the level cannot be won",
+        "-    length       skipped: the level cannot be won",
+        "-    skill        skipped: the level cannot be won",
     ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
-    assert!(!said.contains("open a way") && !said.contains("pass skill"), "{said}");
+    assert!(!said.contains("open a path") && !said.contains("pass skill"), "{said}");
     // The fields of the JSON document are unchanged.
     let output = run(folder.path(), &["--json", "validate", "."], 1);
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -463,19 +466,20 @@ fn what_follows_from_another_fault_is_not_asked() {
     let said = folder(&chased, &LEVEL.replace("n...t", "nc..t"));
     let said = run(said.path(), &["validate", ".", "--budget", "2000"], 1);
     let said = text(&said.stdout);
-    for words in ["`wasp > PathChaser stype=avatar`", "`BasicGame obs=wall`", "not asked: the game stops"] {
+    for words in ["`wasp > PathChaser stype=avatar`", "`BasicGame obs=wall`", "skipped: the game stops"] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     assert!(!said.contains("remove it"), "{said}");
     let short = folder(&GAME.replace("limit=300", "limit=3"), LEVEL);
     let said = run(short.path(), &["validate", ".", "--budget", "20000"], 1);
     let said = text(&said.stdout);
-    for words in
-        ["no way to win before `Timeout limit=3 win=False` ends the game", "raise its `limit=` beyond"]
-    {
+    for words in [
+        "the level cannot be won before `Timeout limit=3 win=False` ends the game",
+        "raise its `limit=` beyond",
+    ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
-    assert!(!said.contains("make a level that needs it"), "{said}");
+    assert!(!said.contains("add a level that needs it"), "{said}");
 }
 
 #[test]

@@ -110,7 +110,7 @@ impl Levels<'_> {
     fn is_hopeless(&self, game: &Game, levels: &[(u32, FoundLevel)]) -> bool {
         let ladders: Vec<_> = levels.iter().filter_map(|(_, found)| found.report.ladder()).collect();
         let skill = SkillOverall { wins: self.criteria.skill_overall };
-        self.criteria.asks("skill-overall")
+        self.criteria.includes("skill-overall")
             && skill.is_hopeless(&ladders, game.is_deterministic(), self.count as usize)
     }
 

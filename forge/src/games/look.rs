@@ -7,7 +7,7 @@ use generators::games::GameGenome;
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{Axis, Evaluation, Generator};
 use validators::game_measures::{AvatarKind, GameKind, GoalKind, PlayMeasures};
-use validators::{Case, Climb, Ladder, Recorded, Rung};
+use validators::{Case, Ladder, LadderConfig, Recorded, Rung};
 
 /// The levels of a look: how hard the generator is told to make them.
 const DIFFICULTIES: [f64; 3] = [0.0, 0.5, 1.0];
@@ -127,7 +127,7 @@ impl<'a> Looker<'a> {
         let generator = ConstructiveLevels::new(game, config).ok()?;
         let level = (0..BOARDS).find_map(|board| generator.generate(seed.child("board", board)).ok())?;
         let rung = |name: &&str| Rung::new(name, 1).expect("a player with its calls");
-        let climb = Climb {
+        let climb = LadderConfig {
             rungs: PLAYERS.iter().map(rung).collect(),
             held_out: Vec::new(),
             plays: PLAYS,

@@ -99,7 +99,7 @@ impl GameOrder {
             random_wins: 0.125,
             skill_wins: 0.4,
             skill_overall: 0.3,
-            ..Criteria::of_made_games()
+            ..Criteria::of_generated_games()
         }
     }
 

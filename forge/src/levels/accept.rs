@@ -3,14 +3,16 @@
 use super::aim::{bears, wins};
 use super::order::LevelOrder;
 use engine::{Analysis, Level, Seed};
-use validators::{Case, Climb, Criteria, Difficulty, Finding, Ladder, NotRandom, Panel, Report, Validator};
+use validators::{
+    Case, Criteria, Difficulty, Finding, Ladder, LadderConfig, NotRandom, Panel, Report, Validator,
+};
 
 /// Judges levels for good, with dice that no search has seen.
 pub(super) struct Gate<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
     panel: Panel,
-    climb: Option<Climb>,
+    climb: Option<LadderConfig>,
     seed: Seed,
 }
 
@@ -30,9 +32,10 @@ impl<'a> Gate<'a> {
     pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, seed: Seed) -> Gate<'a> {
         let least_ticks = order.criteria.least_ticks.max(order.min_solution.unwrap_or(0));
         let criteria = Criteria { least_ticks, ..order.criteria.clone() };
-        let climb = order
-            .difficulty
-            .map(|_| Climb { held_out: Vec::new(), ..criteria.climb().expect("the criteria were checked") });
+        let climb = order.difficulty.map(|_| LadderConfig {
+            held_out: Vec::new(),
+            ..criteria.ladder_config().expect("the criteria were checked")
+        });
         Gate { analysis, order, panel: Panel::new(&criteria), climb, seed }
     }
 
@@ -63,7 +66,8 @@ impl<'a> Gate<'a> {
             for (times, margin) in LADDERS {
                 let seed = seed.child("ladder", times);
                 let case = Case { game, level, seed, analysis: self.analysis, witness: Some(&witness) };
-                let climb = Climb { plays: climb.plays * times, calls: climb.calls * times, ..climb.clone() };
+                let climb =
+                    LadderConfig { plays: climb.plays * times, calls: climb.calls * times, ..climb.clone() };
                 let ladder = climb.ladder(case);
                 judged.calls += ladder.rungs.iter().map(|fared| fared.rate.calls).sum::<u64>();
                 let is_met = is_within(&ladder, asked, margin);

@@ -3,7 +3,7 @@
 use super::order::{LevelOrder, Method};
 use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
-use validators::{Case, Climb, Difficulty, Ladder, Measures, RuleRef};
+use validators::{Case, Difficulty, Ladder, LadderConfig, Measures, RuleRef};
 
 /// The aim of a search.
 pub(super) struct Aim<'a> {
@@ -11,7 +11,7 @@ pub(super) struct Aim<'a> {
     order: &'a LevelOrder,
     layout: Option<LevelMeasures>,
     /// The players that tell how hard a level is, if that is asked.
-    climb: Option<Climb>,
+    climb: Option<LadderConfig>,
 }
 
 /// The aim's answer about a level that can be won.
@@ -49,10 +49,10 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 impl<'a> Aim<'a> {
     /// The aim of an order.
     pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder) -> Aim<'a> {
-        let climb = order.difficulty.map(|_| Climb {
+        let climb = order.difficulty.map(|_| LadderConfig {
             plays: PLAYS,
             held_out: Vec::new(),
-            ..order.criteria.climb().expect("the criteria were checked")
+            ..order.criteria.ladder_config().expect("the criteria were checked")
         });
         Aim { analysis, order, layout: LevelMeasures::new(analysis), climb }
     }

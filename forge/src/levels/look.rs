@@ -171,7 +171,7 @@ impl<'a> Looker<'a> {
         let early = NoEarlyDeath {
             ticks: criteria.early_ticks,
             calls: self.order.effort.calls / EARLY,
-            chances: CHANCES,
+            seeds: CHANCES,
             share: criteria.early_deaths,
         };
         if !constraints.note(passes(&ask(&early, 0, spent))) {

@@ -4,7 +4,7 @@ use crate::reported::in_order;
 use engine::Game;
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, difference};
-use validators::{Criteria, Fared, Report};
+use validators::{Criteria, PlayerResult, Report};
 
 /// Resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
@@ -74,7 +74,7 @@ fn players(reports: &[Report]) -> Vec<Player> {
         let Some(ladder) = &found.ladder else { continue };
         // The episodes of a player follow those of the one before.
         let mut left = &found.episodes[..];
-        let plays = |fared: &Fared| fared.rate.plays as usize;
+        let plays = |fared: &PlayerResult| fared.rate.plays as usize;
         let all = &left[..ladder.rungs.iter().map(plays).sum::<usize>().min(left.len())];
         let scores = || all.iter().map(|episode| episode.score);
         let (least, greatest) =

@@ -4,7 +4,7 @@ use crate::levels::report::FOR_NOTHING;
 use engine::{Analysis, Level, Seed};
 use generators::levels::{LevelMeasure, LevelMeasures};
 use rayon::prelude::*;
-use validators::{Case, Climb, Criteria, CriteriaError, Difficulty, Ladder, Measures, Panel, Report};
+use validators::{Case, Criteria, CriteriaError, Difficulty, Ladder, LadderConfig, Measures, Panel, Report};
 
 /// A level and all that is known of it.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ pub struct LevelSurvey<'a> {
     analysis: &'a Analysis,
     layout: Option<LevelMeasures>,
     panel: Panel,
-    climb: Option<Climb>,
+    climb: Option<LadderConfig>,
     seed: Seed,
 }
 
@@ -74,12 +74,12 @@ impl<'a> LevelSurvey<'a> {
             random_wins: criteria.random_wins.max(FOR_NOTHING),
             ..criteria.clone()
         };
-        let climb = criteria.climb().expect("the criteria were checked");
+        let climb = criteria.ladder_config().expect("the criteria were checked");
         Ok(LevelSurvey {
             analysis,
             layout: LevelMeasures::new(analysis),
             panel: Panel::new(&panel),
-            climb: Some(Climb { held_out: Vec::new(), ..climb }),
+            climb: Some(LadderConfig { held_out: Vec::new(), ..climb }),
             seed,
         })
     }

@@ -76,7 +76,7 @@ impl GameRow {
         let inner = |lines: &[usize]| lines.iter().filter(|line| !guards.contains(line)).count() as u64;
         let shown = RulesShown::of(game, levels, reports, seed.child("rules", 0));
         let (executed, idle) = (inner(&shown.executed), inner(&shown.idle));
-        let (there, absent) = (shown.there.len() as u64, shown.absent.len() as u64);
+        let (there, absent) = (shown.present.len() as u64, shown.absent.len() as u64);
         let wins: Vec<Vec<Episode>> = reports.iter().map(wins).collect();
         let recording: Vec<Recorded<'_>> = levels
             .iter()

@@ -223,7 +223,7 @@ impl Inside {
         file.take(SEAL.len() as u64 + 33).read_to_end(&mut seal).map_err(Unreadable::Io)?;
         match seal.strip_prefix(&SEAL).map(|digest| (digest, digest.len())) {
             Some((digest, 32)) if digest == compressed => Ok(()),
-            Some((_, 32)) => damaged("its compressed bytes are not those that were sealed"),
+            Some((_, 32)) => damaged("its compressed bytes do not match its seal"),
             Some((_, 33..)) => damaged("there are bytes after its seal"),
             _ => damaged("its seal is missing or damaged"),
         }

@@ -199,7 +199,7 @@ impl Archive {
         }
         if !is_archive(path)? {
             return Err(match is_called_archive(path) {
-                true => broken("it does not begin as an archive does: fetch it again".to_owned()),
+                true => broken("it does not start like an archive: fetch it again".to_owned()),
                 false => SnapshotError::NotASnapshot { path: path.to_path_buf() },
             });
         }

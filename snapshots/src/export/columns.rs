@@ -3,7 +3,7 @@
 
 use super::item::Item;
 use forge::card::{LevelCard, Origin};
-use validators::{Fared, Rate};
+use validators::{PlayerResult, Rate};
 
 /// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,18 +203,18 @@ fn rate(rate: &Rate) -> Value {
 
 fn ladder(level: &LevelCard) -> Value {
     let whole = |number: u64| Value::Integer(i64::try_from(number).unwrap_or(i64::MAX));
-    let record = |fared: &Fared, held_out: bool| {
+    let record = |result: &PlayerResult, held_out: bool| {
         vec![
-            text(&fared.player),
-            Value::Flag(fared.looks_ahead),
+            text(&result.player),
+            Value::Flag(result.looks_ahead),
             Value::Flag(held_out),
-            whole(fared.rate.plays),
-            whole(fared.rate.wins),
-            rate(&fared.rate),
-            maybe(fared.reward),
+            whole(result.rate.plays),
+            whole(result.rate.wins),
+            rate(&result.rate),
+            maybe(result.reward),
         ]
     };
     let Some(ladder) = &level.ladder else { return Value::Records(Vec::new()) };
-    let rungs = ladder.rungs.iter().map(|fared| record(fared, false));
-    Value::Records(rungs.chain(ladder.held_out.iter().map(|fared| record(fared, true))).collect())
+    let rungs = ladder.rungs.iter().map(|result| record(result, false));
+    Value::Records(rungs.chain(ladder.held_out.iter().map(|result| record(result, true))).collect())
 }

@@ -112,7 +112,7 @@ impl<'a> Plan<'a> {
         let of = |(plain, skill): (f64, f64), levels: u32, criteria: &Criteria| {
             // Decisions cost about a third of what the other judges cost.
             let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
-            let played = match criteria.asks("skill") {
+            let played = match criteria.includes("skill") {
                 true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
                 false => 0.0,
             };

@@ -50,8 +50,8 @@ pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
             for actions in &plays {
                 worlds.agree(&one, &two, seed, actions).map_err(|tick| {
                     refused(format!(
-                        "in level {number}, after tick {tick}, the two worlds differ: the order matters in which sprites of \
-                         a row are gone through"
+                        "in level {number}, after tick {tick}, the two worlds differ: the order in which sprites of \
+                         a row are processed matters"
                     ))
                 })?;
             }
@@ -101,7 +101,7 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     use SpriteClass as C;
     let game = analysis.game();
     if !game.description().parameters.is_empty() {
-        return Err("its rules have parameters (a GameSpace): put their values in".to_owned());
+        return Err("its rules have parameters (a GameSpace): replace them by their values".to_owned());
     }
     for stype in game.sprite_types().filter(|&stype| analysis.facts(stype).possible) {
         let Some(class) = game.class(stype) else { continue };
@@ -197,7 +197,7 @@ fn rules(game: &Game, names: &BTreeMap<String, String>) -> Result<Description, S
         }
     }
     match misdirected(game, &rules)?.first() {
-        Some(&stype) => Err(format!("what `{}` faces cannot be told otherwise", game.name(stype))),
+        Some(&stype) => Err(format!("the orientation of `{}` cannot be changed", game.name(stype))),
         None => Ok(rules),
     }
 }

@@ -218,7 +218,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
         Some(Ok(known)) => known,
         // Another generation may store more.
         Some(Err(_)) if manifest.generation != generators::GENERATION => return,
-        Some(Err(error)) => return wrong(&format!("is not what one is ({error})")),
+        Some(Err(error)) => return wrong(&format!("is malformed ({error})")),
     };
     let names: BTreeSet<&String> = known.releases.iter().collect();
     if names.len() < known.releases.len() || names.contains(&manifest.name) {
@@ -226,7 +226,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     }
     match manifest.parent {
         Some(_) if known.releases.is_empty() => wrong("names no release, but there is a parent"),
-        None if known != Known::default() => wrong("is of releases before it, but there is no parent"),
+        None if known != Known::default() => wrong("lists earlier releases, but there is no parent"),
         _ => {}
     }
 }
@@ -241,8 +241,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     let listed = manifest.items.iter().map(|item| item.path.as_str());
     let listed: BTreeSet<&str> = listed.filter(|path| path.starts_with(HELD)).collect();
     let absent = awaited.difference(&listed).map(|path| format!("{path}: not committed to"));
-    let foreign =
-        listed.difference(&awaited).map(|path| format!("{path}: a sealed release has no such file"));
+    let foreign = listed.difference(&awaited).map(|path| format!("{path}: not a file of a sealed release"));
     problems.extend(absent.chain(foreign));
 }
 

@@ -6,7 +6,7 @@
 use engine::{Level, MAX_TICKS};
 use forge::card::LevelCard;
 use statistics::{Z95, wilson};
-use validators::{Difficulty, Fared, Ladder, Rate};
+use validators::{Difficulty, Ladder, PlayerResult, Rate};
 
 /// The maximum absolute score and mean score: the effects of an episode cannot add up to more.
 const MAX_SCORE: f64 = 1e15;
@@ -77,7 +77,7 @@ fn of_rate(rate: &Rate) -> Option<String> {
 fn of_ladder(ladder: &Ladder) -> Vec<String> {
     let mut problems = Vec::new();
     let Ladder { rungs, held_out, ease, difficulty } = ladder;
-    for Fared { player, rate, win_ticks, reward, .. } in rungs.iter().chain(held_out) {
+    for PlayerResult { player, rate, win_ticks, reward, .. } in rungs.iter().chain(held_out) {
         let name = player.escape_debug();
         problems.extend(of_rate(rate).map(|what| format!("`{name}` {what}")));
         let in_time = win_ticks.is_none_or(|ticks| (0.0..=f64::from(MAX_TICKS)).contains(&ticks));
@@ -91,7 +91,7 @@ fn of_ladder(ladder: &Ladder) -> Vec<String> {
     if !ease.is_none_or(is_share) {
         problems.push("an ease out of 0 to 1".to_owned());
     }
-    let beaten = rungs.iter().any(|fared| fared.rate.wins > 0);
+    let beaten = rungs.iter().any(|result| result.rate.wins > 0);
     let ease = ease.unwrap_or_default();
     let fits = match difficulty.eases() {
         None => !beaten,
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn ladders() {
-        let fared = |wins: u64| Fared {
+        let result = |wins: u64| PlayerResult {
             player: "mcts:30".into(),
             looks_ahead: true,
             rate: rate(wins, 4),
@@ -155,7 +155,7 @@ mod tests {
             reward: Some(0.5),
         };
         let ladder = Ladder {
-            rungs: vec![fared(2)],
+            rungs: vec![result(2)],
             held_out: Vec::new(),
             ease: Some(0.5),
             difficulty: Difficulty::Medium,
@@ -164,8 +164,8 @@ mod tests {
         check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty `medium`"]);
         check_ladder(&Ladder { ease: Some(1e300), ..ladder.clone() }, &["an ease out of", "the difficulty"]);
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
-        check_ladder(&Ladder { rungs: vec![fared(0)], ..ladder.clone() }, &["no player wins"]);
-        let odd = Fared { reward: Some(2.0), win_ticks: None, ..fared(2) };
+        check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);
+        let odd = PlayerResult { reward: Some(2.0), win_ticks: None, ..result(2) };
         check_ladder(&Ladder { rungs: vec![odd], ..ladder }, &["mean of ticks", "reward out of"]);
     }
 }

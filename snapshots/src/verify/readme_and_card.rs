@@ -48,7 +48,7 @@ pub(super) fn problems(
 fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     let value: Value = match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => value,
-        Ok(_) => return vec!["not the card of a release: it is no object".to_owned()],
+        Ok(_) => return vec!["not the card of a release: not an object".to_owned()],
         Err(error) => return vec![format!("not the card of a release: {error}")],
     };
     let mut problems = Vec::new();

@@ -102,7 +102,7 @@ pub(super) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Mete
             return Replayed::OutOfWork;
         }
         if state.is_over() {
-            return Replayed::Wrong(format!("the episode goes on after its end, which tick {tick} was"));
+            return Replayed::Wrong(format!("the episode continues after its end in tick {tick}"));
         }
         let mut work = Work(0);
         game.step_watched(&mut state, action, &mut work);

@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn classes_go_with_what_they_do() {
+    fn class_families_follow_behaviour() {
         assert_eq!(ClassFamily::of(SpriteClass::RandomInertial), ClassFamily::Npc);
         assert_eq!(ClassFamily::of(SpriteClass::RandomBomber), ClassFamily::Producer);
         assert_eq!(ClassFamily::of(SpriteClass::Portal), ClassFamily::Thing);

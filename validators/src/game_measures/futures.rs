@@ -1,6 +1,6 @@
-//! Random futures of a moment, compared with the episode played: the side in the lead, and the look-ahead needed.
+//! Random futures of a moment, compared with the episode played: the side in the lead, and the checkpoint-ahead needed.
 //!
-//! The futures press random keys, but take back a key that loses at once. Without that, any deadly game would look
+//! The futures press random keys, but take back a key that loses at once. Without that, any deadly game would checkpoint
 //! hopeless at every moment.
 
 use engine::{Game, Outcome, Sampler, Seed, State};
@@ -11,9 +11,9 @@ pub const SIGHT: usize = 64;
 /// Random futures of each moment.
 pub const FUTURES: u64 = 8;
 /// Ticks at which futures are compared.
-const LOOKS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
+const CHECKPOINTS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
 /// Random keys to try in a tick.
-const TRIES: usize = 3;
+const KEYS_TRIED: usize = 3;
 /// The number of futures that must be worse for the played line to be visibly better.
 const WORSE: usize = 6;
 
@@ -29,7 +29,7 @@ fn play_on(game: &Game, state: &mut State, keys: &mut Sampler, ticks: usize) {
             after
         };
         let mut after = press();
-        for _ in 1..TRIES {
+        for _ in 1..KEYS_TRIED {
             if after.outcome() == Outcome::Lost {
                 after = press();
             }
@@ -62,7 +62,7 @@ impl Standing {
 }
 
 /// The standings of a moment's futures after 1, 2, 4 … [`SIGHT`] ticks.
-pub(super) struct Futures(Vec<[Standing; LOOKS.len()]>);
+pub(super) struct Futures(Vec<[Standing; CHECKPOINTS.len()]>);
 
 impl Futures {
     /// Plays the futures, each with its own random seed. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls, at most
@@ -73,7 +73,7 @@ impl Futures {
             let mut after = state.fork(seed.child("chance", 0));
             let mut keys = seed.child("keys", 0).sampler();
             let mut played = 0;
-            LOOKS.map(|ticks| {
+            CHECKPOINTS.map(|ticks| {
                 play_on(game, &mut after, &mut keys, ticks - played);
                 played = ticks;
                 Standing::of(&after)
@@ -84,7 +84,7 @@ impl Futures {
 
     /// Returns the share of futures won minus the share lost, from −1 to 1. Undecided futures count for neither.
     pub(super) fn lead(&self) -> f64 {
-        let sum: i32 = self.0.iter().map(|future| i32::from(future[LOOKS.len() - 1].outcome)).sum();
+        let sum: i32 = self.0.iter().map(|future| i32::from(future[CHECKPOINTS.len() - 1].outcome)).sum();
         f64::from(sum) / FUTURES as f64
     }
 
@@ -92,12 +92,12 @@ impl Futures {
     /// stands better than most of the futures; [`SIGHT`], if later or never; none if the futures win as well.
     pub(super) fn sight(&self, line: &[Standing]) -> Option<usize> {
         let last = line.len() - 1;
-        let seen = |look: &usize| {
-            let stands = line[LOOKS[*look].min(last)];
-            self.0.iter().filter(|future| stands.beats(future[*look])).count() >= WORSE
+        let seen = |checkpoint: &usize| {
+            let stands = line[CHECKPOINTS[*checkpoint].min(last)];
+            self.0.iter().filter(|future| stands.beats(future[*checkpoint])).count() >= WORSE
         };
-        match (0..LOOKS.len()).find(seen) {
-            Some(look) => Some(LOOKS[look]),
+        match (0..CHECKPOINTS.len()).find(seen) {
+            Some(checkpoint) => Some(CHECKPOINTS[checkpoint]),
             None => (line[SIGHT.min(last)].outcome != 1).then_some(SIGHT),
         }
     }

@@ -307,7 +307,7 @@ mod tests {
     const ROAMER: &str = "prop > RandomNPC; other > Immovable; avatar > MovingAvatar";
 
     #[test]
-    fn goals_are_told_by_what_brings_the_win_about() {
+    fn goal_kinds_follow_from_the_winning_condition() {
         let none_left = "SpriteCounter stype=prop win=True; SpriteCounter stype=avatar";
         let push = "prop avatar > bounceForward; prop other > killSprite";
         goal(WALKER, push, none_left, GoalKind::Deliver);
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn avatars_are_told_by_what_they_can_do() {
+    fn avatar_kinds_follow_from_abilities() {
         let check = |class: &str, expect: AvatarKind| {
             let sprites = format!("prop > Passive; other > Missile; avatar > {class}");
             let found = kind(&sprites, "prop avatar > killSprite", "SpriteCounter stype=prop win=True");
@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn guards_and_classes_are_counted_apart() {
+    fn guards_and_classes_are_counted_separately() {
         let sprites = "prop > RandomNPC; other > SpawnPoint stype=prop prob=0.5; avatar > MovingAvatar";
         let rules = "avatar wall > stepBack; prop wall EOS > stepBack; avatar EOS > stepBack; prop avatar > killSprite; prop other > stepBack";
         let found = kind(sprites, rules, "SpriteCounter stype=other win=True; Timeout limit=50");

@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn a_puzzle_waits_for_the_player() {
+    fn puzzles_have_no_pace() {
         // Two steps through the open; then the crate moves; then it falls.
         let found = check("wwwwwwww\nwA  c ow\nw      w\nwwwwwwww\n", &[Nil, Right, Right, Right, Right]);
         assert_eq!(found.pace, 2.0 / 5.0, "{found:?}");
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_moves_by_itself_sets_the_pace() {
+    fn moving_types_set_the_pace() {
         let flight = check("wwwwwwww\nwA c   ow\nwwwwwwww\nwo   s w\nwwwwwwww\n", &[Nil; 4]);
         // Missiles set out in their second tick.
         assert_eq!((flight.pace, flight.chance, flight.mechanics), (0.75, 0.0, 0), "{flight:?}");
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn danger_makes_drama_and_shortens_the_sight() {
+    fn danger_raises_drama_and_shortens_planning_depth() {
         // The wasp is ahead of an avatar that stays in the row; below, the crate is one push away from its pit.
         let danger = check("wwwwwwwww\nwA     sw\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);
         assert!(danger.drama > 0.9, "{danger:?}");

@@ -185,7 +185,8 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
 }
 
 /// Numbers that change the kind of a rule by being present and positive.
-const TELLING: [&str; 5] = ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
+const COMPARED_PARAMETERS: [&str; 5] =
+    ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
 /// Spells the parameters in the order of their keys; types are edges and are left out.
 fn spell(terms: &Terms, grain: Grain) -> String {
@@ -199,7 +200,7 @@ fn spell(terms: &Terms, grain: Grain) -> String {
             (Term::Number(number), Grain::Medium) => match *number {
                 number if number < 0.0 => "-".to_owned(),
                 0.0 => "0".to_owned(),
-                _ if TELLING.contains(key) => "+".to_owned(),
+                _ if COMPARED_PARAMETERS.contains(key) => "+".to_owned(),
                 _ => continue,
             },
             (Term::Numbers(_), Grain::Medium) => String::new(),

@@ -8,11 +8,11 @@
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 
-/// The most texts to write. Games whose types are told apart by colours, or are alike because they can be exchanged,
+/// The most texts to write. Games whose types are told apart by colours, or are first_cell because they can be exchanged,
 /// need far fewer. Beyond the limit the first of the types with equal colours stands for all: if they are indeed
 /// equivalent, as they are unless the graph of the rules is adversarial, that makes no difference; otherwise two
 /// spellings of the same rules may get different texts. Different rules never get the same text.
-const MOST: usize = 200;
+const MAX_LABELLINGS: usize = 200;
 
 /// The canonical text, equal for all graphs that differ only in names and order, with the types in its order.
 #[derive(Clone, Debug)]
@@ -29,11 +29,11 @@ impl Labelled {
     }
 }
 
-/// Returns the canonical text of a graph. Cost: about 20 µs a node; at worst [`MOST`] times that.
+/// Returns the canonical text of a graph. Cost: about 20 µs a node; at worst [`MAX_LABELLINGS`] times that.
 pub(super) fn canonical(graph: &RuleGraph) -> Labelled {
     let neighbours = Neighbours::of(graph);
     let first = graph.nodes.iter().map(|node| colour(node.labels[Grain::Fine as usize].as_bytes())).collect();
-    let mut labelling = Labelling { graph, neighbours, left: MOST };
+    let mut labelling = Labelling { graph, neighbours, left: MAX_LABELLINGS };
     let colours = labelling.neighbours.settled(first);
     labelling.smallest(&colours)
 }
@@ -47,15 +47,15 @@ struct Labelling<'a> {
 impl Labelling<'_> {
     /// Returns the smallest text below these colours.
     fn smallest(&mut self, colours: &[Colour]) -> Labelled {
-        let alike = self.alike(colours);
-        let Some((&first, others)) = alike.split_first() else { return self.write(colours) };
-        let mut best = self.smallest(&self.single_out(colours, first));
+        let first_cell = self.first_cell(colours);
+        let Some((&first, others)) = first_cell.split_first() else { return self.write(colours) };
+        let mut best = self.smallest(&self.individualize(colours, first));
         let mut seen: Option<String> = None;
         for &other in others {
             if self.left == 0 {
                 break;
             }
-            let started = self.single_out(colours, other);
+            let started = self.individualize(colours, other);
             let quick = self.first_text(started.clone());
             let known = seen.get_or_insert_with(|| best.text.clone());
             // The same text by another choice: an automorphism of the rules maps one choice to the other.
@@ -69,21 +69,21 @@ impl Labelling<'_> {
 
     /// Returns the types of the first colour that several share, without those that can be exchanged for an earlier
     /// one.
-    fn alike(&self, colours: &[Colour]) -> Vec<usize> {
+    fn first_cell(&self, colours: &[Colour]) -> Vec<usize> {
         let types = &colours[..self.graph.types];
         let mut sorted = types.to_vec();
         sorted.sort_unstable();
         let Some(twice) = sorted.windows(2).find(|pair| pair[0] == pair[1]) else { return Vec::new() };
-        let mut alike: Vec<usize> = Vec::new();
+        let mut first_cell: Vec<usize> = Vec::new();
         for at in (0..types.len()).filter(|&at| types[at] == twice[0]) {
-            if alike.is_empty() || !alike.iter().any(|&other| self.can_be_exchanged(at, other)) {
-                alike.push(at);
+            if first_cell.is_empty() || !first_cell.iter().any(|&other| self.can_be_exchanged(at, other)) {
+                first_cell.push(at);
             }
         }
-        alike
+        first_cell
     }
 
-    fn single_out(&self, colours: &[Colour], at: usize) -> Vec<Colour> {
+    fn individualize(&self, colours: &[Colour], at: usize) -> Vec<Colour> {
         let mut colours = colours.to_vec();
         colours[at] = colour(&[&b"this one"[..], &colours[at].to_le_bytes()].concat());
         self.neighbours.settled(colours)
@@ -91,8 +91,8 @@ impl Labelling<'_> {
 
     /// Returns the text that arises if the first of the types with equal colours is always individualized.
     fn first_text(&mut self, mut colours: Vec<Colour>) -> Labelled {
-        while let Some(&first) = self.alike(&colours).first() {
-            colours = self.single_out(&colours, first);
+        while let Some(&first) = self.first_cell(&colours).first() {
+            colours = self.individualize(&colours, first);
         }
         self.write(&colours)
     }

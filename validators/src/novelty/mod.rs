@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn types_in_a_ring_are_one_game_wherever_it_starts() {
+    fn rotated_rings_of_types_are_one_game() {
         let ring = chase(&[1, 2, 3, 4, 5, 0]);
         assert_eq!(ring.digest(), chase(&[3, 4, 0, 5, 2, 1]).digest());
         assert_eq!(ring.digest(), chase(&[5, 0, 1, 2, 3, 4]).digest());
@@ -107,7 +107,7 @@ mod tests {
 
     /// All 20 of them can be exchanged; singling them out one by one would be 20! texts.
     #[test]
-    fn many_types_alike_are_soon_told_to_be_alike() {
+    fn many_equal_types_are_canonicalized_quickly() {
         let twins: Vec<usize> = (0..20).map(|_| 20).chain([20]).collect();
         let one = chase(&twins);
         let mut other: Vec<usize> = vec![3; 21];
@@ -117,14 +117,14 @@ mod tests {
 
     /// Pairs that chase each other: exchanging one type alone is no way to map the game onto itself.
     #[test]
-    fn pairs_alike_are_told_to_be_alike() {
+    fn equal_pairs_are_canonicalized() {
         let pairs: Vec<usize> = (0..16).map(|at| at ^ 1).collect();
         let crossed: Vec<usize> = (0..16).map(|at| (at + 8) % 16).collect();
         assert_eq!(chase(&pairs).digest(), chase(&crossed).digest());
     }
 
     #[test]
-    fn the_nearest_is_the_first_of_the_nearest() {
+    fn ties_go_to_the_first_neighbour() {
         let (ring, pairs, chain) = (chase(&[1, 2, 0]), chase(&[1, 0, 1]), chase(&[1, 2, 3, 4, 5, 0]));
         assert_eq!(ring.nearest([&chain, &pairs, &ring, &ring]), Some((2, 0.0)));
         assert_eq!(ring.nearest([]), None);
@@ -132,7 +132,7 @@ mod tests {
     }
     /// Corresponding types have the same position, independent of their names and their order.
     #[test]
-    fn types_have_places_of_their_own() {
+    fn canonical_positions_are_distinct() {
         let game = |names: [&str; 3], order: [usize; 3]| {
             let classes = ["Immovable", "RandomNPC", "Door"];
             let sprites: String =

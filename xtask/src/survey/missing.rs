@@ -27,7 +27,7 @@ pub(super) fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
         let asked = match requirement.reason {
             Reason::Avatar | Reason::Goal(_) => true,
             // Other rules may make what is missing.
-            Reason::Means(_) => false,
+            Reason::WinMethod(_) => false,
             Reason::Lock(stype) | Reason::Portal(stype) => count(stype) > 0,
         };
         let there = sum(&requirement.types);

@@ -61,11 +61,11 @@ impl Leftover {
         match &self.kind {
             Kind::Unfinished(_) => "unfinished work".to_owned(),
             Kind::Interrupted(draft) => {
-                format!("an interrupted mint with {} finished lots", draft.finished_lots())
+                format!("an interrupted mint with {} finished jobs", draft.finished_lots())
             }
             Kind::Shard(shard) => shard.clone(),
             Kind::File(_) => "an unfinished file".to_owned(),
-            Kind::Scratch => "scratch of a player".to_owned(),
+            Kind::Scratch => "temporary files of a player".to_owned(),
         }
     }
 

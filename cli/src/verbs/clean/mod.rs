@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 ///
 /// Searches the folders and all folders in them, and the system's temporary folder for scratch of players. It removes
 /// only files that arcade has certainly made and no running process uses; it never follows links. Interrupted mints
-/// with finished jobs, which --resume goes on with, and shards, which `arcade merge` joins, are listed; a flag
+/// with finished jobs, which --resume continues, and shards, which `arcade merge` joins, are listed; a flag
 /// removes them.
 ///
 /// Example: arcade clean releases --dry-run
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.document(&json!({ "dry_run": args.dry_run, "found": entries, "bytes": freed }))?;
     let verb = if args.dry_run { "would be removed" } else { "removed" };
     match entries.len() {
-        0 => console.say("nothing was left behind"),
+        0 => console.say("nothing to remove"),
         all => console.say(format_args!("{removed} of {all} {verb}, {}", size(freed))),
     }
     Ok(true)
@@ -87,11 +87,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 /// Returns the reason why a leftover is kept, with advice; none if it is to be removed.
 fn kept(args: &Args, kind: &Kind) -> Option<&'static str> {
     match kind {
-        Kind::Interrupted(_) if !args.interrupted => {
-            Some("the same command with --resume goes on with it, `arcade clean --interrupted` removes it")
-        }
+        Kind::Interrupted(_) if !args.interrupted => Some(
+            "continue it with the same command and --resume, or remove it with `arcade clean --interrupted`",
+        ),
         Kind::Shard(_) if !args.shards => {
-            Some("`arcade merge` joins shards, `arcade clean --shards` removes them")
+            Some("join shards with `arcade merge`, or remove them with `arcade clean --shards`")
         }
         _ => None,
     }
@@ -108,7 +108,7 @@ fn look_through(folder: &Path, console: &Console, found: &mut Vec<Leftover>) -> 
         let entries = match sorted_entries(&folder) {
             Ok(entries) => entries,
             Err(failure) => {
-                console.remark(format_args!("passed over: {failure}"));
+                console.remark(format_args!("skipped: {failure}"));
                 continue;
             }
         };

@@ -139,7 +139,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     protected::check(&folder)?;
     if args.resume && !Evaluation::is_begun(&folder) {
         return Err(Failure::malformed(format!(
-            "there is nothing to resume in {}; name the folder of the evaluation with --out, or leave --resume out to begin one",
+            "there is nothing to resume in {}; name the folder of the evaluation with --out, or omit --resume to start one",
             folder.display()
         )));
     }
@@ -152,7 +152,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let evaluation = evaluation.map_err(failure)?;
     ready.charge_logged(&evaluation)?;
     let hint = format!(
-        "interrupted: what was played is in {}; the same command with --resume goes on with it",
+        "interrupted: finished episodes are in {}; run the same command with --resume to continue",
         folder.display()
     );
     interrupt::watch(end_players, hint);
@@ -162,9 +162,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let tally = in_pool(Some(ready.threads(args, episodes, console)), || evaluation.run(contestant, &bar));
     interrupt::defer();
     let tally = tally?.map_err(|error| match failure(error) {
-        Failure::Environment(error) => {
-            Failure::environment(error, "the evaluation was broken off, --resume goes on with it")
-        }
+        Failure::Environment(error) => Failure::environment(
+            error,
+            "the evaluation was stopped by an error; fix it and continue with --resume",
+        ),
         other => other,
     })?;
     bar.bar.finish_and_clear();
@@ -297,7 +298,7 @@ fn refuse_idle_flags(args: &Args, asked: &Asked) -> Result<(), Failure> {
     if matches!(asked, Asked::Model(_)) {
         return match args.jobs {
             Some(_) => Err(Failure::malformed(
-                "--jobs is for players that are no models; --concurrency says how many requests of a model are under way",
+                "--jobs does not apply to models; set the number of concurrent requests with --concurrency",
             )),
             None => Ok(()),
         };
@@ -305,14 +306,14 @@ fn refuse_idle_flags(args: &Args, asked: &Asked) -> Result<(), Failure> {
     let player = args.player.as_deref().unwrap_or_default();
     if let Some(flag) = args.model.idle_without_model() {
         return Err(Failure::malformed(format!(
-            "{flag} is for language models (--model); `{player}` has no use for it, leave it out"
+            "{flag} applies to language models (--model) only; remove it for the player `{player}`"
         )));
     }
     let is_shown_prompts = matches!(asked, Asked::Human(_) | Asked::Prompted(..));
     if !is_shown_prompts && args.model.prompt.settings()? != PromptSettings::default() {
         return Err(Failure::malformed(format!(
-            "the flags of prompts (--mode, --rules, --with and so on) are for players that read prompts; `{player}` reads none, leave \
-             them out"
+            "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
+             player `{player}`"
         )));
     }
     Ok(())
@@ -324,7 +325,7 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
     }
     let Some(player) = args.player.as_deref() else {
         return Err(Failure::malformed(
-            "nobody plays: name a player with --player (`random`, `mcts:100`, \"cmd:python3 my_agent.py\"), or a language model with \
+            "no player is given: name one with --player (`random`, `mcts:100`, \"cmd:python3 my_agent.py\"), or a language model with \
              --model (`openai:ID`)",
         ));
     };
@@ -390,18 +391,18 @@ fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, read
         let cost = cost.map_or("cost unknown".to_owned(), |cost| format!("{cost:.4} USD"));
         console.say(format_args!("{requests} requests, {tokens} tokens, {cost}"));
     }
-    let (open, them) = match open {
-        1 => ("1 episode is open".to_owned(), "it"),
-        _ => (format!("{open} episodes are open"), "them"),
+    let open = match open {
+        1 => "1 episode is unfinished".to_owned(),
+        _ => format!("{open} episodes are unfinished"),
     };
     console.say(format_args!("results in {}", folder.display()));
     match halted {
         Some(why) if *infrastructure => Err(Failure::environment(
             anyhow::anyhow!("{why}"),
-            format_args!("{open}, --resume goes on with {them}"),
+            format_args!("{open}; continue with --resume"),
         )),
         Some(why) => {
-            console.say(format_args!("{open}: {why}; --resume goes on with {them}"));
+            console.say(format_args!("{open}: {why}; continue with --resume"));
             Ok(false)
         }
         None => Ok(tally.open == 0),

@@ -246,7 +246,7 @@ impl ModelArgs {
     fn options(&self, model: &str) -> Result<ModelOptions, Failure> {
         let cost = match self.max_cost {
             Some(dollars) => Some(Usd::from_dollars(dollars).ok_or_else(|| {
-                Failure::malformed(format!("--max-cost takes an amount of US dollars, not {dollars}"))
+                Failure::malformed(format!("--max-cost takes an amount in US dollars, not {dollars}"))
             })?),
             None => None,
         };
@@ -446,7 +446,7 @@ impl Ready {
 impl std::fmt::Display for Forecast {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let million = |tokens: u64| tokens as f64 / 1e6;
-        writeln!(f, "if every episode takes all its steps and no answer is asked for again:")?;
+        writeln!(f, "if every episode takes all its steps and no request is repeated:")?;
         writeln!(f, "{} episodes, {} requests", self.episodes, self.requests)?;
         let (input, cached) = (million(self.input_tokens), million(self.cacheable_tokens));
         writeln!(f, "{input:.2} M tokens of prompts, of which a provider's cache may hold {cached:.2} M")?;
@@ -465,7 +465,7 @@ impl std::fmt::Display for Forecast {
                     .iter()
                     .try_for_each(|most| write!(f, "; {most:.2} USD with the longest answers"))?;
             }
-            _ => write!(f, "cost: not known; --prices FILE gives prices")?,
+            _ => write!(f, "cost: unknown; give prices with --prices FILE")?,
         }
         self.forbidden.iter().try_for_each(|cap| write!(f, "\nthat exceeds {cap}"))
     }

@@ -39,7 +39,9 @@ pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Fa
         let place = Path::new(name);
         if is_snapshot(place) {
             if names.len() > 1 {
-                return Err(Failure::malformed(format!("{name}: a snapshot is evaluated alone")));
+                return Err(Failure::malformed(format!(
+                    "{name}: a snapshot is evaluated alone; remove the other games"
+                )));
             }
             let (root, found) = of_snapshot(place, choice)?;
             (snapshot, games) = (Some(root), found);
@@ -51,7 +53,10 @@ pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Fa
     }
     let mut ids = BTreeSet::new();
     if let Some(twice) = games.iter().find(|subject| !ids.insert(&subject.id)) {
-        return Err(Failure::malformed(format!("two games are called `{}`; name one of them", twice.id)));
+        return Err(Failure::malformed(format!(
+            "two games have the id `{}`; name only one of them",
+            twice.id
+        )));
     }
     if let Some(unknown) = choice.games.iter().find(|id| !ids.contains(*id)) {
         let help = help_with(unknown, &games);
@@ -151,7 +156,7 @@ fn of_snapshot(place: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject
     if let Some(problem) = integrity.problems.first() {
         let place = place.display();
         return Err(Failure::malformed(format!(
-            "{place}: does not verify: {problem}; `arcade verify` tells all"
+            "{place}: does not verify: {problem}; `arcade verify` lists all problems"
         )));
     }
     let manifest = &integrity.manifest;

@@ -70,7 +70,7 @@ fn kind(text: &str) -> Result<Kind, String> {
     Kind::ALL.iter().copied().find(|kind| kind.name() == text).ok_or_else(|| {
         let all = || format!("there are {}", names().collect::<Vec<_>>().join(", "));
         let help = engine::nearest(text, names()).map_or_else(all, |near| format!("did you mean `{near}`?"));
-        format!("there is no such kind; {help}")
+        format!("unknown kind; {help}")
     })
 }
 
@@ -140,7 +140,7 @@ fn report(
     set: &GameSet,
     (seconds, bar): (f64, &ProgressBar),
 ) -> Result<(), Failure> {
-    let plain = Criteria::of_made_games();
+    let plain = Criteria::of_generated_games();
     let criteria = Criteria {
         idle_plays: 2 * plain.idle_plays,
         random_plays: 2 * plain.random_plays,
@@ -233,7 +233,7 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     let tally = &set.tally;
     let _ = writeln!(
         text,
-        "\n{} of {} games in {seconds:.1} s; {} looked at, {} judged, {} levels tried; {:.1} million forward-model calls",
+        "\n{} of {} games in {seconds:.1} s; {} inspected, {} judged, {} levels tried; {:.1} million forward-model calls",
         set.games.len(),
         args.count,
         set.looks,
@@ -242,14 +242,11 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
         tally.calls as f64 / 1e6
     );
     if !tally.rejections.is_empty() {
-        let _ = writeln!(text, "turned down: {}", tally.reasons());
+        let _ = writeln!(text, "rejected: {}", tally.reasons());
     }
     let missing = args.count as usize - set.games.len();
     if missing > 0 {
-        let _ = writeln!(
-            text,
-            "{missing} could not be made: ask for less, for other kinds, or take another seed"
-        );
+        let _ = writeln!(text, "{missing} could not be made: request less, other kinds, or use another seed");
     }
     let out = args.out.display();
     if let Some(first) = set.games.first() {

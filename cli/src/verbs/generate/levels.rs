@@ -83,7 +83,7 @@ pub(crate) struct Args {
 fn size(text: &str) -> Result<(usize, usize), String> {
     let sides = text.split_once(['x', 'X']);
     let sides = sides.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
-    sides.ok_or_else(|| "columns and rows with an x between them are wanted, such as 12x9".to_owned())
+    sides.ok_or_else(|| "expected columns and rows with an x between them, such as 12x9".to_owned())
 }
 
 /// Reads `box=3`.
@@ -91,7 +91,7 @@ fn count(text: &str) -> Result<(String, usize), String> {
     let parts = text
         .split_once('=')
         .and_then(|(name, count)| Some((name.trim().to_owned(), count.trim().parse().ok()?)));
-    parts.ok_or_else(|| "a sprite type and a number are wanted, such as box=3".to_owned())
+    parts.ok_or_else(|| "expected a sprite type and a number, such as box=3".to_owned())
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -116,7 +116,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         Err(error @ LevelsError::NoBoard(_)) => {
             console.document(&none(&error))?;
-            let advice = "ask for fewer sprites (--with), or for larger boards (--size)";
+            let advice = "request fewer sprites (--with), or larger boards (--size)";
             console.remark(format_args!("{}: {error}; {advice}", args.game));
             return Ok(false);
         }
@@ -306,7 +306,7 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
     let cost = &set.cost;
     let _ = writeln!(
         text,
-        "{} of {} levels in {seconds:.1} s; {} looked at, {} judged; {:.1} million forward-model calls",
+        "{} of {} levels in {seconds:.1} s; {} inspected, {} judged; {:.1} million forward-model calls",
         set.levels.len(),
         args.count,
         cost.looks,
@@ -314,19 +314,19 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
         cost.calls as f64 / 1e6
     );
     if !cost.rejections.is_empty() {
-        let _ = writeln!(text, "turned down: {}", cost.reasons());
+        let _ = writeln!(text, "rejected: {}", cost.reasons());
     }
     if missing > 0 {
-        let _ = writeln!(text, "{missing} could not be made: ask for less, or take another seed");
+        let _ = writeln!(text, "{missing} could not be made: request less, or use another seed");
     }
     let out = args.out.display();
-    let _ = writeln!(text, "in {out}; look: arcade render {out} 0 -o level.png, play: arcade play {out} 0");
+    let _ = writeln!(text, "in {out}; view: arcade render {out} 0 -o level.png, play: arcade play {out} 0");
     text
 }
 
 fn remark(level: &Level, made: &MadeLevel) -> String {
     let size = format!("{}x{}", level.columns(), level.rows());
-    let Some(report) = &made.report else { return format!("{size}, judged by nobody") };
+    let Some(report) = &made.report else { return format!("{size}, not judged") };
     let ticks = report.witness.as_ref().map_or(0, |witness| witness.actions.len());
     let optimal = report.finding("winnable").is_some_and(|finding| finding.optimal.is_some());
     let proved = if optimal { ", proved to be the fewest" } else { "" };

@@ -32,7 +32,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 /// Returns formatted JSON, for people and programs.
 fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
     let mut text = serde_json::to_vec_pretty(value)
-        .map_err(|error| Failure::environment(error, "what was found cannot be written as JSON"))?;
+        .map_err(|error| Failure::environment(error, "the result cannot be written as JSON"))?;
     text.push(b'\n');
     Ok(text)
 }

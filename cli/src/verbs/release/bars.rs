@@ -43,7 +43,7 @@ impl Progress for Bars<'_> {
             *said = Said { lots: lots as u64, found: made as u64, ..Said::default() };
         }
         if made > 0 {
-            self.console.remark(format_args!("{made} of {lots} lots were made before"));
+            self.console.remark(format_args!("{made} of {lots} jobs were finished before"));
         }
     }
 
@@ -61,7 +61,7 @@ impl Progress for Bars<'_> {
             said.tenths = tenths;
             let left = self.started.seconds() / said.made as f64 * (open - said.made) as f64;
             let done = said.found + said.made;
-            self.console.remark(format_args!("{done} of {} lots; about {:.0} s left", said.lots, left));
+            self.console.remark(format_args!("{done} of {} jobs; about {:.0} s left", said.lots, left));
         }
     }
 }

@@ -105,8 +105,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match &args.parent {
         Some(parent) => follow_parent(&mut recipe, parent)?,
         None if recipe.parent.is_some() => {
-            let help =
-                "the recipe names a parent: give its folder with --parent, so that nothing is minted twice";
+            let help = "the recipe names a parent: give its folder with --parent, so that no content is minted twice";
             return Err(Failure::malformed(help));
         }
         None => {}
@@ -129,7 +128,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return Ok(true);
     }
     if lots.is_empty() {
-        console.remark("note: more shards than lots: nothing is left for this one");
+        console.remark("note: there are more shards than jobs: this shard is empty");
     }
     if args.dry_run {
         return outline::outline(&plan, &lots, &recipe, &out, args.resume, console);
@@ -145,7 +144,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     minted.map_err(|failure| match failure {
         // The finished jobs are kept.
         Failure::Environment(_) => Failure::Environment(anyhow::anyhow!(
-            "{failure}\nwhat is minted so far is kept; when that is repaired, go on with: {}",
+            "{failure}\nfinished jobs are kept; once this is fixed, continue with: {}",
             args.resumed(&out)
         )),
         other => other,
@@ -185,9 +184,9 @@ fn mint(
         shelf.keep_secret().map_err(failure)?;
     }
     if plan.seconds(lots) >= LONG {
-        console.remark(format_args!("if this is interrupted, go on with: {}", args.resumed(out)));
+        console.remark(format_args!("if interrupted, continue with: {}", args.resumed(out)));
     }
-    interrupt::watch(|| (), format!("interrupted; go on with: {}", args.resumed(out)));
+    interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     let bars = Bars::new(console);
     let started = Stopwatch::start();
     in_pool(args.jobs, || make_lots(plan, lots, &shelf, &bars))?.map_err(mint_failure)?;
@@ -199,15 +198,15 @@ fn mint(
         let place = out.display().to_string();
         console.document(&json!({ "out": place, "shard": shard.to_string(), "lots": lots.len() }))?;
         console.say(format_args!(
-            "shard {shard} of `{}`: {} lots, in {place}",
+            "shard {shard} of `{}`: {} jobs, in {place}",
             plan.name_of_release(),
             lots.len()
         ));
         if plan.is_sealed() {
-            console.say("keep it to yourself: it holds winning episodes");
+            console.say("keep it private: it contains winning episodes");
         }
         let secret = if plan.is_sealed() { " --secret FILE" } else { "" };
-        console.say(format_args!("when all shards are there: arcade merge SHARD... --out DIR{secret}"));
+        console.say(format_args!("once all shards are made: arcade merge SHARD... --out DIR{secret}"));
         return Ok(true);
     }
     let finished = Finished { plan, secret, shelf: &shelf, out };

@@ -63,9 +63,9 @@ pub(super) fn outline(
     if !quotas.is_empty() {
         console.say(format_args!("with games of each kind: {}", quotas.join(", ")));
     }
-    console.say(format_args!("chosen from the candidates of {}", count(lots.len(), "lot")));
+    console.say(format_args!("selected from the candidates of {}", count(lots.len(), "job")));
     if resume {
-        console.say(format_args!("of which {there} are made and {} are left", left.len()));
+        console.say(format_args!("of which {there} are finished and {} are left", left.len()));
     }
     console.say(format_args!(
         "in {} of one core; up to twice that where the cores are busy with other work",
@@ -74,12 +74,12 @@ pub(super) fn outline(
     console.say(format_args!("into {place}"));
     match taken {
         Some(SnapshotError::Occupied { .. }) => {
-            console.say(format_args!("which is taken: minting needs another --out, or it removed"));
+            console.say(format_args!("which exists: choose another --out, or remove it"));
         }
         Some(other) => return Err(failure(other)),
         None if there > 0 && !resume => {
             console.say(format_args!(
-                "where an interrupted mint has made {there} of the lots: go on with it by --resume"
+                "which holds an interrupted mint with {there} of the jobs finished: continue with --resume"
             ));
         }
         None => {}

@@ -24,7 +24,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
     protected::check(&out)?;
     let chance =
-        entropy().map_err(|error| Failure::environment(error, "no chance to be had from the system"))?;
+        entropy().map_err(|error| Failure::environment(error, "the system provides no random bytes"))?;
     let secret = Secret::draw(name, recipe.committed(), chance);
     secret
         .check()
@@ -60,13 +60,14 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         mint.extend(["--parent".as_ref(), parent.as_os_str()]);
     }
     console.say(format_args!(
-        "in {}, in the place of `seed`:\n\n    commitment = \"{commitment}\"\n",
+        "in {}, in place of `seed`:\n\n    commitment = \"{commitment}\"\n",
         recipe.display()
     ));
-    console.say("change nothing else there: the whole recipe is committed to");
+    console.say("change nothing else there: the commitment covers the whole recipe");
     console.say(format_args!("mint it with:  {}", shell::command(mint)));
-    console
-        .say(format_args!("keep {shown} to yourself, and keep it: without it the release cannot be minted",));
+    console.say(format_args!(
+        "keep {shown} private and do not lose it: the release cannot be minted without it",
+    ));
     Ok(true)
 }
 
@@ -94,7 +95,7 @@ pub(super) fn recipe(text: &str, secret: Option<&Secret>) -> Result<Recipe, Reci
         (RecipeError::Value { key: "seed", .. }, Some(secret)) => RecipeError::Value {
             key: "seed",
             message: format!(
-                "is missing, and the secret that was given has its commitment: put `commitment = \"{}\"` in its place",
+                "is missing: for the given secret, write `commitment = \"{}\"` instead",
                 secret.commitment()
             ),
         },
@@ -107,7 +108,7 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
     let usage = "arcade release PUBLIC --reveal HELD --out DIR";
     let Some(public) = public else {
         let help =
-            format!("--reveal needs the public folder of the release besides what was held back: {usage}");
+            format!("--reveal needs the public folder of the release besides the withheld one: {usage}");
         return Err(Failure::malformed(help));
     };
     let Some(out) = out else {
@@ -127,7 +128,7 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
         };
         let folder = folder.display();
         return Err(Failure::malformed(format!(
-            "`{folder}` is not the {part} part of a sealed release, as it has no {file}; {help}"
+            "`{folder}` is not the {part} part of a sealed release, because it has no {file}; {help}"
         )));
     }
     let draft = protected::draft(out)?;
@@ -139,20 +140,20 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
                 &json!({ "revealed": true, "out": place, "root": manifest.root, "problems": [] }),
             )?;
             console.say(format_args!(
-                "{}: revealed; seed, nonce, recipe and every file are those committed to",
+                "{}: revealed; seed, nonce, recipe and every file match the commitment",
                 manifest.name
             ));
             console.say(format_args!("root {}\nin   {place}", manifest.root));
             let command = |verb: &str| shell::command([OsStr::new(verb), out.as_os_str()]);
             console.say(format_args!("check it:       {}", command("verify")));
             console.say(format_args!("mint it again:  {}", command("regenerate")));
-            console.say("that the games come from the seed is proved by minting them again, by nothing less");
+            console.say("only minting again proves that the games come from the seed");
             Ok(true)
         }
         Err(RevealError::Problems(problems)) => {
             console.document(&json!({ "revealed": false, "problems": problems }))?;
             problems.iter().for_each(|problem| console.say(problem));
-            console.say("NOT revealed: the two parts are not what was committed to");
+            console.say("NOT revealed: the two parts do not match the commitment");
             Ok(false)
         }
         Err(RevealError::Snapshot(error)) => Err(failure(error)),

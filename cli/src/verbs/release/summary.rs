@@ -53,7 +53,7 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
         tally.calls as f64 / 1e6,
     );
     if !tally.rejections.is_empty() {
-        let _ = writeln!(text, "turned down: {}", tally.reasons());
+        let _ = writeln!(text, "rejected: {}", tally.reasons());
     }
     let _ = writeln!(text, "\nroot {}\nin   {}", manifest.root, out.display());
     match manifest.commitment {
@@ -69,7 +69,7 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
         Some(_) => {
             let (public, held) = (out.join("public"), out.join("held"));
             let _ = writeln!(text, "publish now:    {}", public.display());
-            let _ = writeln!(text, "keep to yourself until it is revealed: {}", held.display());
+            let _ = writeln!(text, "keep private until the reveal: {}", held.display());
         }
     }
     text

@@ -3,7 +3,7 @@
 use super::document::{Document, LevelDocument};
 use crate::input::Named;
 use std::fmt::Write;
-use validators::{Board, Difficulty, Evidence, Fared, Judgement, Ladder, Rate, Report, Verdict};
+use validators::{Board, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Report, Verdict};
 
 /// The widest board to show.
 const WIDEST: usize = 100;
@@ -56,7 +56,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
 
 /// Returns the verdict on a level, in one line.
 fn headline(level: &LevelDocument<'_>) -> String {
-    let Some(report) = level.report else { return "is no level of this game".to_owned() };
+    let Some(report) = level.report else { return "is not a level of this game".to_owned() };
     if let Some(judgement) = report.first_obstacle() {
         return obstacle(judgement);
     }
@@ -138,7 +138,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
 
 /// Returns `true` if a criterion was skipped because it does not apply.
 fn is_not_asked(finding: &validators::Finding) -> bool {
-    finding.evidence.first().is_some_and(|seen| seen.text.starts_with("not asked"))
+    finding.evidence.first().is_some_and(|seen| seen.text.starts_with("skipped"))
 }
 
 fn is_broken_off(seen: &Evidence) -> bool {
@@ -157,17 +157,17 @@ fn answer(criterion: &str, finding: &validators::Finding) -> String {
         Verdict::Unknown { spent: 0 } if criterion == "winnable" => {
             "no win found: the budget allows no search".to_owned()
         }
-        Verdict::Unknown { spent: 0 } => "nothing to judge without a win".to_owned(),
+        Verdict::Unknown { spent: 0 } => "needs a win, and none was found".to_owned(),
         // Work that the budget broke off comes first.
         Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_broken_off) => {
             finding.evidence[0].text.clone()
         }
         Verdict::Unknown { spent } => match criterion {
-            "winnable" => format!("no win found with {spent} forward-model calls; that proves nothing"),
+            "winnable" => format!("no win found with {spent} forward-model calls; a win may still exist"),
             "early-death" => {
-                format!("no way to live through the start found with {spent} forward-model calls")
+                format!("no play found that survives the first ticks, with {spent} forward-model calls")
             }
-            "skill" => "not enough wins to tell".to_owned(),
+            "skill" => "too few wins for a verdict".to_owned(),
             _ => {
                 let first = finding.evidence.first().map_or("not shown", |seen| seen.text.as_str());
                 let others = finding.evidence.iter().filter(|seen| seen.advice.is_some()).count();
@@ -227,9 +227,9 @@ fn climbed(text: &mut String, ladder: &Ladder) {
     };
     let _ = writeln!(text, "       difficulty: {}{who}{ease}", ladder.difficulty);
     let players = ladder.rungs.iter().chain(&ladder.held_out);
-    let width = players.clone().map(|fared| fared.player.len()).max().unwrap_or_default();
-    for fared in players {
-        let Fared { player, rate, win_ticks, .. } = fared;
+    let width = players.clone().map(|result| result.player.len()).max().unwrap_or_default();
+    for result in players {
+        let PlayerResult { player, rate, win_ticks, .. } = result;
         let [low, high] = rate.interval.map(|end| 100.0 * end);
         let ticks =
             win_ticks.map_or(String::new(), |ticks| format!(", its wins take {ticks:.0} ticks on average"));

@@ -137,7 +137,7 @@ fn say(verification: &Verification, args: &Args, console: &Console) {
              replayed to a win"
         )),
         Witnesses::Held => console.say(format_args!(
-            "{name}: verified; the manifest and {files}, {games}, {levels}, witnesses held back until \
+            "{name}: verified; the manifest and {files}, {games}, {levels}, witnesses withheld until \
              the release is revealed"
         )),
         Witnesses::NotReplayed { semantics } => {
@@ -186,7 +186,7 @@ fn say_chain(chain: &Chain, console: &Console) {
         console.say(format_args!("  {name:<width$}  {root}  {}", place.display()));
     }
     if chain.others > 0 {
-        console.say(format_args!("  not of this chain: {} more that were given", chain.others));
+        console.say(format_args!("  not part of this chain: {} more of those given", chain.others));
     }
 }
 
@@ -257,7 +257,7 @@ fn no_snapshot(path: &Path) -> Failure {
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);
     let what = match fs::metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => "does not exist: check the path",
-        Err(_) => "cannot be entered: check its permissions",
+        Err(_) => "cannot be opened: check its permissions",
         Ok(found) if found.is_dir() && path.join("game.vgdl").exists() => {
             "is the folder of a game: check that with `arcade validate`"
         }
@@ -267,13 +267,13 @@ fn no_snapshot(path: &Path) -> Failure {
         Ok(found) if found.is_dir() && path.join("public").join(MANIFEST_FILE).exists() => {
             "holds the two parts of a sealed snapshot: name its folder `public`"
         }
-        Ok(found) if found.is_dir() => "is a folder that has no MANIFEST.json, so it is no snapshot",
+        Ok(found) if found.is_dir() => "is a folder without MANIFEST.json",
         Ok(found) if !found.is_file() => "is neither a file nor a folder",
         Ok(_) if path.file_name().is_some_and(|name| name == MANIFEST_FILE) => {
             "is a manifest: name the folder that it is in"
         }
-        Ok(_) if ends("vgdl") || ends("txt") => "is a text: check a game with `arcade validate`",
-        Ok(_) if ends("toml") => "is a recipe, perhaps: mint it with `arcade release`",
+        Ok(_) if ends("vgdl") || ends("txt") => "is a text file: check a game with `arcade validate`",
+        Ok(_) if ends("toml") => "may be a recipe: mint it with `arcade release`",
         Ok(_) => "is a file, and not the archive of a snapshot",
     };
     Failure::malformed(format_args!(

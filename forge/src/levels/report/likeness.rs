@@ -20,7 +20,7 @@ pub(super) struct Distances {
 
 impl Distances {
     /// Cost: a comparison for each pair of levels, on all threads.
-    pub(super) fn of(levels: &[SurveyedLevel], likeness: &Likeness) -> Distances {
+    pub(super) fn of(levels: &[SurveyedLevel], likeness: &LevelSimilarity) -> Distances {
         let row = |at: usize| -> Vec<f64> {
             let others = levels.iter().enumerate().filter(|(other, _)| *other != at);
             others.map(|(_, other)| likeness.distance(&levels[at].level, &other.level)).collect()
@@ -36,7 +36,11 @@ impl Distances {
     }
 }
 
-pub(super) fn diversity(levels: &[SurveyedLevel], distances: &Distances, likeness: &Likeness) -> Section {
+pub(super) fn diversity(
+    levels: &[SurveyedLevel],
+    distances: &Distances,
+    likeness: &LevelSimilarity,
+) -> Section {
     let nearest = distances.known();
     let unique = Share::new(forms(levels, likeness).len() as u64, levels.len() as u64);
     Section::new("diversity", "How different are they?", "Distances go from 0 (the same level) to 1.")
@@ -50,7 +54,7 @@ pub(super) fn diversity(levels: &[SurveyedLevel], distances: &Distances, likenes
 pub(super) fn novelty(
     levels: &[SurveyedLevel],
     examples: &[SurveyedLevel],
-    likeness: &Likeness,
+    likeness: &LevelSimilarity,
 ) -> Option<Section> {
     let to_examples = |level: &SurveyedLevel| {
         least(examples.iter().map(|example| likeness.distance(&level.level, &example.level)))
@@ -74,7 +78,7 @@ pub(super) fn novelty(
     (!examples.is_empty()).then_some(section)
 }
 
-fn forms(levels: &[SurveyedLevel], likeness: &Likeness) -> BTreeSet<Digest> {
+fn forms(levels: &[SurveyedLevel], likeness: &LevelSimilarity) -> BTreeSet<Digest> {
     levels.iter().map(|level| likeness.digest(&level.level)).collect()
 }
 

@@ -18,7 +18,7 @@ pub use row::LevelRow;
 use super::make::Cost;
 use crate::survey::SurveyedLevel;
 use engine::Analysis;
-use generators::levels::Likeness;
+use generators::levels::LevelSimilarity;
 use likeness::Distances;
 use report::{Section, SetReport, Value};
 use validators::Difficulty;
@@ -60,7 +60,7 @@ impl LevelSetReport {
     /// The report on a set. Cost: a comparison for each pair of levels, on all threads; the rest is summing up.
     pub fn of(sample: &Sample<'_>) -> LevelSetReport {
         let Sample { analysis, method, levels, examples, pool, cost } = *sample;
-        let (game, likeness) = (analysis.game(), Likeness::of(analysis));
+        let (game, likeness) = (analysis.game(), LevelSimilarity::of(analysis));
         let distances = Distances::of(levels, &likeness);
         let nearest = distances.nearest.iter();
         let rows: Vec<LevelRow> =

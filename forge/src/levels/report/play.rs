@@ -5,7 +5,7 @@ use crate::survey::SurveyedLevel;
 use engine::Game;
 use report::{Mean, Quantiles, Section, Share, Table, TableCell};
 use serde::Serialize;
-use validators::{Fared, Ladder, Line, Verdict, is_guard};
+use validators::{Ladder, Line, PlayerResult, Verdict, is_guard};
 
 /// The greatest share of wins that is still not won for nothing.
 pub(crate) const FOR_NOTHING: f64 = 0.1;
@@ -141,8 +141,9 @@ pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
     let wins: Vec<f64> = gaps().map(|gap| gap.wins).collect();
     let reward: Vec<f64> = gaps().filter_map(|gap| gap.reward).collect();
     let ladders: Vec<&Ladder> = levels.iter().filter_map(|level| level.ladder.as_ref()).collect();
-    let fares =
-        |fared: &Fared| (fared.rate.wins as f64 / fared.rate.plays.max(1) as f64, fared.rate.mean_score);
+    let fares = |fared: &PlayerResult| {
+        (fared.rate.wins as f64 / fared.rate.plays.max(1) as f64, fared.rate.mean_score)
+    };
     let order = |ladder: &&Ladder| in_order(&ladder.rungs.iter().map(fares).collect::<Vec<_>>());
     let order: Vec<f64> = ladders.iter().filter_map(order).collect();
     let wins = Mean::over(LEVEL, &wins)?;

@@ -5,7 +5,9 @@ use crate::survey::LevelSurvey;
 use engine::{Action, Episode, Game, Level, Seed};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
-use validators::{Criteria, Fared, Finding, Judgement, Ladder, Measures, Rate, Reason, Report, Verdict};
+use validators::{
+    Criteria, Finding, Judgement, Ladder, Measures, PlayerResult, Rate, Reason, Report, Verdict,
+};
 
 const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n";
 
@@ -14,9 +16,15 @@ fn finding(verdict: Verdict, wins: u64, plays: u64) -> Finding {
     Finding::from(verdict).measured(rate)
 }
 
-fn fared(player: &str, looks_ahead: bool, wins: u64) -> Fared {
+fn fared(player: &str, looks_ahead: bool, wins: u64) -> PlayerResult {
     let rate = Rate { wins, plays: 4, interval: [0.0, 1.0], calls: 0, mean_score: wins as f64 };
-    Fared { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: Some(wins as f64 / 4.0) }
+    PlayerResult {
+        player: player.to_owned(),
+        looks_ahead,
+        rate,
+        win_ticks: None,
+        reward: Some(wins as f64 / 4.0),
+    }
 }
 
 /// A level that is won by so many steps to the right, if any, and what its judges may have said.

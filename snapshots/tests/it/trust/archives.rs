@@ -291,7 +291,7 @@ fn ends() {
         &file,
         &[unsealed, &seal(b"")].concat(),
         "mole.tar.zst: not as packed",
-        "not those that were sealed",
+        "do not match its seal",
     );
     check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "does not begin as");
     check_bytes(

@@ -180,7 +180,7 @@ fn what_is_known_is_what_the_parent_holds() {
         let second = second.write_in(&home);
         check(&second, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
     };
-    let not_known = "does not know what the releases before it hold";
+    let not_known = "has a wrong list of earlier content";
     known(&|known| known["items"] = json!([]), not_known);
     known(&|known| known["items"] = json!([Digest::of(b"x")]), not_known);
     known(&|known| known["games"] = json!(["BasicGame"]), not_known);
@@ -194,7 +194,7 @@ fn what_is_known_is_what_the_parent_holds() {
     restate(&mut copy, |stated| *stated = recipe);
     first.write_in(&home);
     let copy = copy.write_in(&home);
-    let words = "holds what came before it: games/mole-";
+    let words = "repeats earlier content: games/mole-";
     check(&copy, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
 }
 

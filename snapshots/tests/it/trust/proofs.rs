@@ -52,7 +52,7 @@ fn what_there_is_not_is_not_proved() {
         assert!(matches!(ItemProof::of(&release.manifest, id), Err(ProofError::NoSuchItem { .. })), "{id}");
     }
     let error = ItemProof::of(&release.manifest, "README").expect_err("no such item").to_string();
-    assert!(error.contains("`README` is no file and no game of `mole`"), "{error}");
+    assert!(error.contains("`README` is neither a file nor a game of `mole`"), "{error}");
 }
 
 #[test]
@@ -94,7 +94,10 @@ fn hostile_proofs_are_refused_in_words() {
     refuse(&written(&none), "it names no file");
     refuse(&text.replace("\"size\": 7", "\"size\": 100001"), "leaf 2 of 100001, which no release has");
     refuse(&text.replace("\"index\": 2", "\"index\": 7"), "leaf 7 of 7, which no release has");
-    refuse(&text.replace("\"release\": \"mole\"", "\"release\": \"a/b\""), "`a/b` is no name of a release");
+    refuse(
+        &text.replace("\"release\": \"mole\"", "\"release\": \"a/b\""),
+        "`a/b` is not a valid release name",
+    );
     let mut twice = honest.clone();
     twice.files.push(honest.files[0].clone());
     refuse(&written(&twice), "`README.md` is listed twice");
@@ -151,6 +154,6 @@ fn files_of_a_game_are_of_one_tree() {
         let mut crafted = honest.clone();
         (crafted.files[0].proof.index, crafted.files[0].proof.size) = (index, size);
         let error = ItemProof::parse(&crafted.to_bytes().expect("small")).expect_err("apart").to_string();
-        assert!(error.contains("do not have their places in one release"), "{error}");
+        assert!(error.contains("cannot be in the same release"), "{error}");
     }
 }

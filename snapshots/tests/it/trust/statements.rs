@@ -114,7 +114,7 @@ fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
 fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
     check(
         |release| seal_with(release, &secret(7), &secret(8)),
-        &["lvl0.json: its chance does not come from the release's secret"],
+        &["lvl0.json: its seed is not derived from the release's secret"],
     );
     check(
         |release| {
@@ -165,7 +165,7 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
             seal(release);
             release.files.push(("held/notes.bin".to_owned(), b"x".to_vec()));
         },
-        &["held/notes.bin: a sealed release has no such file"],
+        &["held/notes.bin: not a file of a sealed release"],
     );
     check(
         |release| {
@@ -197,7 +197,7 @@ fn two_parts_that_do_not_belong_together_are_not_joined() {
         let error = joined(secret, played, change).expect_err(words);
         assert!(error.contains(words), "{error}");
     };
-    refused(&secret(7), &secret(8), &|_| {}, "its chance does not come from the release's secret");
+    refused(&secret(7), &secret(8), &|_| {}, "its seed is not derived from the release's secret");
     let other = |release: &mut Small| release.manifest.recipe["board"] = json!({ "rows": [5, 6] });
     refused(&secret(7), &secret(7), &other, "the manifest's recipe is not the one that was committed to");
     let made_up = Secret { seed: "hunter2".to_owned(), ..secret(7) };
@@ -314,7 +314,7 @@ fn a_release_tells_of_itself() {
         |release| change(release, "CARD.json", |_| "{".to_owned()),
         &["CARD.json: not the card of a release: EOF"],
     );
-    complains(|release| change(release, "CARD.json", |_| "[]".to_owned()), &["it is no object"]);
+    complains(|release| change(release, "CARD.json", |_| "[]".to_owned()), &["not an object"]);
     let with = |key: &'static str, value: serde_json::Value, words: &str| {
         complains(
             |release| {
@@ -437,7 +437,7 @@ fn no_witness_is_longer_than_an_episode_can_be() {
         |release| lengthen(release, 2001),
         &["lvl0.json: the episode has 2001 ticks", "a witness of 2001 ticks, where 1 to 2000 can be"],
     );
-    complains(|release| lengthen(release, 4), &["goes on after its end, which tick 3 was"]);
+    complains(|release| lengthen(release, 4), &["continues after its end in tick 3"]);
     let mut release = small("2026-12", None);
     lengthen(&mut release, 2001);
     assert_eq!(verified(&mut release, &Bounds::RELEASE).work, 0);
@@ -455,7 +455,7 @@ fn what_is_known_fits_the_parent() {
         assert!(problems.iter().any(|problem| problem.contains(words)), "{problems:?}");
     };
     known(json!({}), "`known` names no release, but there is a parent");
-    known(json!("nothing"), "`known` is not what one is");
+    known(json!("nothing"), "`known` is malformed");
     known(json!({ "releases": ["2026-12", "2026-12"] }), "names a release twice, or itself");
     known(json!({ "releases": ["2027-01"] }), "names a release twice, or itself");
     let mut orphan = first;

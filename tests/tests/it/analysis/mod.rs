@@ -100,7 +100,7 @@ fn deterministic_states_have_one_future() {
             assert_eq!(one.search_key(game), two.search_key(game), "{name}");
         }
     });
-    assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in games of chance");
+    assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in stochastic games");
 }
 
 /// Goals that can only hold from the start do not come to hold later, and the other way round.
