@@ -42,7 +42,7 @@ impl Features {
 
     /// Like [`Features::of`], but types that move by themselves or soon vanish only count by number: their positions
     /// change all the time, and not by the player's doing.
-    pub(crate) fn without_bustle(
+    pub(crate) fn without_moving_types(
         analysis: &Analysis,
         abstraction: &StateAbstraction,
         start: &State,

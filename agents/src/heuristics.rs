@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn values_worked_by_hand() {
+    fn values_match_hand_computed_ones() {
         // Only the score counts.
         check("Acc", Action::Right, 5.0, 5.0);
         // Three cells to a portal: 30 × 30 × 10; NPCs do not matter then.

@@ -7,9 +7,9 @@
 
 mod batch;
 mod branches;
-mod compass;
 mod do_nothing;
 mod features;
+mod goal_guide;
 mod heuristics;
 mod mcts;
 mod mcts_guided;

@@ -170,7 +170,7 @@ impl Planner for Mcts {
         let mut scratch = self.scratch.take().unwrap_or_else(|| state.clone());
         let mut calls = 0;
         while calls < budget.0 {
-            decision.imagine(&mut scratch, state);
+            decision.fork_with_random_future(&mut scratch, state);
             let cost = self.iterate(game, &mut scratch, actions, &mut decision.choices);
             calls += cost;
             if cost == 0 {
@@ -190,7 +190,7 @@ mod tests {
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=500 win=False\n";
 
     #[test]
-    fn it_walks_past_the_pit_to_the_goal() {
+    fn pits_are_avoided() {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level("wwwwwww\nwA p gw\nw     w\nwwwwwww\n").unwrap();
         for run in 0..5 {
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_seed_plans_the_same_and_the_budget_is_kept() {
+    fn equal_seeds_give_equal_plans_within_budget() {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level("wwwwwww\nwA p gw\nw     w\nwwwwwww\n").unwrap();
         let state = game.start(&level, Seed::from_text("game"));

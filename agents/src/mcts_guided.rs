@@ -7,7 +7,7 @@
 //! real-time Monte-Carlo tree search in general video game playing".)
 
 use crate::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
-use crate::compass::{Compass, Ways};
+use crate::goal_guide::{Distances, GoalGuide};
 use crate::planner::{Budget, Decision, Planner, Streams};
 use engine::{Action, Game, Outcome, Seed, State};
 use serde::{Deserialize, Serialize};
@@ -84,9 +84,9 @@ pub struct GuidedMcts {
     /// The remaining actions of a certain win.
     plan: VecDeque<Action>,
     #[serde(skip)]
-    compass: Option<Box<Compass>>,
+    guide: Option<Box<GoalGuide>>,
     #[serde(skip)]
-    ways: Ways,
+    distances: Distances,
     #[serde(skip)]
     path: Vec<usize>,
     #[serde(skip)]
@@ -144,8 +144,8 @@ impl GuidedMcts {
             visits: BTreeMap::new(),
             scale: 0.0,
             plan: VecDeque::new(),
-            compass: None,
-            ways: Ways::default(),
+            guide: None,
+            distances: Distances::default(),
             path: Vec::new(),
             played: Vec::new(),
             scratch: None,
@@ -163,8 +163,8 @@ impl GuidedMcts {
             self.tree.clear();
             self.tree.push(Node::new());
         }
-        if self.compass.as_ref().is_none_or(|compass| !compass.fits(game)) {
-            self.compass = Some(Box::new(Compass::of(game)));
+        if self.guide.as_ref().is_none_or(|guide| !guide.fits(game)) {
+            self.guide = Some(Box::new(GoalGuide::of(game)));
         }
     }
 
@@ -229,15 +229,15 @@ impl GuidedMcts {
             Outcome::Lost | Outcome::Stopped(_) => return points - config.loss * gained.weight,
             Outcome::Ongoing | Outcome::Ended => gained.weight,
         };
-        let compass = self.compass.as_ref().expect("made when the decision began");
+        let guide = self.guide.as_ref().expect("made when the decision began");
         let mut worth = 0.0;
         if config.guidance > 0.0 {
-            let done = (compass.progress(game, state) - root.progress).clamp(-1.0, 1.0);
-            let nearer = compass.closeness(game, state, &mut self.ways) - root.closeness;
+            let done = (guide.progress(game, state) - root.progress).clamp(-1.0, 1.0);
+            let nearer = guide.closeness(game, state, &mut self.distances) - root.closeness;
             worth += config.guidance * (done + if done > 0.0 { 0.0 } else { nearer });
         }
         if config.novelty > 0.0 {
-            let visits = self.visits.get(&circumstances(game, state, compass)).copied().unwrap_or(0);
+            let visits = self.visits.get(&novelty_key(game, state, guide)).copied().unwrap_or(0);
             worth += config.novelty / (1.0 + f64::from(visits)).sqrt();
         }
         points + end * worth
@@ -288,12 +288,12 @@ impl Gains {
 }
 
 /// Hashes the avatar's position and type and the progress of the game: a known number means no novelty.
-fn circumstances(game: &Game, state: &State, compass: &Compass) -> u64 {
+fn novelty_key(game: &Game, state: &State, guide: &GoalGuide) -> u64 {
     let (x, y) = state.avatar_place().unwrap_or((-1, -1));
     let block = state.block().max(1);
     let mut key = (x / block) as u64 & 0xFFFF | ((y / block) as u64 & 0xFFFF) << 16;
     key |= u64::from(state.avatar_sprite_type().map_or(u16::MAX, |stype| stype.0)) << 32;
-    let done = (compass.progress(game, state) * 16.0) as i64 as u64;
+    let done = (guide.progress(game, state) * 16.0) as i64 as u64;
     key ^ done.wrapping_mul(0x9E37_79B9_7F4A_7C15)
 }
 
@@ -308,18 +308,18 @@ impl Planner for GuidedMcts {
             self.tree.clear();
             return (self.actions[0], 0);
         }
-        let compass = self.compass.as_ref().expect("just made");
-        *self.visits.entry(circumstances(game, state, compass)).or_default() += 1;
+        let guide = self.guide.as_ref().expect("just made");
+        *self.visits.entry(novelty_key(game, state, guide)).or_default() += 1;
         let root = Root {
             score: state.score(),
-            progress: compass.progress(game, state),
-            closeness: compass.closeness(game, state, &mut self.ways),
+            progress: guide.progress(game, state),
+            closeness: guide.closeness(game, state, &mut self.distances),
         };
         let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
         let mut calls = 0;
         let mut certain = false;
         while calls < budget.0 && !certain {
-            decision.imagine(&mut copy, state);
+            decision.fork_with_random_future(&mut copy, state);
             let (cost, won) = self.iterate(game, &mut copy, &root, &mut decision);
             calls += cost;
             certain = won && self.config.commit && game.is_deterministic();
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn it_fetches_the_key_and_opens_the_exit() {
+    fn keys_are_fetched_for_the_exit() {
         let guided = played(GuidedMctsConfig::default(), 200);
         assert_eq!(guided.episode.outcome, Outcome::Won);
         let blind = GuidedMctsConfig { guidance: 0.0, novelty: 0.0, ..GuidedMctsConfig::default() };
@@ -365,7 +365,7 @@ mod tests {
 
     /// In a deterministic game a win that was found is certain: its last ticks need no search.
     #[test]
-    fn it_plays_a_certain_win_to_its_end() {
+    fn certain_wins_are_played_to_the_end() {
         let config = |commit| GuidedMctsConfig { commit, ..GuidedMctsConfig::default() };
         let [sure, unsure] = [true, false].map(|commit| played(config(commit), 200));
         assert_eq!(sure.episode.outcome, Outcome::Won);

@@ -266,7 +266,7 @@ impl Planner for Olets {
         let mut calls = 0;
         // At least one iteration: `decide` needs a child.
         loop {
-            decision.imagine(&mut copy, state);
+            decision.fork_with_random_future(&mut copy, state);
             let cost = self.iterate(game, &mut copy, &mut decision);
             calls += cost;
             if cost == 0 || calls >= budget.0 {
@@ -289,7 +289,7 @@ mod tests {
 
     /// Remembered positions push the avatar along a corridor in which no score shows the way.
     #[test]
-    fn it_walks_down_a_long_corridor() {
+    fn long_corridors_are_walked() {
         let game = Game::from_source(GAME).unwrap();
         let level = game
             .level("wwwwwwwwwwwwwwwwwwwwwwwww\nwA                     gw\nwwwwwwwwwwwwwwwwwwwwwwwww\n")
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn early_deaths_are_worse_and_wins_grow_with_the_score() {
+    fn early_deaths_score_lower_and_wins_grow_with_the_score() {
         let game = Game::from_source(GAME).unwrap();
         let ended = |level: &str| {
             let mut state = game.start(&game.level(level).unwrap(), Seed::from_text("results"));
@@ -319,7 +319,7 @@ mod tests {
 
     /// Calculated by hand: a kept node of four visits, three of which ended there with a sum of 6.
     #[test]
-    fn what_is_kept_counts_as_one_visit() {
+    fn kept_subtrees_count_as_one_visit() {
         let node = Node { visits: 4.0, total: 10.0, exits: 3.0, exit_sum: 6.0, ..Node::new() };
         for (fixed, exit_sum) in [(false, 6.0), (true, 2.0)] {
             let mut node = node.clone();

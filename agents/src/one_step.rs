@@ -52,7 +52,7 @@ impl Planner for OneStep {
             let samples = self.config.samples.max(1);
             let mut total = 0.0;
             for _ in 0..samples {
-                decision.imagine(&mut copy, state);
+                decision.fork_with_random_future(&mut copy, state);
                 game.step(&mut copy, action);
                 calls += 1;
                 total += self.config.heuristic.value(game, state, &copy);

@@ -47,7 +47,7 @@ impl Streams {
 
 impl Decision {
     /// Makes `copy` a copy of the state with an imagined future.
-    pub(crate) fn imagine(&mut self, copy: &mut State, state: &State) {
+    pub(crate) fn fork_with_random_future(&mut self, copy: &mut State, state: &State) {
         copy.fork_from(state, Chance::from_java(self.imagined.bits() as i64));
     }
 }

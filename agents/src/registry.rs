@@ -163,7 +163,7 @@ mod tests {
     use engine::{Episode, Outcome};
 
     #[test]
-    fn every_name_makes_a_planner_and_no_other() {
+    fn only_registered_names_make_planners() {
         let seed = Seed::from_text("names");
         assert!(PLANNERS.iter().all(|name| planner(name, seed).is_ok()));
         let unknown = planner("Mcts", seed).err().unwrap();
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn saved_and_loaded_planners_play_on_as_if_nothing_had_happened() {
+    fn loaded_planners_continue_identically() {
         for name in PLANNERS {
             let whole = playing(name, 25, None);
             assert_eq!(playing(name, 25, None), whole, "{name} is not a function of its seed");
@@ -227,7 +227,7 @@ mod tests {
 
     /// The game's own random stream is hidden: with another future, but the same present, the decision is the same.
     #[test]
-    fn nobody_foresees_the_future() {
+    fn no_planner_foresees_the_future() {
         let game = Game::from_source(GAME).unwrap();
         let state = game.start(&game.level(LEVEL).unwrap(), Seed::from_text("present"));
         for name in PLANNERS {
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn budgets_are_kept_but_for_one_iteration() {
+    fn budgets_are_exceeded_by_at_most_one_iteration() {
         let game = Game::from_source(GAME).unwrap();
         let state = game.start(&game.level(LEVEL).unwrap(), Seed::from_text("budget"));
         for name in ["random-search", "rhea", "mcts", "guided-mcts", "olets"] {

@@ -58,7 +58,7 @@ impl<'a> Sequences<'a> {
     /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out on the
     /// way, it is that of the state at that point, as in the reference.
     pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
-        decision.imagine(&mut self.copy, self.state);
+        decision.fork_with_random_future(&mut self.copy, self.state);
         for &gene in genes {
             if self.copy.is_over() || self.is_spent() {
                 break;

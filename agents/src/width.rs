@@ -49,7 +49,8 @@ pub struct Width {
     /// The largest change of the score in one tick seen so far, at least 1.
     unit: f64,
     /// The number of ticks of the episode in which each atom was present.
-    been: Option<(Features, Vec<u32>)>,
+    #[serde(rename = "been")]
+    presence: Option<(Features, Vec<u32>)>,
     /// The rest of the last plan.
     plan: Option<Plan>,
     #[serde(skip)]
@@ -111,7 +112,7 @@ impl Width {
             config,
             streams: Streams::new(seed),
             unit: 1.0,
-            been: None,
+            presence: None,
             plan: None,
             analysis: None,
             pool: Vec::new(),
@@ -143,7 +144,7 @@ impl Width {
     ) -> u64 {
         let game = analysis.game();
         let progress = Progress::of(analysis);
-        let (features, been) = self.been.take().expect("made before");
+        let (features, presence) = self.presence.take().expect("made before");
         let mut atoms = Atoms::new(features.len());
         features.each(root, |atom| _ = atoms.insert(atom));
         let mut nodes = vec![Node {
@@ -165,7 +166,7 @@ impl Width {
                     break 'look;
                 }
                 let mut child = self.pool.pop().unwrap_or_else(|| state.clone());
-                decision.imagine(&mut child, &state);
+                decision.fork_with_random_future(&mut child, &state);
                 game.step(&mut child, action);
                 calls += 1;
                 let reward = self.reward(&progress, &state, &child);
@@ -173,7 +174,7 @@ impl Width {
                 let (mut new, mut rarest) = (false, u32::MAX);
                 features.each(&child, |atom| {
                     new |= atoms.insert(atom);
-                    rarest = rarest.min(been[atom]);
+                    rarest = rarest.min(presence[atom]);
                 });
                 let depth = nodes[at].depth + 1;
                 let mut curious = 0.0;
@@ -219,7 +220,7 @@ impl Width {
                 bonus: nodes[end].worth - nodes[end].value,
             });
         }
-        self.been = Some((features, been));
+        self.presence = Some((features, presence));
         calls
     }
 
@@ -234,7 +235,7 @@ impl Width {
         (state, before): &mut (State, State),
     ) -> (f64, bool, u64) {
         let progress = Progress::of(analysis);
-        decision.imagine(state, root);
+        decision.fork_with_random_future(state, root);
         let (mut value, mut weight, mut calls) = (0.0, 1.0, 0);
         for &action in plan.iter().take(self.config.horizon) {
             before.clone_from(state);
@@ -266,13 +267,13 @@ impl Planner for Width {
         let actions = game.actions(state);
         let mut decision = self.streams.next();
         let analysis = self.analysis.take().unwrap_or_else(|| Analysis::of(game));
-        if self.been.is_none() {
-            let features = Features::without_bustle(&analysis, &analysis.abstraction(state), state);
+        if self.presence.is_none() {
+            let features = Features::without_moving_types(&analysis, &analysis.abstraction(state), state);
             let never = vec![0; features.len()];
-            self.been = Some((features, never));
+            self.presence = Some((features, never));
         }
-        let (features, been) = self.been.as_mut().expect("just made");
-        features.each(state, |atom| been[atom] = been[atom].saturating_add(1));
+        let (features, presence) = self.presence.as_mut().expect("just made");
+        features.each(state, |atom| presence[atom] = presence[atom].saturating_add(1));
         if state.is_over() {
             self.analysis = Some(analysis);
             return (actions[0], 0);

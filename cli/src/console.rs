@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reader_that_leaves_is_no_failure_and_a_full_device_is_one() {
+    fn closed_pipes_are_ignored_and_full_devices_reported() {
         for (kind, expect) in
             [(ErrorKind::BrokenPipe, None), (ErrorKind::StorageFull, Some(ErrorKind::StorageFull))]
         {

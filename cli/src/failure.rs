@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_not_be_entered_is_not_called_absent() {
+    fn unreadable_files_are_not_reported_absent() {
         let at = Path::new("games/a");
         check(&Failure::read(at, ErrorKind::NotFound.into()), MALFORMED, "games/a: there is no such file");
         check(

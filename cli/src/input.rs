@@ -76,7 +76,7 @@ impl GameInput {
     /// Returns a level as the user names it: a file, or the number of one that comes with the game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
         let path = Path::new(name);
-        if paths::look(path)?.is_some() {
+        if paths::metadata(path)?.is_some() {
             return LevelInput::File(path.to_owned()).read();
         }
         let number = name.strip_prefix("lvl").unwrap_or(name).trim_end_matches(".txt").parse::<usize>();
@@ -111,7 +111,7 @@ fn number_like(name: &str) -> bool {
 /// Finds a game: a .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game.
 pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let path = Path::new(name);
-    let found = paths::look(path)?;
+    let found = paths::metadata(path)?;
     if found.as_ref().is_some_and(|found| found.is_dir()) {
         return game_in(path)?.ok_or_else(|| no_game_in(path));
     }
@@ -135,7 +135,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let Some(found) = corpus.find(name) else {
         let near = engine::nearest(name, corpus.games.iter().map(|game| game.name.as_str()));
         let near = near.map(|near| format!("the corpus game `{near}`"));
-        let help = match near.or_else(|| beside(path).map(|near| format!("`{near}`"))) {
+        let help = match near.or_else(|| nearest_sibling(path).map(|near| format!("`{near}`"))) {
             Some(near) => format!("there is no such file, folder or corpus game; did you mean {near}?"),
             None => "there is no such file, folder or corpus game".to_owned(),
         };
@@ -158,7 +158,7 @@ const CORPUS: &str = "corpus";
 /// corpus.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
-    let found = paths::look(path)?;
+    let found = paths::metadata(path)?;
     if name == CORPUS && found.is_none() {
         return embedded::corpus()?.games.iter().map(|known| game(&known.name)).collect();
     }
@@ -170,7 +170,7 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     }
     let mut games = Vec::new();
     for folder in sorted_entries(path)? {
-        if paths::look(&folder)?.is_some_and(|found| found.is_dir()) {
+        if paths::metadata(&folder)?.is_some_and(|found| found.is_dir()) {
             games.extend(game_in(&folder)?);
         }
     }
@@ -196,7 +196,7 @@ fn no_game_in(folder: &Path) -> Failure {
 }
 
 /// Finds the path in the same folder whose name is closest to this one's, for typing errors.
-fn beside(path: &Path) -> Option<String> {
+fn nearest_sibling(path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let wanted = path.file_name()?.to_string_lossy();
     let here = if folder == Path::new("") { Path::new(".") } else { folder };
@@ -213,12 +213,12 @@ fn is_level(text: &str) -> bool {
     let widest = rows.iter().map(width).max().unwrap_or_default();
     // Rows of one width, ignoring blanks at their ends; a single word may be anything.
     let full = rows.iter().filter(|row| width(row) == widest).count();
-    let speaks = |row: &&str| {
+    let is_vgdl = |row: &&str| {
         let words =
             ["BasicGame", "GameSpace", "SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
         row.contains(" > ") || words.iter().any(|word| row.trim().starts_with(word))
     };
-    rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(speaks)
+    rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(is_vgdl)
 }
 
 /// Returns `true` if a text is certainly a game: it has two of the sections, each on a line of its own.
@@ -246,7 +246,7 @@ fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
 pub(crate) fn first_file(folder: &Path, names: [&str; 2]) -> Result<Option<PathBuf>, Failure> {
     for name in names {
         let path = folder.join(name);
-        if paths::look(&path)?.is_some() {
+        if paths::metadata(&path)?.is_some() {
             return Ok(Some(path));
         }
     }
@@ -316,7 +316,7 @@ mod tests {
     use super::is_level;
 
     #[test]
-    fn levels_are_told_from_games() {
+    fn levels_and_games_are_distinguished() {
         for level in ["wwww\nw.Aw\nwwww\n", "A g\nw\nwww\nwww", "w w\r\nwAw\r\n"] {
             assert!(is_level(level), "{level}");
         }

@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn links_are_names_of_pages() {
+    fn links_name_pages() {
         check(
             "see [killAll](killAll.md) and\n[the others](README.md#all)",
             "see [killAll] and\nthe others [effects]",
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn no_page_leads_to_a_page_that_is_not_there() {
+    fn links_between_pages_resolve() {
         let pages = pages();
         for page in &pages {
             let plain = page.plain(&pages);

@@ -14,7 +14,7 @@ pub(crate) fn in_json(path: &Path) -> Cow<'_, str> {
 
 /// Returns the metadata of the file or folder at `path`, following links; none if nothing is there. A folder that may
 /// not be entered is a failure, not an absence.
-pub(crate) fn look(path: &Path) -> Result<Option<Metadata>, Failure> {
+pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
     match fs::metadata(path) {
         Ok(found) => Ok(Some(found)),
         Err(error) => absent_or_failed(path, error),
@@ -33,11 +33,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_may_not_be_entered_is_not_absent() {
-        let look = |kind: ErrorKind| absent_or_failed::<()>(Path::new("a/b"), kind.into());
-        assert!(look(ErrorKind::NotFound).expect("absent").is_none());
-        assert!(look(ErrorKind::NotADirectory).expect("absent").is_none());
-        let refused = look(ErrorKind::PermissionDenied).expect_err("refused");
+    fn unreadable_folders_are_not_absent() {
+        let metadata = |kind: ErrorKind| absent_or_failed::<()>(Path::new("a/b"), kind.into());
+        assert!(metadata(ErrorKind::NotFound).expect("absent").is_none());
+        assert!(metadata(ErrorKind::NotADirectory).expect("absent").is_none());
+        let refused = metadata(ErrorKind::PermissionDenied).expect_err("refused");
         assert_eq!(refused.code(), crate::failure::ENVIRONMENT);
         assert!(refused.to_string().starts_with("cannot read `a/b`: permission denied"), "{refused}");
     }

@@ -20,7 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_shell_would_tear_apart_is_quoted() {
+    fn arguments_are_quoted_for_shells() {
         assert_eq!(command(["verify", "releases/tiny"]), "arcade verify releases/tiny");
         let line = command(["verify", "my games/it's $HOME"]);
         assert_eq!(shlex::split(&line).unwrap(), ["arcade", "verify", "my games/it's $HOME"]);

@@ -7,10 +7,10 @@ use std::sync::Once;
 use std::thread::available_parallelism;
 
 /// The most threads of a pool: more would only wait for each other, and starting thousands takes minutes.
-const MOST: usize = 256;
+const MAX_THREADS: usize = 256;
 
-/// Guards the warning about [`MOST`]: a verb may ask for several pools.
-static TOLD: Once = Once::new();
+/// Guards the warning about [`MAX_THREADS`]: a verb may ask for several pools.
+static WARNED: Once = Once::new();
 
 /// Starts the threads for verbs without `--jobs`. By default, the library would start as many as `RAYON_NUM_THREADS`
 /// says, without a limit.
@@ -23,13 +23,15 @@ pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + S
     if jobs == Some(0) {
         return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
     }
-    if let Some(jobs) = jobs.filter(|&jobs| jobs > MOST) {
-        TOLD.call_once(|| {
-            console::warn(format_args!("--jobs {jobs} is more than any work here can use: {MOST} threads"));
+    if let Some(jobs) = jobs.filter(|&jobs| jobs > MAX_THREADS) {
+        WARNED.call_once(|| {
+            console::warn(format_args!(
+                "--jobs {jobs} is more than any work here can use: {MAX_THREADS} threads"
+            ));
         });
     }
     let pool: Result<ThreadPool, _> =
-        ThreadPoolBuilder::new().num_threads(jobs.map_or_else(usual, |jobs| jobs.min(MOST))).build();
+        ThreadPoolBuilder::new().num_threads(jobs.map_or_else(usual, |jobs| jobs.min(MAX_THREADS))).build();
     Ok(pool.map_err(failure)?.install(work))
 }
 
@@ -46,8 +48,9 @@ fn usual() -> usize {
 
 /// Returns the wanted number if it is sensible, or else a thread for each core.
 fn bounded(wanted: Option<&str>, cores: usize) -> usize {
-    let wanted = wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MOST).contains(wanted));
-    wanted.unwrap_or(cores).clamp(1, MOST)
+    let wanted =
+        wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MAX_THREADS).contains(wanted));
+    wanted.unwrap_or(cores).clamp(1, MAX_THREADS)
 }
 
 fn failure(error: ThreadPoolBuildError) -> Failure {
@@ -67,15 +70,15 @@ mod tests {
             (Some("many"), 2, 2),
             (Some("999999999999"), 2, 2),
             (Some("257"), 4, 4),
-            (None, 5000, MOST),
+            (None, 5000, MAX_THREADS),
         ] {
             assert_eq!(bounded(wanted, cores), expect, "{wanted:?} on {cores} cores");
         }
     }
 
     #[test]
-    fn thousands_of_jobs_are_not_thousands_of_threads() {
+    fn thread_counts_are_bounded() {
         let threads = in_pool(Some(5000), rayon::current_num_threads).expect("started");
-        assert_eq!(threads, MOST);
+        assert_eq!(threads, MAX_THREADS);
     }
 }

@@ -189,7 +189,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn json_is_wanted_where_the_flag_stands_before_the_names() {
+    fn json_flag_is_found_before_names() {
         let wanted = |line: &str| is_json_wanted(&line.split(' ').map(OsString::from).collect::<Vec<_>>());
         assert!(wanted("arcade --json run"));
         assert!(wanted("arcade run --planer x --json"));

@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_written_leaves_the_old_file() {
+    fn failed_writes_keep_the_old_file() {
         let home = tempfile::tempdir().expect("temporary folder");
         let path = home.path().join("win.json");
         write(&path, b"old").expect("written");
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn impossible_places_are_told_apart() {
+    fn impossible_paths_are_distinguished() {
         let home = tempfile::tempdir().expect("temporary folder");
         let message = |path: &Path| write(path, b"").expect_err("impossible").to_string();
         assert!(message(home.path()).contains("is a folder"));

@@ -8,7 +8,7 @@ pub mod card;
 pub mod games;
 pub mod levels;
 mod reported;
-mod striving;
+mod search_loop;
 pub mod survey;
 mod tally;
 

@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn other_texts_are_no_canary() {
+    fn other_texts_are_not_canaries() {
         let good = canary(&Digest::of(b""));
         for bad in [
             String::new(),

@@ -16,7 +16,7 @@ use crate::error::SnapshotError;
 use crate::integrity::Integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::recipe::Known;
-use crate::verify::COMPLETE;
+use crate::verify::CARD_AND_CANARY_SINCE;
 use engine::{Digest, SEMANTICS};
 use generators::GENERATION;
 
@@ -146,7 +146,7 @@ fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
                 continue;
             }
         };
-        if manifest.generation >= COMPLETE {
+        if manifest.generation >= CARD_AND_CANARY_SINCE {
             let stated = manifest.recipe.get("known").cloned().unwrap_or_else(|| serde_json::json!({}));
             let stated: Option<Known> = serde_json::from_value(stated).ok();
             let due = before.as_ref().and_then(|(parent, holds)| holds.known_after(parent).ok());
@@ -323,14 +323,14 @@ mod tests {
 
     /// A release that follows an absent rival of `2` is reported.
     #[test]
-    fn what_follows_something_absent_is_told() {
+    fn missing_predecessors_are_reported() {
         let (one, two) = (link("1", "a", None), link("2", "b", Some("a")));
         let rival = link("3x", "d", Some("the rival of 2"));
         check(two, vec![one, rival], &["2", "1"], true, &["`3x` in 3x follows the release with root"]);
     }
 
     #[test]
-    fn what_comes_after_is_not_asked_about() {
+    fn later_releases_are_ignored() {
         let (one, two, other) = (link("1", "a", None), link("2", "b", Some("a")), link("2b", "c", Some("a")));
         check(one, vec![two, other], &["1"], true, &[]);
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 use crate::error::SnapshotError;
 use crate::folder::{self, Listing};
 use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
-use crate::papers::{self, Beside};
+use crate::papers::{self, Untracked};
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 
@@ -20,7 +20,7 @@ pub struct Integrity {
     /// All problems, sorted; empty if the folder is what the manifest says.
     pub problems: Vec<Problem>,
     /// Files beside the tree, which the root does not cover; empty for an archive.
-    pub beside: Beside,
+    pub beside: Untracked,
 }
 
 impl Integrity {
@@ -259,7 +259,7 @@ mod tests {
 
     /// Papers, and what other programs leave beside the tree, are listed, and do not count as tampering.
     #[test]
-    fn what_is_beside_the_tree() {
+    fn files_outside_the_tree() {
         let release = release();
         let root = &release.root;
         for (path, content) in [("papers/LICENSE", "MIT"), (".git/objects/a b", ""), (".DS_Store", "")] {

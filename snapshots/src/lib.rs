@@ -79,12 +79,12 @@ pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
 pub use integrity::{Integrity, check_integrity};
 pub use manifest::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
-pub use papers::{Beside, PAPERS, PAPERS_LIMITS};
+pub use papers::{PAPERS, PAPERS_LIMITS, Untracked};
 pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
 pub use recipe::{CorpusPart, GeneratedPart, Known, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
 pub use regenerate::{RegenerateError, Regenerated, Regeneration};
-pub use sealed::{COVERING, HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
+pub use sealed::{COMMITS_TO_RECIPE_SINCE, HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
 pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
 pub use witness::Witness;
 

@@ -416,14 +416,14 @@ impl Recipe {
         if secret.commitment() != commitment {
             Err(RecipeError::OtherSecret)
         } else if secret.recipe != Some(self.committed()) {
-            Err(RecipeError::OtherRecipe(self.way_back(secret)))
+            Err(RecipeError::OtherRecipe(self.mismatch_advice(secret)))
         } else {
             Ok(secret.root_seed())
         }
     }
 
     /// Advice for a recipe that `secret` was not drawn for, most likely because of its parent.
-    fn way_back(&self, secret: &Secret) -> &'static str {
+    fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
             None => "did you forget --parent? Give the one of the commitment, undo other changes",
@@ -514,7 +514,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_committed_to_is_complete() {
+    fn commitments_are_complete() {
         assert!(Recipe::to_commit(&GOOD.replace("seed = 'x'\n", "")).is_ok());
         let error = Recipe::to_commit(&GOOD.replace("= 2", "= 0")).unwrap_err().to_string();
         assert!(error.contains("nothing to mint"), "{error}");

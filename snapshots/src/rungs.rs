@@ -1,7 +1,7 @@
 //! The win rates of the ladder's players over a whole release, and their differences between two releases.
 //!
 //! A level counts with the share of its plays that were won, and all levels have the same weight. Levels of one game
-//! are alike, so the intervals are clustered: whole games are resampled ([`statistics::clustered_mean`]). If all games
+//! are uniform_interval, so the intervals are clustered: whole games are resampled ([`statistics::clustered_mean`]). If all games
 //! have the same rate, resampling is uninformative, and Wilson's interval with one trial per game is used instead. The
 //! interval of a difference is combined from those of its two sides (G. Y. Zou and A. Donner, "Construction of
 //! confidence limits about effect measures: a general approach", 2008), as if the games of the two were independent
@@ -17,7 +17,7 @@ use validators::PlayerResult;
 const RESAMPLES: usize = 4000;
 /// The difference, in standard errors, that a two-sided test at the 5 % level detects with 80 % power: the sum of the
 /// normal quantiles of 0.975 and 0.8.
-const SEEN: f64 = Z95 + 0.8416212335729143;
+const DETECTABLE_ERRORS: f64 = Z95 + 0.8416212335729143;
 
 /// The win rate of a player over the games of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -54,7 +54,7 @@ impl RungRate {
     pub fn detectable(&self, games: u64) -> Option<f64> {
         let error = self.error.filter(|_| games > 0)?;
         let one = error * error * self.games as f64 / games as f64;
-        Some(SEEN * (2.0 * one).sqrt())
+        Some(DETECTABLE_ERRORS * (2.0 * one).sqrt())
     }
 
     fn of(first: &PlayerResult, held_out: bool, games: &[Vec<&PlayerResult>]) -> RungRate {
@@ -70,7 +70,7 @@ impl RungRate {
                 clustered_mean(&shares, RESAMPLES, 0.95, *seed.as_bytes())
                     .expect("there are levels, and their rates are numbers")
             }
-            None => alike(mean, games.len() as u64),
+            None => uniform_interval(mean, games.len() as u64),
         };
         RungRate {
             player: first.player.clone(),
@@ -102,7 +102,7 @@ fn error(games: &[Vec<f64>], mean: f64) -> Option<f64> {
 }
 
 /// The interval for games that all have the same rate: Wilson's, with one trial per game, rounded outwards.
-fn alike(rate: f64, games: u64) -> Interval {
+fn uniform_interval(rate: f64, games: u64) -> Interval {
     let won = rate * games as f64;
     let (few, many) = (wilson(won.floor() as u64, games, Z95), wilson(won.ceil() as u64, games, Z95));
     Interval { low: few.low, high: many.high }
@@ -174,7 +174,7 @@ impl RungDifference {
         RungDifference {
             difference,
             interval: [(difference - below).max(-1.0), (difference + above).min(1.0)],
-            detectable: errors.map(|(ours, theirs)| SEEN * apart(ours, theirs)),
+            detectable: errors.map(|(ours, theirs)| DETECTABLE_ERRORS * apart(ours, theirs)),
             ours,
             theirs,
         }
@@ -253,7 +253,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn games_count_and_not_levels() {
+    fn games_are_the_unit_of_resampling() {
         let found = rates(&quarter());
         let [random, olets] = &found[..] else { panic!("{found:?}") };
         assert_eq!((random.player.as_str(), random.held_out, random.looks_ahead), ("random", false, false));
@@ -272,7 +272,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn levels_count_alike_however_often_they_were_played() {
+    fn levels_are_weighted_equally() {
         let mut cards = vec![card("a", &[[10, 0], [0, 0]]), card("b", &[[0, 0]])];
         cards[0].levels[0].ladder.as_mut().unwrap().rungs[0].rate.plays = 1000;
         cards[0].levels[0].ladder.as_mut().unwrap().rungs[0].rate.wins = 1000;
@@ -283,7 +283,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn one_game_tells_little_and_none_nothing() {
+    fn few_games_give_wide_intervals() {
         let found = &rates(&[card("a", &[[5, 5], [5, 5]])])[0];
         assert_eq!((found.mean, found.interval, found.error), (0.5, [0.0, 1.0], None));
         assert!(rates(&[]).is_empty());
@@ -291,7 +291,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_same_release_differs_by_nothing() {
+    fn equal_releases_have_no_differences() {
         for found in differences(&quarter(), &quarter()) {
             assert_eq!(found.difference, 0.0);
             assert!(found.includes_zero(), "{found:?}");
@@ -320,7 +320,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn more_games_show_less() {
+    fn more_games_detect_smaller_differences() {
         let found = &differences(&quarter(), &quarter())[0];
         let same = found.ours.detectable(40).unwrap();
         assert!((same - found.detectable.unwrap()).abs() < 1e-12);

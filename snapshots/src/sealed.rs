@@ -3,7 +3,7 @@
 use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
-use crate::papers::{self, PAPERS_LIMITS, PASSED_OVER};
+use crate::papers::{self, IGNORED_NAMES, PAPERS_LIMITS};
 use crate::witness::Witness;
 use crate::{Draft, SnapshotError};
 use engine::{Digest, Seed};
@@ -37,13 +37,13 @@ pub struct Secret {
     /// The nonce, which keeps the seed from being guessed: 64 hexadecimal digits.
     pub nonce: Digest,
     /// The digest of the recipe that it was drawn for ([`Recipe::committed`](crate::Recipe::committed)); `None` in
-    /// secrets of generations before [`COVERING`], whose commitments cover seed and nonce alone.
+    /// secrets of generations before [`COMMITS_TO_RECIPE_SINCE`], whose commitments cover seed and nonce alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recipe: Option<Digest>,
 }
 
 /// The first generation whose commitments cover the recipe, and whose seeds depend on the nonce too.
-pub const COVERING: u32 = 12;
+pub const COMMITS_TO_RECIPE_SINCE: u32 = 12;
 
 /// Key derivation contexts. Changing one of them changes every secret or every commitment.
 const SEED_CONTEXT: &str = "infinite-arcade 2 seed of a secret";
@@ -69,7 +69,7 @@ impl Secret {
     }
 
     /// The digest over seed, nonce and recipe, in a domain of its own; for a secret without recipe BLAKE3(seed ‖
-    /// nonce), as in releases before [`COVERING`].
+    /// nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
     pub fn commitment(&self) -> Digest {
         let Some(recipe) = self.recipe else {
             return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
@@ -122,8 +122,9 @@ impl Secret {
             return Ok(Some("its seed and nonce are not those of the commitment".to_owned()));
         }
         let Some(recipe) = self.recipe else {
-            let flaw = format!("it names no recipe, as secrets since generation {COVERING} do");
-            return Ok((manifest.generation >= COVERING).then_some(flaw));
+            let flaw =
+                format!("it names no recipe, as secrets since generation {COMMITS_TO_RECIPE_SINCE} do");
+            return Ok((manifest.generation >= COMMITS_TO_RECIPE_SINCE).then_some(flaw));
         };
         if recipe != committed(&manifest.recipe)? {
             return Ok(Some("the manifest's recipe is not the one that was committed to".to_owned()));
@@ -217,7 +218,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
         return Err(RevealError::Open(manifest.name));
     }
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
-    let listing = folder::list_but(held, &Limits::SNAPSHOT, &PASSED_OVER)?;
+    let listing = folder::list_but(held, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
     problems.extend(listing.problems.iter().map(|problem| format!("{HELD}{problem}")));
     let there: BTreeSet<String> =
         listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
@@ -250,7 +251,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
         let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
         let secret = read_revealed(held, file)?;
         problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
-        problems.extend(strangers(&secret, held, &awaited)?);
+        problems.extend(unrelated_witnesses(&secret, held, &awaited)?);
     }
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));
@@ -264,14 +265,18 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
 }
 
 /// The withheld witnesses whose seeds are not derived from the secret.
-fn strangers(secret: &Secret, held: &Path, files: &BTreeSet<&str>) -> Result<Vec<String>, SnapshotError> {
+fn unrelated_witnesses(
+    secret: &Secret,
+    held: &Path,
+    files: &BTreeSet<&str>,
+) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     for path in files.iter().filter(|path| **path != SECRET_FILE) {
         let file = path.strip_prefix(HELD).expect("it is held");
         let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
         match serde_json::from_slice::<Witness>(&bytes) {
             Ok(witness) if secret.leads_to(&witness) => {}
-            Ok(_) => problems.push(format!("{path}: {STRANGER}")),
+            Ok(_) => problems.push(format!("{path}: {UNRELATED_WITNESS}")),
             Err(error) => problems.push(format!("{path}: not a witness: {error}")),
         }
     }
@@ -279,7 +284,7 @@ fn strangers(secret: &Secret, held: &Path, files: &BTreeSet<&str>) -> Result<Vec
 }
 
 /// The fault of a witness that was not played under the release's secret.
-pub(crate) const STRANGER: &str = "its seed is not derived from the release's secret";
+pub(crate) const UNRELATED_WITNESS: &str = "its seed is not derived from the release's secret";
 
 #[cfg(test)]
 mod tests {
@@ -291,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_was_drawn_is_taken_for_a_secret() {
+    fn only_random_secrets_are_accepted() {
         drawn().check().unwrap();
         let check = |change: &dyn Fn(&mut Secret), expect: &str| {
             let mut secret = drawn();
@@ -327,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn seed_nonce_and_recipe_are_all_committed_to() {
+    fn the_commitment_covers_seed_nonce_and_recipe() {
         let secret = drawn();
         let other = Digest::of(b"other");
         for changed in [
@@ -352,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn the_whole_recipe_is_covered_but_what_follows_from_it() {
+    fn the_commitment_covers_the_recipe_without_derived_values() {
         let recipe = json!({ "name": "a", "parent": null, "corpus": { "games": 1 } });
         let digest = |change: &dyn Fn(&mut Value)| {
             let mut changed = recipe.clone();
@@ -370,7 +375,7 @@ mod tests {
 
     /// The seed of a witness follows from its path, under one secret only.
     #[test]
-    fn a_witness_belongs_to_one_secret() {
+    fn witnesses_belong_to_one_secret() {
         let secret = drawn();
         let seed = secret.root_seed().child("search", 0).child("game", 3);
         let text = json!({

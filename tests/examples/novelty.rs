@@ -3,7 +3,7 @@
 use engine::{Game, Seed};
 use std::io::Write;
 use std::path::Path;
-use tests::{dress, games, public_games, workspace_root};
+use tests::{games, isomorphic, public_games, workspace_root};
 use validators::novelty::{GameForm, distance};
 
 /// A game with its form.
@@ -86,7 +86,7 @@ fn copies(all: &[&Formed]) -> Vec<(&'static str, Vec<f64>)> {
     let mut renumbered = Vec::new();
     let mut altered = [Vec::new(), Vec::new(), Vec::new()];
     for Formed { name, game, form } in all {
-        let copy = dress::renumbered(game.description()).and_then(|tree| Game::compile(&tree).ok());
+        let copy = isomorphic::renumbered(game.description()).and_then(|tree| Game::compile(&tree).ok());
         renumbered.extend(copy.map(|copy| distance(form, &GameForm::of(&copy))));
         for number in 0..10 {
             let mut tree = game.description().clone();
@@ -94,7 +94,7 @@ fn copies(all: &[&Formed]) -> Vec<(&'static str, Vec<f64>)> {
                 let edits = Seed::from_text(name).child("edits", number).child("edit", edit);
                 let changed = (0..30).find_map(|lot| {
                     let mut sampler = edits.child("lot", lot).sampler();
-                    dress::altered(&tree, &mut sampler)
+                    isomorphic::altered(&tree, &mut sampler)
                         .filter(|other| *other != tree && Game::compile(other).is_ok())
                 });
                 tree = changed.unwrap_or(tree);

@@ -5,8 +5,8 @@
 
 pub mod any_game;
 pub mod choices;
-pub mod dress;
 pub mod hostile;
+pub mod isomorphic;
 pub mod mutation;
 pub mod robustness;
 pub mod sweep;

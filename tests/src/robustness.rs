@@ -78,7 +78,7 @@ pub fn text(bytes: &[u8]) {
                     (33..127u8).filter(|&c| !game.places(c).is_empty()).map(char::from).collect();
                 for level in [everything.as_str(), "A"] {
                     if let Ok(level) = game.level(level) {
-                        Walk::new(&game, &level, Seed::from_text("text")).stroll(3);
+                        Walk::new(&game, &level, Seed::from_text("text")).random_walk(3);
                     }
                 }
             }
@@ -189,7 +189,7 @@ pub fn level(bytes: &[u8]) -> Seen {
                 let again = game.level(&printed).expect("a canonical level is a level");
                 assert_eq!((again.digest(), again.cells()), (level.digest(), level.cells()), "\n{printed}");
                 let mut walk = Walk::new(&game, &level, Seed::from_text("level"));
-                walk.stroll(8);
+                walk.random_walk(8);
                 seen = seen.and(walk.seen);
             }
         }
@@ -270,7 +270,7 @@ impl<'g> Walk<'g> {
     }
 
     /// Plays some random ticks.
-    fn stroll(&mut self, ticks: usize) {
+    fn random_walk(&mut self, ticks: usize) {
         let mut state = self.start();
         for _ in 0..ticks {
             let action = *self.sampler.choose(&Action::ALL);

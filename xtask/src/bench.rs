@@ -4,7 +4,7 @@
 //! left out. Episodes start from copies made outside the measurement; whole steps are measured, including the hash of
 //! the state after each. Time is CPU time of the stepping thread.
 
-use crate::course::{Course, Subject, first_digest, subjects};
+use crate::episode_run::{EpisodeRun, Subject, first_digest, subjects};
 use crate::instructions;
 use agents::{Batch, Budget, Mcts, MctsConfig, Planner};
 use anyhow::Context;
@@ -56,12 +56,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let subjects = subjects(&args.games, &args.game)?;
     if let Some(ticks) = args.ticks {
         for subject in &subjects {
-            let mut course = Course::new(subject);
-            course.warm_up(ticks);
-            while course.ticks < ticks {
-                course.batch(ticks);
+            let mut episode_run = EpisodeRun::new(subject);
+            episode_run.warm_up(ticks);
+            while episode_run.ticks < ticks {
+                episode_run.batch(ticks);
             }
-            println!("{} {} ticks {:032x}", subject.name, course.ticks, course.digest);
+            println!("{} {} ticks {:032x}", subject.name, episode_run.ticks, episode_run.digest);
         }
         return Ok(());
     }
@@ -107,15 +107,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// Measures the ticks per second, after a warm-up.
 fn speed(subject: &Subject, seconds: f64) -> f64 {
-    let mut course = Course::new(subject);
-    while course.time.as_secs_f64() < seconds / 5.0 {
-        course.batch(u64::MAX);
+    let mut episode_run = EpisodeRun::new(subject);
+    while episode_run.time.as_secs_f64() < seconds / 5.0 {
+        episode_run.batch(u64::MAX);
     }
-    let mut course = Course::new(subject);
-    while course.time.as_secs_f64() < seconds {
-        course.batch(u64::MAX);
+    let mut episode_run = EpisodeRun::new(subject);
+    while episode_run.time.as_secs_f64() < seconds {
+        episode_run.batch(u64::MAX);
     }
-    course.ticks as f64 / course.time.as_secs_f64()
+    episode_run.ticks as f64 / episode_run.time.as_secs_f64()
 }
 
 fn summarise(kind: &str, mut ratios: Vec<f64>) {
@@ -192,13 +192,13 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
 
 /// The ticks per second of wall-clock time, including new episodes.
 fn batch_speed(subject: &Subject, ticks: usize) -> f64 {
-    const LANES: usize = 1024;
+    const BATCH_SIZE: usize = 1024;
     let seed = Seed::from_text(&subject.name);
-    let mut batch = Batch::fork(&subject.game, &subject.start, LANES, seed);
+    let mut batch = Batch::fork(&subject.game, &subject.start, BATCH_SIZE, seed);
     let mut sampler = seed.sampler();
     let actions = subject.game.actions(&subject.start);
     let plans: Vec<Vec<Action>> =
-        (0..16).map(|_| (0..LANES * ticks).map(|_| *sampler.choose(actions)).collect()).collect();
+        (0..16).map(|_| (0..BATCH_SIZE * ticks).map(|_| *sampler.choose(actions)).collect()).collect();
     let mut round = |count: usize| {
         for plan in plans.iter().cycle().take(count) {
             batch.play(plan).expect("a plan for every lane");
@@ -213,5 +213,5 @@ fn batch_speed(subject: &Subject, ticks: usize) -> f64 {
         round(1);
         rounds += 1;
     }
-    (rounds * LANES * ticks) as f64 / clock.elapsed().as_secs_f64()
+    (rounds * BATCH_SIZE * ticks) as f64 / clock.elapsed().as_secs_f64()
 }

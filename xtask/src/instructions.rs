@@ -1,7 +1,7 @@
 //! `cargo xtask instructions`: tests whether a step has become slower. It counts instructions instead of time: the
 //! counts are the same on a busy machine, so a change of a few per cent is visible.
 
-use crate::course::subjects;
+use crate::episode_run::subjects;
 use anyhow::{Context, bail};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -87,7 +87,7 @@ fn compiler() -> anyhow::Result<String> {
 pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"])
-        .arg("--toggle-collect=*play_on_the_clock*")
+        .arg("--toggle-collect=*play_measured*")
         .arg(env::current_exe()?)
         .arg("bench")
         .arg("--games")

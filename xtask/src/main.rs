@@ -1,9 +1,9 @@
-//! Chores of the repository, `cargo xtask <chore>`.
+//! Chores of the repository, `cargo xtask <task>`.
 
 #![allow(clippy::print_stdout, reason = "a task prints for its user")]
 
 mod bench;
-mod course;
+mod episode_run;
 #[cfg(feature = "content")]
 mod fidelity;
 mod instructions;
@@ -20,11 +20,11 @@ use clap::{Parser, Subcommand};
 #[command(name = "xtask")]
 struct Args {
     #[command(subcommand)]
-    chore: Chore,
+    task: Task,
 }
 
 #[derive(Subcommand)]
-enum Chore {
+enum Task {
     Bench(bench::Args),
     #[cfg(feature = "content")]
     Fidelity(fidelity::Args),
@@ -38,16 +38,16 @@ enum Chore {
 }
 
 fn main() -> anyhow::Result<()> {
-    match Args::parse().chore {
-        Chore::Bench(args) => bench::run(&args),
+    match Args::parse().task {
+        Task::Bench(args) => bench::run(&args),
         #[cfg(feature = "content")]
-        Chore::Fidelity(args) => fidelity::run(&args),
-        Chore::Instructions(args) => instructions::run(&args),
+        Task::Fidelity(args) => fidelity::run(&args),
+        Task::Instructions(args) => instructions::run(&args),
         #[cfg(feature = "content")]
-        Chore::SideBySide(args) => survey::side_by_side::run(&args),
-        Chore::Solve(args) => solve::run(&args),
+        Task::SideBySide(args) => survey::side_by_side::run(&args),
+        Task::Solve(args) => solve::run(&args),
         #[cfg(feature = "content")]
-        Chore::Survey(args) => survey::levels::run(&args),
-        Chore::Sweep(args) => sweep::run(&args),
+        Task::Survey(args) => survey::levels::run(&args),
+        Task::Sweep(args) => sweep::run(&args),
     }
 }

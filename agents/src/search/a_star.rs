@@ -1,6 +1,6 @@
 //! A* with transpositions: the shortest win, or the proof that there is none.
 
-use super::tree::{Expanded, Kept, NodeId, ROOT, Tree};
+use super::tree::{Expanded, NodeId, ROOT, StoredState, Tree};
 use super::{Answer, Pushes, SearchLimits, Searched};
 use engine::State;
 use engine::analysis::Analysis;
@@ -39,12 +39,12 @@ pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: Searc
 /// Open states by their estimate, a small number of ticks; of equals, the last one first.
 #[derive(Default)]
 struct Buckets {
-    buckets: Vec<Vec<(NodeId, Kept)>>,
+    buckets: Vec<Vec<(NodeId, StoredState)>>,
     least: usize,
 }
 
 impl Buckets {
-    fn push(&mut self, estimate: u32, open: (NodeId, Kept)) {
+    fn push(&mut self, estimate: u32, open: (NodeId, StoredState)) {
         let estimate = estimate as usize;
         if self.buckets.len() <= estimate {
             self.buckets.resize_with(estimate + 1, Vec::new);
@@ -53,7 +53,7 @@ impl Buckets {
         self.least = self.least.min(estimate);
     }
 
-    fn pop(&mut self) -> Option<(NodeId, Kept)> {
+    fn pop(&mut self) -> Option<(NodeId, StoredState)> {
         loop {
             let bucket = self.buckets.get_mut(self.least)?;
             match bucket.pop() {

@@ -1,6 +1,6 @@
 //! Best-first width search: finds some win soon, not the shortest one.
 
-use super::tree::{Expanded, Kept, NodeId, ROOT, Tree};
+use super::tree::{Expanded, NodeId, ROOT, StoredState, Tree};
 use super::{Answer, Pushes, SearchLimits, Searched};
 use crate::features::{Atoms, Features};
 use crate::progress::Progress;
@@ -53,7 +53,7 @@ struct Queue<'a> {
 }
 
 impl Queue<'_> {
-    fn push(&mut self, state: &State, node: NodeId, depth: u32, least: u32, kept: Kept) {
+    fn push(&mut self, state: &State, node: NodeId, depth: u32, least: u32, kept: StoredState) {
         let missing = self.progress.missing(state);
         let score = state.score() as i64;
         let seen = self.seen.entry((missing, score)).or_insert_with(|| Atoms::new(self.features.len()));
@@ -67,7 +67,7 @@ impl Queue<'_> {
 struct Open {
     order: (u32, u32, i64, u32),
     node: NodeId,
-    kept: Kept,
+    kept: StoredState,
 }
 
 impl Open {

@@ -48,12 +48,12 @@ impl Hasher for KeyHasher {
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
 /// The most steps to replay to restore a state: seldom more expensive than storing it whole.
-const REPLAYED: usize = 7;
+const MAX_REPLAYED: usize = 7;
 
 /// An open state: a stored state, and the few actions that lead on from it.
-pub(super) struct Kept {
+pub(super) struct StoredState {
     whole: Rc<Packed>,
-    steps: ArrayVec<Action, REPLAYED>,
+    steps: ArrayVec<Action, MAX_REPLAYED>,
 }
 
 /// The tree of a search.
@@ -127,15 +127,15 @@ impl<'a> Tree<'a> {
         &self.abstraction
     }
 
-    pub(super) fn root(&mut self) -> Kept {
+    pub(super) fn root(&mut self) -> StoredState {
         let base = self.base.clone();
         self.keep(&base)
     }
 
-    fn keep(&mut self, state: &State) -> Kept {
+    fn keep(&mut self, state: &State) -> StoredState {
         let packed = state.pack(&self.base);
         self.packed += packed.size_in_bytes();
-        Kept { whole: Rc::new(packed), steps: ArrayVec::new() }
+        StoredState { whole: Rc::new(packed), steps: ArrayVec::new() }
     }
 
     /// Generates all successors of a state, passes the new ones that are neither over nor dead ends to `open`, and
@@ -143,8 +143,8 @@ impl<'a> Tree<'a> {
     pub(super) fn expand(
         &mut self,
         node: NodeId,
-        kept: &Kept,
-        open: &mut impl FnMut(&Tree<'_>, NodeId, &State, u32, Kept),
+        kept: &StoredState,
+        open: &mut impl FnMut(&Tree<'_>, NodeId, &State, u32, StoredState),
     ) -> Expanded {
         if std::mem::replace(&mut self.nodes[node as usize].expanded, true) {
             self.forget(kept);
@@ -161,7 +161,7 @@ impl<'a> Tree<'a> {
         expanded
     }
 
-    fn forget(&mut self, kept: &Kept) {
+    fn forget(&mut self, kept: &StoredState) {
         if Rc::strong_count(&kept.whole) == 1 {
             self.packed -= kept.whole.size_in_bytes();
         }
@@ -170,10 +170,10 @@ impl<'a> Tree<'a> {
     fn successors(
         &mut self,
         node: NodeId,
-        kept: &Kept,
+        kept: &StoredState,
         parent: &State,
         child: &mut State,
-        open: &mut impl FnMut(&Tree<'_>, NodeId, &State, u32, Kept),
+        open: &mut impl FnMut(&Tree<'_>, NodeId, &State, u32, StoredState),
     ) -> Expanded {
         let game = self.analysis.game();
         let possible = game.actions(parent);
@@ -204,7 +204,7 @@ impl<'a> Tree<'a> {
             let Some(least) = self.pushes.least(child) else { continue };
             let mut steps = kept.steps.clone();
             let kept = match steps.try_push(action) {
-                Ok(()) => Kept { whole: kept.whole.clone(), steps },
+                Ok(()) => StoredState { whole: kept.whole.clone(), steps },
                 Err(_) => self.keep(child),
             };
             open(self, id, child, least, kept);
@@ -241,7 +241,7 @@ impl<'a> Tree<'a> {
     fn bytes(&self) -> usize {
         // A table of keys is at least 7/16 full and needs one more byte for each slot; queues hold the packed states.
         let keys = self.met.len() * (size_of::<(SearchKey, NodeId)>() + 1) * 16 / 7;
-        keys + self.nodes.len() * (size_of::<Node>() + size_of::<Kept>()) + self.packed
+        keys + self.nodes.len() * (size_of::<Node>() + size_of::<StoredState>()) + self.packed
     }
 
     /// Returns the actions that lead from the start to a node.

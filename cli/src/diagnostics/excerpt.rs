@@ -4,7 +4,7 @@ use engine::line_and_column;
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
 /// The most characters of a line that are shown.
-const WIDEST: usize = 160;
+const MAX_WIDTH: usize = 160;
 /// Characters that are shown before the position of the problem, if the line is cropped on the left.
 const BEFORE: usize = 40;
 /// The replacement for characters that are left out.
@@ -76,13 +76,13 @@ impl Excerpt {
     fn push(&mut self, line: &str, column: usize) -> (usize, usize) {
         let line = line.strip_suffix('\r').unwrap_or(line);
         let offset = self.text.len();
-        let skipped = if column >= WIDEST - BEFORE { column - BEFORE } else { 0 };
+        let skipped = if column >= MAX_WIDTH - BEFORE { column - BEFORE } else { 0 };
         if skipped > 0 {
             self.text.push(CUT);
         }
         let mut place = None;
         let mut rest = line.chars().skip(skipped);
-        for at in skipped..skipped + WIDEST {
+        for at in skipped..skipped + MAX_WIDTH {
             if at == column {
                 place = Some(self.text.len());
             }

@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_those_of_the_cube() {
+    fn colours_match_the_cube() {
         let check = |parts: [u8; 3], expect: u8| assert_eq!(indexed(Colour(parts)), Color::Indexed(expect));
         check([0, 0, 0], 16);
         check([255, 255, 255], 231);

@@ -62,7 +62,7 @@ impl Screen {
                 if let Event::Key(key) = event::read()?
                     && let Some(command) = command(key)
                 {
-                    session.obey(command);
+                    session.handle(command);
                 }
             } else if session.runs() {
                 since = Stopwatch::start();

@@ -129,7 +129,7 @@ impl Session {
     }
 
     /// Executes a command.
-    pub(crate) fn obey(&mut self, command: Command) {
+    pub(crate) fn handle(&mut self, command: Command) {
         match command {
             Command::Act(action) if matches!(self.player, Player::Person) => {
                 self.chosen = Some(action);
@@ -214,15 +214,15 @@ BasicGame
     }
 
     #[test]
-    fn a_key_is_a_tick_where_the_game_waits() {
+    fn keys_advance_turn_based_games() {
         let mut session = session(Player::Person, true);
         assert!(!session.runs());
         for ticks in 1..=3 {
-            session.obey(Command::Act(Action::Right));
+            session.handle(Command::Act(Action::Right));
             assert_eq!(session.state().tick() + 1, ticks);
         }
         assert_eq!((session.state().outcome(), session.episode().score), (Outcome::Won, 1.0));
-        session.obey(Command::Act(Action::Right));
+        session.handle(Command::Act(Action::Right));
         assert_eq!(session.episode().actions, [Action::Right; 3]);
     }
 
@@ -230,35 +230,35 @@ BasicGame
     fn the_clock_plays_the_last_key_or_nothing() {
         let mut session = session(Player::Person, false);
         assert!(session.runs());
-        session.obey(Command::Act(Action::Left));
-        session.obey(Command::Act(Action::Right));
+        session.handle(Command::Act(Action::Left));
+        session.handle(Command::Act(Action::Right));
         session.tick();
         session.tick();
         assert_eq!(session.episode().actions, [Action::Right, Action::Nil]);
-        session.obey(Command::Pause);
+        session.handle(Command::Pause);
         assert!(!session.runs());
-        session.obey(Command::TurnBased);
+        session.handle(Command::TurnBased);
         assert!(session.is_turn_based() && !session.is_paused());
     }
 
     #[test]
-    fn what_is_taken_back_leaves_no_trace() {
+    fn undone_moves_leave_no_trace() {
         let mut whole = session(Player::Person, true);
         let actions = [Action::Down, Action::Nil, Action::Up, Action::Nil];
         let action = |tick: usize| actions[tick % actions.len()];
         let mut states = Vec::new();
         for tick in 0..100 {
             states.push(whole.state().state_hash());
-            whole.obey(Command::Act(action(tick)));
+            whole.handle(Command::Act(action(tick)));
         }
         for tick in (0..100).rev() {
-            whole.obey(Command::Undo);
+            whole.handle(Command::Undo);
             assert_eq!(whole.state().state_hash(), states[tick], "tick {tick}");
         }
-        whole.obey(Command::Undo);
+        whole.handle(Command::Undo);
         assert!(whole.episode().actions.is_empty() && whole.episode().hashes.is_empty());
         // Forwards again: the same states, and a record that replays.
-        (0..100).for_each(|tick| whole.obey(Command::Act(action(tick))));
+        (0..100).for_each(|tick| whole.handle(Command::Act(action(tick))));
         assert!(whole.episode().replay(&whole.game, &whole.level).is_ok());
     }
 
@@ -266,25 +266,25 @@ BasicGame
     fn recordings_end_and_can_be_stepped() {
         let mut session = session(Player::Recording(vec![Action::Down, Action::Up]), true);
         assert!(session.runs() && !session.is_turn_based());
-        session.obey(Command::Step);
+        session.handle(Command::Step);
         assert!(!session.runs() && session.is_paused());
-        session.obey(Command::Act(Action::Left));
-        session.obey(Command::Step);
-        session.obey(Command::Step);
+        session.handle(Command::Act(Action::Left));
+        session.handle(Command::Step);
+        session.handle(Command::Step);
         assert_eq!(session.episode().actions, [Action::Down, Action::Up]);
         assert!(session.is_at_end());
-        session.obey(Command::Restart);
+        session.handle(Command::Restart);
         assert!(!session.is_at_end());
     }
 
     #[test]
     fn the_pace_stays_in_bounds() {
         let mut session = session(Player::Person, false);
-        (0..40).for_each(|_| session.obey(Command::Faster));
+        (0..40).for_each(|_| session.handle(Command::Faster));
         assert_eq!(session.pace(), MAX_PACE);
-        (0..80).for_each(|_| session.obey(Command::Slower));
+        (0..80).for_each(|_| session.handle(Command::Slower));
         assert_eq!(session.pace(), 1);
-        session.obey(Command::Faster);
+        session.handle(Command::Faster);
         assert_eq!(session.pace(), 2);
     }
 }

@@ -249,10 +249,10 @@ BasicGame
     }
 
     #[test]
-    fn everything_stands_beside_the_board() {
+    fn panels_stand_beside_the_board() {
         let mut subject = subject(false);
-        subject.0.obey(Command::Act(Action::Right));
-        subject.0.obey(Command::Act(Action::Right));
+        subject.0.handle(Command::Act(Action::Right));
+        subject.0.handle(Command::Act(Action::Right));
         let expect = "\
 ┌ pantry lvl0 ─┐ tick 2   score 1
 │██████████████│ holds: crumb 1
@@ -271,8 +271,8 @@ arrows or WASD move, space uses, . waits, u takes back, r
 restarts, t real time, PgUp PgDn rules, q quits
 ";
         assert_eq!(drawn(&subject, (64, 15)), expect);
-        subject.0.obey(Command::Act(Action::Right));
-        subject.0.obey(Command::Act(Action::Right));
+        subject.0.handle(Command::Act(Action::Right));
+        subject.0.handle(Command::Act(Action::Right));
         let text = drawn(&subject, (64, 15));
         assert!(text.contains("over") && text.contains(" WON"), "{text}");
     }

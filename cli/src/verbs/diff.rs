@@ -37,9 +37,9 @@ pub(crate) struct Args {
 }
 
 /// The most values of a distribution to list, the most frequent first.
-const LISTED: usize = 12;
+const MAX_LISTED: usize = 12;
 /// The most kept and changed items to list.
-const RETURNED: usize = 20;
+const MAX_RETURNED: usize = 20;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut sides = Vec::new();
@@ -77,13 +77,13 @@ fn say(diff: &Diff, console: &Console) {
     }
     let returned: Vec<&Change> =
         items.each.iter().filter(|one| matches!(one.status, Status::Kept | Status::Changed)).collect();
-    for change in returned.iter().take(RETURNED) {
+    for change in returned.iter().take(MAX_RETURNED) {
         let was = change.was.as_deref().unwrap_or_default();
         let how = if change.status == Status::Kept { "is" } else { "is, with another theme," };
         console.say(format_args!("  {} {how} {was}", change.id));
     }
-    if returned.len() > RETURNED {
-        console.say(format_args!("  and {} more; --json lists all", returned.len() - RETURNED));
+    if returned.len() > MAX_RETURNED {
+        console.say(format_args!("  and {} more; --json lists all", returned.len() - MAX_RETURNED));
     }
     shifts.iter().for_each(|found| shift(found, console));
     console.say("");
@@ -118,7 +118,7 @@ fn shift(shift: &Shift, console: &Console) {
     let total =
         |of: fn(&snapshots::diff::Share) -> usize| shift.shares.iter().map(of).sum::<usize>().max(1) as f64;
     let (before, after) = (total(|share| share.before), total(|share| share.after));
-    for share in shares.iter().take(LISTED) {
+    for share in shares.iter().take(MAX_LISTED) {
         let percent = |count: usize, all: f64| 100.0 * count as f64 / all;
         console.say(format_args!(
             "  {:<32} {:>4} {:>3.0} %  → {:>4} {:>3.0} %",
@@ -129,8 +129,8 @@ fn shift(shift: &Shift, console: &Console) {
             percent(share.after, after),
         ));
     }
-    if shares.len() > LISTED {
-        console.say(format_args!("  and {} more; --json lists all", shares.len() - LISTED));
+    if shares.len() > MAX_LISTED {
+        console.say(format_args!("  and {} more; --json lists all", shares.len() - MAX_LISTED));
     }
 }
 
@@ -214,7 +214,7 @@ mod tests {
     use super::rounded;
 
     #[test]
-    fn figures_have_no_more_digits_than_they_say() {
+    fn figures_have_significant_digits_only() {
         for (figure, expect) in [
             (113.5, "113.5"),
             (1234.0, "1234"),

@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn there_is_a_page_for_every_verb_with_all_its_flags() {
+    fn every_verb_has_a_manual_page() {
         let pages = pages().expect("pages");
         assert_eq!(pages[0].0, "arcade.1");
         usage::tests::for_each_verb(&mut |path, verb| {

@@ -4,7 +4,7 @@ use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::protected;
-use crate::verbs::release::{Finished, in_pool, mint_failure, read_secret_file};
+use crate::verbs::release::{FinishedMint, in_pool, mint_failure, read_secret_file};
 use crate::verbs::verify::failure;
 use snapshots::mint::{MergeError, Plan, Shards};
 use std::path::PathBuf;
@@ -50,6 +50,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if plan.is_sealed() {
         draft.keep_private().map_err(failure)?;
     }
-    let finished = Finished { plan: &plan, secret: secret.as_ref(), shelf: &shards, out: &args.out };
+    let finished = FinishedMint { plan: &plan, secret: secret.as_ref(), shelf: &shards, out: &args.out };
     finished.publish(draft, None, args.jobs, console)
 }

@@ -7,7 +7,7 @@ use crate::failure::{Answer, Failure};
 use crate::interrupt;
 use crate::protected;
 use crate::shell;
-use crate::verbs::release::{Bars, in_pool, mint_failure};
+use crate::verbs::release::{ProgressBars, in_pool, mint_failure};
 use crate::verbs::verify::failure;
 use serde_json::json;
 use snapshots::mint::{LotFolder, Memory, Shelf, make_lots};
@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(out) = &args.out {
         interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     }
-    let bars = Bars::new(console);
+    let bars = ProgressBars::new(console);
     let result = in_pool(args.jobs, || {
         make_lots(&plan, plan.lots(), &*shelf, &bars)?;
         let mut also = |path: &str, content: &[u8]| match &draft {

@@ -116,7 +116,7 @@ struct Row<'a> {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let planners = args.planner.iter().map(|name| name.parse().map_err(Failure::malformed));
     let planners: Vec<PlannerSpec> = planners.collect::<Result<_, _>>()?;
-    refuse_twice(args, &planners)?;
+    reject_duplicates(args, &planners)?;
     args.csv.as_deref().map_or(Ok(()), check_place)?;
     let subjects = subjects(args)?;
     let mut entries = Vec::new();
@@ -158,7 +158,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// Refuses a planner that is named twice with the same budget: its episodes would be counted twice.
-fn refuse_twice(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
+fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
     let mut seen = BTreeMap::new();
     for planner in planners {
         let looks_ahead = !matches!(planner.name(), "do-nothing" | "random" | "random-with-nil");

@@ -46,7 +46,7 @@ fn asking<'a>(url: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 }
 
 #[test]
-fn players_that_come_with_the_suite() {
+fn built_in_players() {
     let home = tempfile::tempdir().unwrap();
     let args = ["--json", "evaluate", "hailglass", "--levels", "0", "--max-steps", "20", "--runs", "2"];
     let with = |player: &str, out: &str| {
@@ -66,7 +66,7 @@ fn players_that_come_with_the_suite() {
 
 /// A person at a terminal sees the prompts of a model, and may leave in the middle.
 #[test]
-fn people_play_and_come_back() {
+fn human_players_resume() {
     use std::io::Write;
     let home = tempfile::tempdir().unwrap();
     let args = ["evaluate", "hailglass", "--levels", "0", "--player", "human", "--max-steps", "3"];
@@ -98,7 +98,7 @@ fn people_play_and_come_back() {
 }
 
 #[test]
-fn what_a_model_says_is_recorded_and_counted() {
+fn model_answers_are_recorded_and_counted() {
     let server = Server::start(answer);
     for mode in ["zero-shot", "contextual"] {
         let home = tempfile::tempdir().unwrap();
@@ -235,7 +235,7 @@ fn caps_hold_and_can_be_raised() {
 }
 
 #[test]
-fn dry_runs_ask_nothing_and_say_what_it_would_take() {
+fn dry_runs_send_nothing_and_print_the_forecast() {
     let server = Server::start(answer);
     let home = tempfile::tempdir().unwrap();
     let forecast = json(&run(home.path(), &asking(&server.base_url(), &["--dry-run"]), 0));
@@ -253,7 +253,7 @@ fn dry_runs_ask_nothing_and_say_what_it_would_take() {
 }
 
 #[test]
-fn malformed_questions_are_told() {
+fn malformed_requests_are_reported() {
     let home = tempfile::tempdir().unwrap();
     let refusal = |args: &[&str]| {
         let output = run(home.path(), &[&["evaluate"], args].concat(), 2);
@@ -357,7 +357,7 @@ fn edited_logs_are_not_certified() {
 
 /// An impossible token count from a server neither exhausts a cap nor corrupts a sum.
 #[test]
-fn counts_of_tokens_that_cannot_be_are_not_believed() {
+fn impossible_token_counts_are_rejected() {
     let body = r#"{"choices":[{"message":{"content":"ACTION: left"},"finish_reason":"stop"}],
         "usage":{"prompt_tokens":18446744073709551615,"completion_tokens":18446744073709551615}}"#;
     let server = Server::start(move |_, _| Response::reply(200, body));
@@ -394,7 +394,7 @@ fn runs_are_refused_before_they_are_played() {
 
 /// A request for more concurrent episodes than there are is reported and reduced.
 #[test]
-fn no_more_at_a_time_than_there_are() {
+fn concurrency_is_bounded_by_episodes() {
     let home = tempfile::tempdir().unwrap();
     let args = ["evaluate", "hailglass", "--levels", "0,1", "--max-steps", "3", "--player", "random"];
     let output = run(home.path(), &[&args[..], &["--jobs", "5000", "--out", "r"]].concat(), 0);
@@ -403,7 +403,7 @@ fn no_more_at_a_time_than_there_are() {
 }
 
 #[test]
-fn archives_are_played_as_folders_are() {
+fn archives_are_played_like_folders() {
     let home = tempfile::tempdir().unwrap();
     let release = |args: &[&str]| run(home.path(), args, 0);
     release(&["release", "tiny", "--out", "tiny", "-q"]);
@@ -431,7 +431,7 @@ fn archives_are_played_as_folders_are() {
 /// A folder may have any name.
 #[cfg(target_os = "linux")]
 #[test]
-fn results_and_reports_in_folders_that_are_no_text() {
+fn results_and_reports_in_non_utf8_folders() {
     use std::os::unix::ffi::OsStrExt;
     let home = tempfile::tempdir().unwrap();
     let name = |bytes: &[u8]| std::ffi::OsStr::from_bytes(bytes).to_owned();

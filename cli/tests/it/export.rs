@@ -19,7 +19,7 @@ fn rows(files: &BTreeMap<String, Vec<u8>>) -> Vec<Value> {
 }
 
 #[test]
-fn every_level_is_a_row_that_says_what_the_release_says() {
+fn rows_match_the_release() {
     let release = TINY.path().join("tiny");
     let exported = export("rows", &["--format", "jsonl"]);
     assert_eq!(exported.keys().collect::<Vec<_>>(), ["README.md", "data/test.jsonl"]);
@@ -51,7 +51,7 @@ fn every_level_is_a_row_that_says_what_the_release_says() {
 
 /// The page documents all columns, in their order, with their types.
 #[test]
-fn the_page_tells_every_column() {
+fn the_page_describes_every_column() {
     let page = include_str!("../../../docs/export.md");
     let (_, page) = page.split_once("## Columns").unwrap();
     let told: Vec<(&str, &str)> = page
@@ -73,7 +73,7 @@ fn the_page_tells_every_column() {
 }
 
 #[test]
-fn solutions_are_there_only_if_asked_for() {
+fn solutions_are_exported_on_request_only() {
     let rows = rows(&export("solved", &["--format", "jsonl", "--solutions"]));
     for row in &rows {
         let actions = row["solution"].as_array().unwrap();
@@ -134,7 +134,7 @@ fn twins_are_rows_and_games() {
 }
 
 #[test]
-fn an_archive_is_the_release() {
+fn archives_hold_the_whole_release() {
     let folder = TINY.path();
     run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0);
     let root = |place: &str| {
@@ -154,7 +154,7 @@ fn an_archive_is_the_release() {
 }
 
 #[test]
-fn what_does_not_verify_is_not_exported() {
+fn unverified_releases_are_not_exported() {
     let folder = tempfile::tempdir().unwrap();
     let tampered = folder.path().join("tampered");
     for (path, content) in files(&TINY.path().join("tiny")) {

@@ -52,7 +52,7 @@ fn evolved_levels_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn levels_keep_what_was_asked() {
+fn levels_keep_the_requested_counts() {
     let home = tempfile::tempdir().unwrap();
     let asked = ["--count", "2", "--size", "12x9", "--min-solution", "12", "--with", "clover=4"];
     let more = [&asked[..], &["--uses", "clover bee", "--report", "report"]].concat();
@@ -69,7 +69,7 @@ fn levels_keep_what_was_asked() {
 
 /// A request for more sprites than fit: every draw fails, and the answer says so.
 #[test]
-fn what_does_not_fit_is_no_level_and_no_endless_work() {
+fn impossible_requests_end_without_a_level() {
     let home = tempfile::tempdir().unwrap();
     let args = [
         "--json",
@@ -121,7 +121,7 @@ const NEVER_WON: &str = "BasicGame
 ";
 
 #[test]
-fn what_cannot_be_made_is_refused_with_the_next_move() {
+fn impossible_requests_are_refused_with_advice() {
     refused("hailglas", &[], &["hailglas", "hailglass"]);
     refused("hailglass", &["--method", "magic"], &["magic", "constructive", "evolutionary"]);
     refused("hailglass", &["--difficulty", "brutal"], &["brutal", "very_hard"]);

@@ -69,7 +69,7 @@ fn a_report_shows_the_games() {
 }
 
 #[test]
-fn what_cannot_be_made_is_refused_with_the_next_move() {
+fn impossible_requests_are_refused_with_advice() {
     let home = tempfile::tempdir().unwrap();
     fs::create_dir(home.path().join("old")).unwrap();
     fs::write(home.path().join("old/mine.txt"), "mine").unwrap();

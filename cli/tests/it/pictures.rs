@@ -60,7 +60,7 @@ fn the_same_question_gives_the_same_bytes() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_said_with_the_next_move() {
+fn undrawable_pictures_are_reported_with_advice() {
     let folder = tempfile::tempdir().unwrap();
     run(
         folder.path(),
@@ -86,7 +86,7 @@ fn what_cannot_be_drawn_is_said_with_the_next_move() {
 }
 
 #[test]
-fn play_without_a_terminal_says_so() {
+fn play_without_a_terminal_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let output = run(folder.path(), &["play", "quiet-jars", "--record", "jars.json"], 2);
     assert!(text(&output.stderr).contains("no terminal"), "{}", text(&output.stderr));

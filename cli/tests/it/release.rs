@@ -28,7 +28,7 @@ fn unusual() -> PathBuf {
 
 /// Answers that name a path work for any name of the folder.
 #[test]
-fn places_may_be_called_anything() {
+fn folders_may_have_any_name() {
     let home = tempfile::tempdir().unwrap();
     let out = unusual();
     let answer = |arguments: &[&str]| -> serde_json::Value {
@@ -72,7 +72,7 @@ fn the_root_of_tiny_is_the_one_in_the_repository() {
 }
 
 #[test]
-fn the_version_tells_what_it_mints_and_replays() {
+fn the_version_names_generation_and_semantics() {
     let output = run(TINY.path(), &["--version"], 0);
     let expect = format!(
         "arcade {} (GENERATION {}, SEMANTICS {})\n",
@@ -112,7 +112,7 @@ fn the_starter_is_minted_and_verifies() {
 
 /// The same seed gives the same candidates, most of which the parent already has.
 #[test]
-fn what_a_release_before_has_is_not_minted_again() {
+fn content_of_earlier_releases_is_not_minted_again() {
     let folder = TINY.path();
     let recipe = include_str!("../../../seeds/tiny.toml").replacen("\"tiny\"", "\"next\"", 1);
     fs::write(folder.join("next.toml"), recipe).unwrap();
@@ -177,7 +177,7 @@ fn a_file_removed_added_or_linked_is_named() {
 
 /// Papers of a release may be changed and added; nothing else may.
 #[test]
-fn papers_go_along_with_a_release() {
+fn papers_accompany_a_release() {
     let (folder, root) = copy();
     let papers: Vec<String> =
         files(&root).into_keys().filter_map(|name| Some(name.strip_prefix("papers/")?.to_owned())).collect();
@@ -214,7 +214,7 @@ fn papers_go_along_with_a_release() {
 }
 
 #[test]
-fn a_place_that_is_taken_is_refused_before_minting() {
+fn occupied_outputs_are_refused_before_minting() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("mine")).unwrap();
     fs::write(folder.path().join("mine/thesis.txt"), "x").unwrap();
@@ -285,7 +285,7 @@ fn a_changed_version_is_damage() {
 
 /// A shard may have nothing to do.
 #[test]
-fn more_shards_than_lots_are_told() {
+fn more_shards_than_jobs_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let shard = ["release", "tiny", "--shard", "300/300", "--out", "x", "--dry-run"];
     let output = run(folder.path(), &shard, 0);
@@ -295,7 +295,7 @@ fn more_shards_than_lots_are_told() {
 
 /// An existing file is never removed.
 #[test]
-fn a_file_in_the_way_is_told() {
+fn files_in_the_way_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("file"), "x").unwrap();
     let said = |out: &str| text(&run(folder.path(), &["release", "tiny", "--out", out], 2).stderr);
@@ -368,7 +368,7 @@ fn kept(name: &str) -> String {
 
 /// Without replays nothing shows that its levels can be won: the answer is no, unless the user accepts that.
 #[test]
-fn what_was_not_replayed_is_not_verified() {
+fn unreplayed_witnesses_are_not_verified() {
     let folder = tempfile::tempdir().unwrap();
     let place = kept("other-semantics");
     let said = text(&run(folder.path(), &["verify", &place], 1).stdout);
@@ -393,7 +393,7 @@ fn what_was_not_replayed_is_not_verified() {
 
 /// Without a root from another source nothing shows which release it is, and the answer says so.
 #[test]
-fn only_the_published_root_shows_which_release_it_is() {
+fn only_the_published_root_identifies_a_release() {
     let folder = tempfile::tempdir().unwrap();
     let place = kept("other-semantics");
     let verify = ["--json", "verify", &place, "--accept-unreplayed"];
@@ -415,7 +415,7 @@ fn only_the_published_root_shows_which_release_it_is() {
 }
 
 #[test]
-fn what_is_no_snapshot_is_named() {
+fn non_snapshots_are_named() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     fs::write(folder.join("passwd"), "root:x:0:0\n").unwrap();

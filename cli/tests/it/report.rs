@@ -121,7 +121,7 @@ fn play(home: &Path, player: &str, out: &str) {
 }
 
 #[test]
-fn a_page_tables_and_numbers_that_need_nothing_else() {
+fn reports_are_self_contained() {
     let home = tempfile::tempdir().unwrap();
     play(home.path(), "random", "random");
     play(home.path(), "mcts:20", "mcts");
@@ -171,7 +171,7 @@ fn a_page_tables_and_numbers_that_need_nothing_else() {
 
 /// A player that does nothing on levels where nothing happens: nearly all values are missing, and reported as such.
 #[test]
-fn little_is_told_of_little() {
+fn small_samples_show_little() {
     let home = tempfile::tempdir().unwrap();
     play(home.path(), "nil", "nil");
     run(home.path(), &["-q", "report", "nil", "--out", "report", "--replays", "0"], 0);
@@ -183,7 +183,7 @@ fn little_is_told_of_little() {
 }
 
 #[test]
-fn what_cannot_be_reported_is_refused_with_the_next_move() {
+fn invalid_results_are_refused_with_advice() {
     let home = tempfile::tempdir().unwrap();
     let at = |name: &str| home.path().join(name);
     play(home.path(), "random", "random");
@@ -243,7 +243,7 @@ fn summary(home: &Path, results: &str) -> Value {
 /// A results folder can claim anything: excessive values are refused before memory is allocated, and invalid text is
 /// malformed.
 #[test]
-fn what_a_results_folder_says_is_bounded() {
+fn results_folders_are_read_within_bounds() {
     let home = tempfile::tempdir().unwrap();
     let replaced = |from: &'static str, to: &'static str| {
         move |content: Vec<u8>| {
@@ -294,7 +294,7 @@ fn what_a_results_folder_says_is_bounded() {
 
 /// Statements of a log that follow from its steps, or from the settings, are checked.
 #[test]
-fn logs_are_compared_with_what_follows() {
+fn logs_are_compared_with_their_replay() {
     let home = tempfile::tempdir().unwrap();
     let log = "episodes/lanterns-lvl1-run0.jsonl";
     let line = |at: usize, from: &'static str, to: &'static str| {
@@ -352,7 +352,7 @@ fn logs_are_compared_with_what_follows() {
 /// An episode without its last line counts as before: the steps show how it ended. Without its last steps it does not
 /// count, and the report says so.
 #[test]
-fn an_episode_without_an_end_is_not_passed_over() {
+fn unfinished_episodes_are_reported() {
     let home = tempfile::tempdir().unwrap();
     let log = "episodes/lanterns-lvl1-run0.jsonl";
     let cut = |lines: usize| {
@@ -386,7 +386,7 @@ fn an_episode_without_an_end_is_not_passed_over() {
 
 /// Names are plain text in every file of a report, and the page runs its own script and no other.
 #[test]
-fn names_are_words_wherever_they_stand() {
+fn names_are_quoted_words() {
     let home = tempfile::tempdir().unwrap();
     for (folder, name) in
         [("one", "<script>alert(1)</script>"), ("two", "=HYPERLINK(\"x\")"), ("three", "![x](y)\n# z")]

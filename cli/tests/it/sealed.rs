@@ -25,7 +25,7 @@ fn minted(folder: &Path) -> serde_json::Value {
 }
 
 #[test]
-fn a_sealed_release_is_verified_revealed_and_minted_again() {
+fn sealed_releases_are_verified_revealed_and_reminted() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     let secret = minted(folder);
@@ -144,7 +144,7 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
 
 /// A seed invented by a person can be guessed.
 #[test]
-fn a_secret_that_was_made_up_is_refused() {
+fn invented_secrets_are_refused() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
@@ -182,7 +182,7 @@ fn a_secret_that_was_made_up_is_refused() {
 /// The command that `--commit` proposes works, even if names have blanks; cases where it cannot work are refused at
 /// once.
 #[test]
-fn what_commit_proposes_works() {
+fn proposed_commands_work() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     let said = text(&run(folder, &["release", "sealed", "--commit"], 2).stderr);
@@ -216,7 +216,7 @@ fn what_commit_proposes_works() {
 /// A shard holds winning episodes, as the withheld part does.
 #[cfg(unix)]
 #[test]
-fn shards_of_a_sealed_release_are_their_owners() {
+fn shards_of_a_sealed_release_are_private() {
     use std::os::unix::fs::PermissionsExt;
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
@@ -272,7 +272,7 @@ fn a_secret_for_an_open_release_is_refused() {
 
 /// A wrong name on the command line must not destroy hours of work.
 #[test]
-fn another_recipe_does_not_go_on_with_the_lots_of_one() {
+fn other_recipes_do_not_reuse_finished_jobs() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     let one = recipe("x").replacen("commitment", "seed", 1);

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 #[test]
-fn a_served_player_tells_where_it_is() {
+fn served_players_print_their_address() {
     let folder = tempfile::tempdir().unwrap();
     let mut server = arcade(folder.path())
         .args(["serve-player", "--player", "random", "-q"])
@@ -61,7 +61,7 @@ fn evaluate<'a>(player: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 }
 
 #[test]
-fn an_agent_of_somebody_else_plays_and_is_taken_up_again() {
+fn external_agents_play_and_resume() {
     let folder = tempfile::tempdir().unwrap();
     // It leaves after three answers, but not the second time: past turns count.
     fs::write(
@@ -167,7 +167,7 @@ fn players_end_with_arcade() {
 /// At the end of an episode all processes of its player are gone, whatever their group.
 #[cfg(target_os = "linux")]
 #[test]
-fn what_leaves_the_group_ends_with_the_episode() {
+fn detached_processes_end_with_the_episode() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("agent.sh"), STUBBORN).unwrap();
     fs::write(home.path().join("go"), "").unwrap();
@@ -181,7 +181,7 @@ fn what_leaves_the_group_ends_with_the_episode() {
 /// A program that does not exist is a malformed question, and leaves no files.
 #[cfg(unix)]
 #[test]
-fn a_misspelt_program_is_told_before_anything_is_written() {
+fn misspelt_programs_are_reported_before_writing() {
     use std::os::unix::fs::PermissionsExt;
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("agent.sh"), "exit 1\n").unwrap();

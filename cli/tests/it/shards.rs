@@ -127,7 +127,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
 /// An interrupted mint gives the same bytes as an undisturbed one, and so does one that regenerates a release.
 #[cfg(unix)]
 #[test]
-fn a_killed_mint_goes_on() {
+fn killed_mints_resume() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     recipe(folder);
@@ -142,7 +142,7 @@ fn a_killed_mint_goes_on() {
 /// On a full disk a mint ends with the command to resume it.
 #[cfg(unix)]
 #[test]
-fn a_full_disk_says_how_to_go_on() {
+fn full_disks_report_how_to_continue() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     recipe(folder);
@@ -157,7 +157,7 @@ fn a_full_disk_says_how_to_go_on() {
 
 /// Finished jobs are kept if only the selection changes.
 #[test]
-fn more_candidates_go_on_from_those_that_were_made() {
+fn more_candidates_reuse_finished_jobs() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     // More games than there are candidates for: a kind for which no single pattern set has two games.

@@ -31,7 +31,7 @@ fn says(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_device_is_told() {
+fn full_devices_are_reported() {
     let home = tempfile::tempdir().unwrap();
     for args in
         [&["describe", "hailglass"][..], &["--json", "describe", "hailglass"], &["--help"], &["docs", "run"]]
@@ -47,7 +47,7 @@ fn a_full_device_is_told() {
 
 /// A reader that leaves before anything is written causes no message, and the verb keeps its own exit status.
 #[test]
-fn a_reader_that_leaves_is_no_failure() {
+fn closed_pipes_are_ignored() {
     let home = tempfile::tempdir().unwrap();
     let loose = include_str!("../../../corpora/hailglass/game.vgdl").replace("    ", "  ");
     fs::write(home.path().join("loose.vgdl"), loose).unwrap();
@@ -68,7 +68,7 @@ fn a_reader_that_leaves_is_no_failure() {
 
 #[cfg(unix)]
 #[test]
-fn what_cannot_be_entered_is_not_called_absent() {
+fn unreadable_folders_are_not_reported_absent() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     std::os::unix::fs::symlink("loop", folder.join("loop")).unwrap();
@@ -103,7 +103,7 @@ fn negative_numbers_are_refused_in_plain_words() {
 }
 
 #[test]
-fn failures_are_json_where_json_is_wanted() {
+fn failures_are_json_on_request() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     fs::write(folder.join("lame.vgdl"), "BasicGame\n    SpriteSet\n        hen > Chicken\n").unwrap();
@@ -132,7 +132,7 @@ fn failures_are_json_where_json_is_wanted() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn paths_that_are_not_utf8_are_written_to_and_told() {
+fn non_utf8_paths_are_written_and_reported() {
     use std::os::unix::ffi::OsStrExt;
     let home = tempfile::tempdir().unwrap();
     let check = |args: &[&str], out: &[u8]| {
@@ -156,7 +156,7 @@ fn paths_that_are_not_utf8_are_written_to_and_told() {
 }
 
 #[test]
-fn a_senseless_number_of_threads_is_not_taken_at_its_word() {
+fn excessive_thread_counts_are_bounded() {
     let home = tempfile::tempdir().unwrap();
     let mut command = arcade(home.path());
     command.env("RAYON_NUM_THREADS", "999999999999");
@@ -167,7 +167,7 @@ fn a_senseless_number_of_threads_is_not_taken_at_its_word() {
 }
 
 #[test]
-fn files_are_whole_or_as_they_were() {
+fn files_are_replaced_atomically() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("win.gif"), "old").unwrap();
     let args = ["render", "hailglass", "--planner", "random", "--max-ticks", "3", "-o", "win.gif"];
@@ -247,7 +247,7 @@ fn put(path: &Path, content: &str) {
 }
 
 #[test]
-fn leftovers_are_removed_and_what_only_looks_like_them_is_not() {
+fn only_leftovers_are_removed() {
     let home = tempfile::tempdir().unwrap();
     let (work, temporary) = (home.path().join("work"), home.path().join("tmp"));
     fs::create_dir_all(&temporary).unwrap();

@@ -96,7 +96,7 @@ fn a_goal_walled_in_fails_with_its_line_and_cell() {
 }
 
 #[test]
-fn a_win_that_is_not_found_is_unknown_with_the_budget() {
+fn unfound_wins_are_unknown() {
     // Thorns all around the nectar, and a bee that makes the game stochastic.
     let game = GAME
         .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
@@ -111,7 +111,7 @@ fn a_win_that_is_not_found_is_unknown_with_the_budget() {
 }
 
 #[test]
-fn what_concerns_the_whole_game_is_asked_of_all_its_levels() {
+fn game_criteria_cover_all_levels() {
     // Each level alone lacks something; together they have everything.
     let folder = folder(GAME, "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n");
     fs::write(folder.path().join("lvl1.txt"), "wwwwwwwww\nwA..n...w\nw.n...n.w\nwwwwwwwww\n").unwrap();
@@ -140,7 +140,7 @@ fn the_number_of_threads_changes_no_byte_of_a_verdict() {
 }
 
 #[test]
-fn a_goal_out_of_reach_is_told_with_its_place() {
+fn unreachable_goals_are_reported_with_their_cell() {
     let walled = "wwwwwwwwww\nwA.t...t.w\nw.....twww\nw.t....wnw\nwn...t.www\nwwwwwwwwww\n";
     let told = "but here nothing can ever end the nectar in column 9, row 4";
     let folder = folder(GAME, walled);
@@ -155,7 +155,7 @@ fn a_goal_out_of_reach_is_told_with_its_place() {
 }
 
 #[test]
-fn a_win_for_nothing_is_no_pass() {
+fn wins_by_doing_nothing_do_not_pass() {
     let folder = folder(&GAME.replace("limit=300 win=False", "limit=30 win=True"), LEVEL);
     let output = run(folder.path(), &["validate", "."], 1);
     assert!(text(&output.stdout).contains("doing nothing wins"), "{}", text(&output.stdout));
@@ -226,7 +226,7 @@ fn hostile_files_get_a_limit_message_promptly() {
 }
 
 #[test]
-fn bad_questions_name_the_next_move() {
+fn malformed_requests_name_the_next_move() {
     let folder = folder(GAME, LEVEL);
     let says = |args: &[&str], status, words: &str| {
         let output = run(folder.path(), args, status);
@@ -415,7 +415,7 @@ fn problems_of_the_game_hide_none_of_its_levels() {
 }
 
 #[test]
-fn a_level_in_the_place_of_a_game_is_told_so() {
+fn levels_named_as_games_are_reported() {
     let folder = folder(GAME, LEVEL);
     for verb in ["validate", "describe", "fmt", "play"] {
         let output = run(folder.path(), &[verb, "lvl0.txt"], 2);
@@ -427,7 +427,7 @@ fn a_level_in_the_place_of_a_game_is_told_so() {
 }
 
 #[test]
-fn a_game_and_a_level_in_the_place_of_each_other_are_told_so() {
+fn swapped_games_and_levels_are_reported() {
     let says = |game: &str, level: &str, words: &str| {
         let folder = folder(game, level);
         let said = text(&run(folder.path(), &["validate", "."], 2).stderr);
@@ -452,14 +452,14 @@ fn levels_have_the_numbers_of_their_files() {
 }
 
 #[test]
-fn a_line_without_the_avatar_is_told_with_it() {
+fn lines_without_the_avatar_are_reported_with_it() {
     let hidden = GAME.replace("A > floor avatar", "A > floor").replace("avatar", "bee");
     let line = "places the avatar `bee`: add it to a line, such as `A >";
     malformed(&hidden, LEVEL, "lvl0.txt", &[line]);
 }
 
 #[test]
-fn what_follows_from_another_fault_is_not_asked() {
+fn consequences_of_other_faults_are_skipped() {
     let chased =
         GAME.replace("        avatar > Mov", "        wasp > PathChaser stype=avatar\n        avatar > Mov");
     let chased = chased.replace("        A > floor", "        c > floor wasp\n        A > floor");
@@ -483,7 +483,7 @@ fn what_follows_from_another_fault_is_not_asked() {
 }
 
 #[test]
-fn a_tab_is_shown_and_told_of() {
+fn tabs_are_shown_and_reported() {
     let tabbed = GAME.replace("        avatar wall > stepBack", "\tavatar wall > stepBack");
     malformed(&tabbed, LEVEL, "game.vgdl:15:2", &["→avatar wall > stepBack", "a tab counts as one column"]);
 }
@@ -523,7 +523,7 @@ fn counts_of_nothing_are_refused() {
 }
 
 #[test]
-fn a_parameter_that_is_given_twice_is_told_of() {
+fn duplicate_parameters_are_reported() {
     let folder = folder(&GAME.replace("color=YELLOW", "color=YELLOW speed=0.5 speed=1"), LEVEL);
     let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
     assert!(said.contains("duplicate-parameter") && said.contains("`0.5`, and `1`, which counts"), "{said}");
@@ -549,7 +549,7 @@ fn a_small_budget_is_a_small_piece_of_work() {
 
 #[cfg(unix)]
 #[test]
-fn a_path_that_is_not_unicode_does_no_harm() {
+fn non_unicode_paths_are_harmless() {
     use std::ffi::OsStr;
     use std::os::unix::ffi::OsStrExt;
     let folder = folder(GAME, LEVEL);

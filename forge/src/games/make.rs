@@ -5,7 +5,7 @@ use super::gate::{Gate, NEAR_KNOWN};
 use super::look::{Looker, axes};
 use super::order::GameOrder;
 use crate::levels::Method;
-use crate::striving::{Finalists, spread, strive};
+use crate::search_loop::{Finalists, run_search, spread};
 use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
 use generators::games::{GameConfig, GameGenome, GameVariation, Kind};
@@ -202,7 +202,7 @@ impl Maker<'_> {
             self.progress.looked();
             looker.look(genome)
         };
-        strive(&mut search, (looks, self.order.effort.batch), look, |genome, look| {
+        run_search(&mut search, (looks, self.order.effort.batch), look, |genome, look| {
             attempted.note(&look);
             best.note(genome, genome.key(), &look.evaluation);
             look.evaluation
@@ -229,7 +229,7 @@ impl Maker<'_> {
                 self.progress.looked();
                 looker.look(genome)
             };
-            strive(&mut search, (looks, self.order.effort.batch), look, |_, look| {
+            run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
                 set.looks += 1;
                 set.tally.calls(look.calls);
                 look.evaluation

@@ -6,7 +6,7 @@ use super::axes::Axes;
 use super::look::{LEAST_EFFORT, Look, Looker};
 use super::make::{Attempt, Cost, LevelSet, Maker, NO_BOARD, TWICE, made};
 use super::report::NEAR;
-use crate::striving::{Finalists, spread, strive};
+use crate::search_loop::{Finalists, run_search, spread};
 use engine::{Digest, Level};
 use generators::Variation;
 use generators::levels::LevelSearch;
@@ -47,7 +47,7 @@ impl Maker<'_> {
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();
             let mut spent = 0.0;
-            self.strive(&mut search, looks, &looker, &mut cost, |level, look| {
+            self.run_search(&mut search, looks, &looker, &mut cost, |level, look| {
                 spent += look.effort.min(1.0);
                 best.note(level, level.digest(), &look.evaluation);
             });
@@ -99,7 +99,7 @@ impl Maker<'_> {
                     left -= look.effort;
                     place(look);
                 };
-                if !self.strive(&mut search, batch, &looker, &mut set.cost, told) {
+                if !self.run_search(&mut search, batch, &looker, &mut set.cost, told) {
                     break;
                 }
             }
@@ -172,7 +172,7 @@ impl Maker<'_> {
     }
 
     /// Lets a search ask, looks at what it proposes on all threads, and tells it. Whether it asked for all.
-    fn strive<S: Search<Candidate = Level>>(
+    fn run_search<S: Search<Candidate = Level>>(
         &self,
         search: &mut S,
         looks: usize,
@@ -186,7 +186,7 @@ impl Maker<'_> {
             look
         };
         let effort = (looks, self.order.effort.batch);
-        let asked_all = strive(search, effort, look, |level, mut look| {
+        let asked_all = run_search(search, effort, look, |level, mut look| {
             cost.looked(&look);
             note(level, &mut look);
             look.evaluation

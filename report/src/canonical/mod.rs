@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn what_json_cannot_hold_is_refused_and_located() {
+    fn values_outside_json_are_refused_with_their_path() {
         refuse(&f64::NAN, "", Fault::NotFinite);
         refuse(&f32::INFINITY, "", Fault::NotFinite);
         let nested: BTreeMap<&str, Vec<Option<f64>>> = [("games", vec![Some(1.0), Some(f64::NAN)])].into();
@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn nesting_ends_where_the_reader_ends() {
+    fn nesting_is_bounded_like_the_reader() {
         let nested = |depth: usize| (0..depth).fold(json!(1), |inner, _| json!([inner]));
         let deepest = to_canonical_json(&nested(MAX_DEPTH)).expect("canonical");
         assert!(serde_json::from_str::<Value>(&deepest).is_ok());

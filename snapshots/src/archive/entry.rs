@@ -53,14 +53,14 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     let found = inner.unwrap_or(&full);
     let here = |flaw| Problem { path: found.to_owned(), flaw };
     let there = |flaw| Problem { path: due.to_owned(), flaw };
-    if !sums(header) {
+    if !has_valid_checksum(header) {
         return there(Flaw::NotAsPacked("the tar header here is damaged".into()));
     }
     match header.entry_type() {
         EntryType::Symlink => return here(Flaw::Link),
         EntryType::Char | EntryType::Block | EntryType::Fifo => return here(Flaw::Special),
         EntryType::Regular => {}
-        _ => return there(Flaw::NotAsPacked(oddity(block))),
+        _ => return there(Flaw::NotAsPacked(describe_difference(block))),
     }
     if let Err(problem) = check_path(found) {
         return here(Flaw::Name(problem));
@@ -73,7 +73,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
             (Ok(size), Some(item)) if size != item.size => {
                 here(Flaw::Size { found: size, stated: item.size })
             }
-            _ => here(Flaw::NotAsPacked(oddity(block))),
+            _ => here(Flaw::NotAsPacked(describe_difference(block))),
         };
     }
     let listed = found == MANIFEST_FILE || manifest.items.iter().any(|item| item.path == found);
@@ -86,7 +86,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
 }
 
 /// Describes the respect in which a header is not one of ours.
-pub(super) fn oddity(block: &[u8; BLOCK]) -> String {
+pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
     let header = Header::from_byte_slice(block);
     let kind = header.entry_type();
     let what = match kind {
@@ -114,7 +114,7 @@ fn path(header: &Header) -> String {
 }
 
 /// Tests whether a header's own checksum is correct.
-fn sums(header: &Header) -> bool {
+fn has_valid_checksum(header: &Header) -> bool {
     let mut copy = header.clone();
     copy.set_cksum();
     header.cksum().ok().is_some_and(|stated| copy.cksum().ok() == Some(stated))

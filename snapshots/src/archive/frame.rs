@@ -83,19 +83,19 @@ pub(super) fn first_block(path: &Path) -> Result<Option<[u8; BLOCK]>, SnapshotEr
 }
 
 /// Compresses into a file.
-pub(super) struct Outside<'a> {
+pub(super) struct FrameWriter<'a> {
     encoder: zstd::Encoder<'static, Hashed<&'a mut File>>,
 }
 
-impl<'a> Outside<'a> {
+impl<'a> FrameWriter<'a> {
     /// Starts a frame of `size` bytes.
-    pub(super) fn begin(file: &'a mut File, size: u64) -> io::Result<Outside<'a>> {
+    pub(super) fn begin(file: &'a mut File, size: u64) -> io::Result<FrameWriter<'a>> {
         let mut encoder = zstd::Encoder::new(Hashed { inner: file, hasher: blake3::Hasher::new() }, LEVEL)?;
         encoder.window_log(u32::from(WINDOW_LOG))?;
         encoder.include_checksum(true)?;
         encoder.include_contentsize(true)?;
         encoder.set_pledged_src_size(Some(size))?;
-        Ok(Outside { encoder })
+        Ok(FrameWriter { encoder })
     }
 
     /// Compresses these bytes.
@@ -158,15 +158,15 @@ pub(super) enum Unreadable {
 }
 
 /// The uncompressed bytes of an archive, at most as many as its frame states.
-pub(super) struct Inside {
+pub(super) struct FrameReader {
     decoder: zstd::Decoder<'static, Hashed<BufReader<File>>>,
     hasher: blake3::Hasher,
     left: u64,
 }
 
-impl Inside {
+impl FrameReader {
     /// Reads the frame header, and rejects a frame that holds more than `limit` bytes.
-    pub(super) fn enter(file: File, limit: u64) -> Result<Inside, Unreadable> {
+    pub(super) fn open(file: File, limit: u64) -> Result<FrameReader, Unreadable> {
         let mut file = Hashed { inner: BufReader::new(file), hasher: blake3::Hasher::new() };
         // The longest header has 4 + 1 + 1 + 8 bytes, and a freshly filled buffer holds more, or all there is.
         let left = stated_size(file.fill_buf().map_err(Unreadable::Io)?).map_err(Unreadable::Damaged)?;
@@ -177,7 +177,7 @@ impl Inside {
         }
         let mut decoder = zstd::Decoder::with_buffer(file).map_err(Unreadable::Io)?.single_frame();
         decoder.window_log_max(u32::from(WINDOW_LOG)).map_err(Unreadable::Io)?;
-        Ok(Inside { decoder, hasher: blake3::Hasher::new(), left })
+        Ok(FrameReader { decoder, hasher: blake3::Hasher::new(), left })
     }
 
     /// The next block; `None` at the end.
@@ -210,7 +210,7 @@ impl Inside {
     }
 
     /// Checks that the stated bytes, the frame and the file all end here.
-    pub(super) fn leave(&mut self) -> Result<(), Unreadable> {
+    pub(super) fn finish(&mut self) -> Result<(), Unreadable> {
         let damaged = |what: &str| Err(Unreadable::Damaged(what.into()));
         if self.left > 0 || self.decoder.read(&mut [0]).map_err(unreadable)? > 0 {
             return damaged("there is more after its end");
@@ -244,7 +244,7 @@ fn unreadable(error: io::Error) -> Unreadable {
     }
 }
 
-/// The size that a frame header states (RFC 8878 §3.1.1.1). The header must have the form that [`Outside::begin`]
+/// The size that a frame header states (RFC 8878 §3.1.1.1). The header must have the form that [`FrameWriter::begin`]
 /// writes.
 fn stated_size(head: &[u8]) -> Result<u64, String> {
     let cut_off = || "the archive is cut off in its head".to_owned();

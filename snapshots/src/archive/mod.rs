@@ -26,12 +26,12 @@ use crate::error::SnapshotError;
 use crate::folder;
 use crate::integrity::{Integrity, check_integrity, manifest_problems};
 use crate::manifest::{Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
-use crate::papers::Beside;
+use crate::papers::Untracked;
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 use engine::Digest;
 use entry::{BLOCK, END, padding};
-use frame::{Inside, Outside, Unreadable};
+use frame::{FrameReader, FrameWriter, Unreadable};
 
 pub use frame::is_archive;
 
@@ -110,11 +110,11 @@ fn pack_into(
         return Err(too_large(MAX_UNPACKED));
     }
     let io = |source| SnapshotError::io("write", partial)(source);
-    let mut outside = Outside::begin(file, unpacked).map_err(io)?;
+    let mut writer = FrameWriter::begin(file, unpacked).map_err(io)?;
     let mut hasher = blake3::Hasher::new();
     let mut put = |bytes: &[u8]| {
         hasher.update(bytes);
-        outside.write(bytes).map_err(io)
+        writer.write(bytes).map_err(io)
     };
     for item in [&top].into_iter().chain(&manifest.items) {
         let header = entry::header(&manifest.name, item)
@@ -131,7 +131,7 @@ fn pack_into(
         put(&[0; BLOCK][..padding(item.size)])?;
     }
     put(&[0; END])?;
-    outside.seal().map_err(io)?;
+    writer.seal().map_err(io)?;
     file.sync_all().map_err(io)?;
     let size = file.metadata().map_err(io)?.len();
     if unpacked > most(size) {
@@ -204,12 +204,12 @@ impl Archive {
             });
         }
         let file = File::open(path).map_err(io)?;
-        let mut inside = match Inside::enter(file, most(found.len())) {
-            Ok(inside) => inside,
+        let mut reader = match FrameReader::open(file, most(found.len())) {
+            Ok(reader) => reader,
             Err(Unreadable::Io(source)) => return Err(io(source)),
             Err(Unreadable::Damaged(message)) => return Err(broken(message)),
         };
-        let manifest_bytes = match read_manifest(&mut inside) {
+        let manifest_bytes = match read_manifest(&mut reader) {
             Ok((name, bytes)) => (name, bytes),
             Err(Unreadable::Io(source)) => return Err(io(source)),
             Err(Unreadable::Damaged(message)) => return Err(broken(format!("{MANIFEST_FILE}: {message}"))),
@@ -228,7 +228,7 @@ impl Archive {
                 files.insert(path.to_owned(), content);
             }
         };
-        match read_items(&mut inside, &manifest, take, &mut problems) {
+        match read_items(&mut reader, &manifest, take, &mut problems) {
             Ok(()) => {}
             Err(Stop::Problem(problem)) if problem.path == WHOLE => {
                 let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -238,9 +238,9 @@ impl Archive {
             Err(Stop::Io(source)) => return Err(io(source)),
         }
         problems.sort_unstable();
-        let (digest, unpacked) = inside.digest();
+        let (digest, unpacked) = reader.digest();
         Ok(Archive {
-            integrity: Integrity { manifest, problems, beside: Beside::default() },
+            integrity: Integrity { manifest, problems, beside: Untracked::default() },
             digest,
             unpacked,
             manifest_bytes,
@@ -295,9 +295,9 @@ pub(crate) fn is_foreign(path: &Path) -> Result<bool, SnapshotError> {
 }
 
 /// The name of the top folder and the bytes of the manifest.
-fn read_manifest(inside: &mut Inside) -> Result<(String, Vec<u8>), Unreadable> {
+fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadable> {
     let damaged = |message: &str| Unreadable::Damaged(message.to_owned());
-    let block = inside.block()?.ok_or_else(|| damaged("the archive is empty"))?;
+    let block = reader.block()?.ok_or_else(|| damaged("the archive is empty"))?;
     let (path, size) = entry::path_and_size(&block).map_err(Unreadable::Damaged)?;
     let name = path.strip_suffix(MANIFEST_FILE).and_then(|folder| folder.strip_suffix('/'));
     let name = name.filter(|name| !name.contains('/') && crate::check_path(name).is_ok());
@@ -309,10 +309,10 @@ fn read_manifest(inside: &mut Inside) -> Result<(String, Vec<u8>), Unreadable> {
     }
     let expected = Item { path: MANIFEST_FILE.into(), size, digest: Digest::of(b"") };
     if entry::header(name, &expected).as_ref() != Some(&block) {
-        return Err(Unreadable::Damaged(entry::oddity(&block)));
+        return Err(Unreadable::Damaged(entry::describe_difference(&block)));
     }
-    let content = inside.content(size)?;
-    if !inside.skip_padding(padding(size))? {
+    let content = reader.content(size)?;
+    if !reader.skip_padding(padding(size))? {
         return Err(damaged("the bytes after it are not zero"));
     }
     Ok((name.to_owned(), content))
@@ -328,7 +328,7 @@ enum Stop {
 }
 
 fn read_items(
-    inside: &mut Inside,
+    reader: &mut FrameReader,
     manifest: &Manifest,
     mut take: impl FnMut(&str, Vec<u8>),
     problems: &mut Vec<Problem>,
@@ -343,7 +343,7 @@ fn read_items(
     };
     for item in &manifest.items {
         let path = item.path.as_str();
-        let block = match inside.block().map_err(stop(path))? {
+        let block = match reader.block().map_err(stop(path))? {
             Some(block) if block.iter().any(|byte| *byte != 0) => block,
             _ => return Err(at(path, Flaw::Missing)),
         };
@@ -353,8 +353,8 @@ fn read_items(
         if block != expected {
             return Err(Stop::Problem(entry::diagnose(&block, manifest, Some(item))));
         }
-        let content = inside.content(item.size).map_err(stop(path))?;
-        if !inside.skip_padding(padding(item.size)).map_err(stop(path))? {
+        let content = reader.content(item.size).map_err(stop(path))?;
+        if !reader.skip_padding(padding(item.size)).map_err(stop(path))? {
             return Err(at(path, Flaw::NotAsPacked("the bytes after it are not zero".into())));
         }
         let found = Digest::of(&content);
@@ -365,7 +365,7 @@ fn read_items(
         take(path, content);
     }
     for _ in 0..END / BLOCK {
-        match inside.block().map_err(stop(WHOLE))? {
+        match reader.block().map_err(stop(WHOLE))? {
             None => return Err(at(WHOLE, Flaw::NotAsPacked("it is cut off before its end".into()))),
             Some(block) if block.iter().any(|byte| *byte != 0) => {
                 return Err(Stop::Problem(entry::diagnose(&block, manifest, None)));
@@ -373,5 +373,5 @@ fn read_items(
             Some(_) => {}
         }
     }
-    inside.leave().map_err(stop(WHOLE))
+    reader.finish().map_err(stop(WHOLE))
 }

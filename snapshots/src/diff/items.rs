@@ -53,7 +53,7 @@ pub struct Changes {
 }
 
 /// A game or an item: its place, the digest of its text, and a digest that is invariant under retheming.
-struct Thing {
+struct Entry {
     id: String,
     exact: Digest,
     form: Digest,
@@ -63,11 +63,11 @@ struct Thing {
 impl Changes {
     /// Pairs the things of two releases: first those with equal texts, then those with equal forms, each with the
     /// first one left.
-    fn of(before: &[Thing], after: &[Thing]) -> Changes {
+    fn of(before: &[Entry], after: &[Entry]) -> Changes {
         let mut was: Vec<Option<(Status, usize)>> = vec![None; after.len()];
         let mut taken = vec![false; before.len()];
         for status in [Status::Kept, Status::Changed] {
-            let key = |thing: &Thing| match status {
+            let key = |thing: &Entry| match status {
                 Status::Kept => (thing.form, thing.exact),
                 _ => (thing.form, thing.form),
             };
@@ -113,7 +113,7 @@ impl Changes {
 
 /// The changes of the games.
 pub(super) fn games(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes {
-    let thing = |game: &Compared<'_>| Thing {
+    let thing = |game: &Compared<'_>| Entry {
         id: game.released.card.id.clone(),
         exact: game.released.game.digest(),
         form: game.form.digest(),
@@ -129,13 +129,13 @@ pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
         let ReleasedGame { card, game: rules, levels, .. } = game.released;
         let pair =
             |rules: Digest, level: Digest| Digest::of([*rules.as_bytes(), *level.as_bytes()].as_flattened());
-        let thing = |(number, form): (usize, &Digest)| Thing {
+        let thing = |(number, form): (usize, &Digest)| Entry {
             id: format!("{}/lvl{number}", card.id),
             exact: pair(rules.digest(), levels[number].level.digest()),
             form: pair(game.form.digest(), *form),
             generated: game.is_generated(),
         };
-        game.levels.iter().enumerate().map(thing).collect::<Vec<Thing>>()
+        game.levels.iter().enumerate().map(thing).collect::<Vec<Entry>>()
     };
     let [before, after] = [before, after].map(|side| side.iter().flat_map(of_game).collect::<Vec<_>>());
     Changes::of(&before, &after)

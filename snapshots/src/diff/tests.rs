@@ -38,7 +38,7 @@ const LEVEL: &str = "wwwww\nwA gw\nw f w\nwwwww\n";
 const OTHER: &str = "wwwww\nwAg w\nw  fw\nwwwww\n";
 
 #[test]
-fn what_is_the_same_is_found_in_any_dress() {
+fn equal_items_are_found_under_any_theme() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
     // Renamed, with another character, and with the board rotated by a quarter turn and mirrored.
     let dressed = source(["orb", "elf", "e"], "RandomNPC");
@@ -106,7 +106,7 @@ fn texts(values: &[&str], games: usize) -> Vec<Vec<String>> {
 }
 
 #[test]
-fn shifts_are_told_from_chance_game_by_game() {
+fn shifts_are_tested_by_permuting_games() {
     let found = Shift::of("t", &texts(&["a", "a", "b"], 20), &texts(&["a", "b", "b"], 20));
     assert!((found.distance.unwrap() - 1.0 / 3.0).abs() < 1e-12, "{found:?}");
     assert_eq!(found.p, Some(0.001));
@@ -119,7 +119,7 @@ fn shifts_are_told_from_chance_game_by_game() {
 }
 
 #[test]
-fn numbers_are_told_apart_by_the_shares_below_them() {
+fn distributions_are_compared_by_cumulative_shares() {
     let found = NumberShift::of("t", &vec![vec![1.0, 2.0]; 10], &vec![vec![2.0, 3.0]; 10]);
     assert_eq!((found.distance, found.p), (Some(0.5), Some(0.001)));
     assert_eq!((found.before.unwrap().median, found.after.unwrap().max), (1.5, 3.0));

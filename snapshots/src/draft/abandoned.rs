@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_run_has_left_is_found_and_removed() {
+    fn leftovers_of_killed_runs_are_removed() {
         let (home, out) = home();
         let partial = killed(&out);
         let abandoned = Abandoned::at(&partial).expect("examined").expect("abandoned");
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn work_in_progress_and_folders_of_others_are_not_abandoned() {
+    fn active_drafts_and_foreign_folders_are_not_abandoned() {
         let (home, out) = home();
         let draft = Draft::create(&out).expect("vacant");
         assert!(Abandoned::at(&draft.partial).expect("examined").is_none());

@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_of_somebody_else_is_left_alone() {
+    fn foreign_folders_are_untouched() {
         for mine in ["results.csv", "tree/a"] {
             let (home, out) = home();
             let mine = home.path().join("new.partial").join(mine);
@@ -129,7 +129,7 @@ mod tests {
 
     /// A lock file alone proves nothing; its content does.
     #[test]
-    fn a_lock_of_somebody_else_is_left_alone() {
+    fn foreign_locks_are_untouched() {
         for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "lots/a.json"), ("precious", "")] {
             let (home, out) = home();
             let partial = home.path().join("new.partial");
@@ -151,7 +151,7 @@ mod tests {
 
     /// After a kill before or during the write of the mark, nothing else is there, and the next run takes over.
     #[test]
-    fn a_lock_without_its_mark_is_taken_over() {
+    fn unmarked_locks_are_taken_over() {
         for written in [0, 7, MARK.len()] {
             let (home, out) = home();
             let partial = home.path().join("new.partial");

@@ -324,7 +324,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn an_empty_folder_and_missing_parents_will_do() {
+    fn empty_folders_and_missing_parents_are_accepted() {
         let (home, out) = home();
         fs::create_dir(&out).expect("created");
         Draft::create(&out).expect("vacant").commit().expect("published");
@@ -345,7 +345,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_taken_place_is_named_and_left_alone() {
+    fn occupied_outputs_are_reported_and_untouched() {
         let (home, out) = home();
         fs::create_dir(&out).expect("created");
         fs::write(out.join("mine"), "precious").expect("written");
@@ -360,7 +360,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_place_taken_in_the_meantime_is_left_alone() {
+    fn newly_occupied_outputs_are_untouched() {
         let (home, out) = home();
         for folder in [true, false] {
             let draft = Draft::create(&out).expect("vacant");
@@ -433,7 +433,7 @@ pub(crate) mod tests {
     /// Everything of a secret draft, from the first folder to the published release, is accessible to its owner alone.
     #[cfg(unix)]
     #[test]
-    fn secrets_are_for_their_owner() {
+    fn secrets_are_readable_by_their_owner_only() {
         use std::os::unix::fs::PermissionsExt;
         let (home, out) = home();
         let mut draft = Draft::create(&out).expect("vacant");

@@ -62,7 +62,7 @@ mod tests {
 
     /// A published release is synced, with the names of all new folders above it.
     #[test]
-    fn new_names_are_waited_for() {
+    fn new_names_are_synced() {
         let (home, _) = home();
         let out = home.path().join("a/b/new");
         synced();

@@ -124,22 +124,22 @@ const PLAIN: &[Column] = &[
         Origin::Corpus { .. } => Value::Texts(Vec::new()),
         Origin::Generated { patterns, .. } => Value::Texts(patterns.iter().map(text).collect()),
     }),
-    Column::new("title", Kind::Text, |item| text(&item.dress.title)),
-    Column::new("description", Kind::Text, |item| text(&item.dress.description)),
-    Column::new("goal", Kind::Text, |item| text(&item.dress.goal)),
-    Column::new("rules", Kind::Text, |item| text(&item.dress.rules)),
-    Column::new("vgdl", Kind::Text, |item| text(&item.dress.source)),
-    Column::new("level_text", Kind::Text, |item| text(&item.worn().text)),
-    Column::new("columns", Kind::Integer, |item| count(item.worn().level.columns())),
-    Column::new("rows", Kind::Integer, |item| count(item.worn().level.rows())),
+    Column::new("title", Kind::Text, |item| text(&item.exported.title)),
+    Column::new("description", Kind::Text, |item| text(&item.exported.description)),
+    Column::new("goal", Kind::Text, |item| text(&item.exported.goal)),
+    Column::new("rules", Kind::Text, |item| text(&item.exported.rules)),
+    Column::new("vgdl", Kind::Text, |item| text(&item.exported.source)),
+    Column::new("level_text", Kind::Text, |item| text(&item.exported_level().text)),
+    Column::new("columns", Kind::Integer, |item| count(item.exported_level().level.columns())),
+    Column::new("rows", Kind::Integer, |item| count(item.exported_level().level.rows())),
     Column::new("legend", Kind::Records(LEGEND), |item| {
         let line = |(symbol, sprites): &(char, String)| vec![text(symbol), text(sprites)];
-        Value::Records(item.dress.legend.iter().map(line).collect())
+        Value::Records(item.exported.legend.iter().map(line).collect())
     }),
     Column::new("kind", Kind::Text, |item| text(&item.card.kind)),
-    Column::new("goal_kind", Kind::Text, |item| text(item.dress.kind.goal.name())),
-    Column::new("avatar_kind", Kind::Text, |item| text(item.dress.kind.avatar.name())),
-    Column::new("chance", Kind::Text, |item| text(item.dress.kind.chance.name())),
+    Column::new("goal_kind", Kind::Text, |item| text(item.exported.kind.goal.name())),
+    Column::new("avatar_kind", Kind::Text, |item| text(item.exported.kind.avatar.name())),
+    Column::new("chance", Kind::Text, |item| text(item.exported.kind.chance.name())),
     Column::new("real_time", Kind::Flag, |item| Value::Flag(item.card.real_time)),
     Column::new("deterministic", Kind::Flag, |item| Value::Flag(item.card.deterministic)),
     Column::new("difficulty", Kind::MaybeText, |item| {
@@ -160,9 +160,9 @@ const PLAIN: &[Column] = &[
         item.level().optimal_ticks.map_or(Value::Missing, count)
     }),
     Column::new("level_generator", Kind::Text, |item| text(&item.level().generator)),
-    Column::new("game_digest", Kind::Text, |item| text(item.dress.game.digest())),
-    Column::new("level_digest", Kind::Text, |item| text(item.worn().level.digest())),
-    Column::new("rules_digest", Kind::Text, |item| text(item.dress.form)),
+    Column::new("game_digest", Kind::Text, |item| text(item.exported.game.digest())),
+    Column::new("level_digest", Kind::Text, |item| text(item.exported_level().level.digest())),
+    Column::new("rules_digest", Kind::Text, |item| text(item.exported.form)),
     Column::new("semantics", Kind::Integer, |item| Value::Integer(i64::from(item.manifest.semantics))),
     Column::new("generation", Kind::Integer, |item| Value::Integer(i64::from(item.manifest.generation))),
     Column::new("canary", Kind::Text, |item| text(&item.manifest.canary)),
@@ -171,11 +171,11 @@ const PLAIN: &[Column] = &[
 /// The additional columns of an export with solutions, after the others.
 const SOLUTIONS: &[Column] = &[
     Column::new("solution", Kind::Texts, |item| {
-        let actions = item.worn().witness.iter().flat_map(|episode| &episode.actions);
+        let actions = item.exported_level().witness.iter().flat_map(|episode| &episode.actions);
         Value::Texts(actions.map(text).collect())
     }),
     Column::new("solution_seed", Kind::MaybeText, |item| {
-        item.worn().witness.as_ref().map_or(Value::Missing, |episode| text(episode.seed))
+        item.exported_level().witness.as_ref().map_or(Value::Missing, |episode| text(episode.seed))
     }),
 ];
 

@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use validators::{GameForm, GameKind};
 
 /// A game as exported: under its own theme or as a twin.
-pub(super) struct Dress<'a> {
+pub(super) struct ExportedGame<'a> {
     pub(super) title: String,
     pub(super) description: String,
     pub(super) goal: String,
@@ -25,11 +25,11 @@ pub(super) struct Dress<'a> {
     pub(super) form: Digest,
 }
 
-impl<'a> Dress<'a> {
+impl<'a> ExportedGame<'a> {
     /// The game as released.
-    pub(super) fn own(released: &'a ReleasedGame) -> Dress<'a> {
+    pub(super) fn own(released: &'a ReleasedGame) -> ExportedGame<'a> {
         let ReleasedGame { card, source, game, levels } = released;
-        Dress {
+        ExportedGame {
             title: card.title.clone(),
             description: card.description.clone(),
             goal: card.goal.clone(),
@@ -44,7 +44,7 @@ impl<'a> Dress<'a> {
     }
 
     /// The game as its twin.
-    pub(super) fn of_twin(twin: TwinGame) -> Result<Dress<'a>, TwinError> {
+    pub(super) fn of_twin(twin: TwinGame) -> Result<ExportedGame<'a>, TwinError> {
         let game = Game::from_source(&twin.text).map_err(TwinError::Game)?;
         let level = |(number, (text, witness)): (usize, (String, Option<Episode>))| {
             let level = game.level(&text).map_err(|problems| TwinError::Level { number, problems })?;
@@ -52,7 +52,7 @@ impl<'a> Dress<'a> {
         };
         let levels = twin.levels.into_iter().zip(twin.witnesses).enumerate().map(level);
         let levels: Vec<ReleasedLevel> = levels.collect::<Result<_, TwinError>>()?;
-        Ok(Dress {
+        Ok(ExportedGame {
             title: twin.title,
             description: twin.description,
             goal: twin.goal,
@@ -80,7 +80,7 @@ pub(super) fn legend(game: &Game) -> Vec<(char, String)> {
 pub(super) struct Item<'a> {
     pub(super) manifest: &'a Manifest,
     pub(super) card: &'a Card,
-    pub(super) dress: &'a Dress<'a>,
+    pub(super) exported: &'a ExportedGame<'a>,
     /// The number of the level, from 0.
     pub(super) number: usize,
     /// The twin that is exported; `None` for the game itself.
@@ -99,7 +99,7 @@ impl Item<'_> {
     }
 
     /// The level as exported.
-    pub(super) fn worn(&self) -> &ReleasedLevel {
-        &self.dress.levels[self.number]
+    pub(super) fn exported_level(&self) -> &ReleasedLevel {
+        &self.exported.levels[self.number]
     }
 }

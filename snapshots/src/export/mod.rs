@@ -15,7 +15,7 @@ pub use columns::{Column, Kind, Value, columns};
 use crate::released::Released;
 use crate::twin::{self, Twin, TwinError};
 use forge::card::Card;
-use item::{Dress, Item};
+use item::{ExportedGame, Item};
 use page::Rows;
 use rayon::prelude::*;
 use std::fmt;
@@ -100,15 +100,15 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
     if export.solutions && levels.any(|level| level.witness.is_none()) {
         return Err(ExportError::Held(released.manifest.name.clone()));
     }
-    let dressed = |game| match export.twin {
-        None => Ok(Dress::own(game)),
-        Some(twin) => twin::of_released(twin, game).and_then(Dress::of_twin),
+    let exported = |game| match export.twin {
+        None => Ok(ExportedGame::own(game)),
+        Some(twin) => twin::of_released(twin, game).and_then(ExportedGame::of_twin),
     };
-    let dressed: Vec<_> = released.games.par_iter().map(dressed).collect();
+    let exported: Vec<_> = released.games.par_iter().map(exported).collect();
     let (mut shown, mut left_out) = (Vec::new(), Vec::new());
-    for (game, dress) in released.games.iter().zip(dressed) {
-        match dress {
-            Ok(dress) => shown.push((&game.card, dress)),
+    for (game, exported) in released.games.iter().zip(exported) {
+        match exported {
+            Ok(exported) => shown.push((&game.card, exported)),
             Err(why) => left_out.push((game.card.id.clone(), why)),
         }
     }
@@ -118,12 +118,12 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
     let columns = columns(export.solutions);
     let rows = || {
         let manifest = &released.manifest;
-        let of_game = |&(card, ref dress): &(&Card, Dress<'_>)| {
+        let of_game = |&(card, ref exported): &(&Card, ExportedGame<'_>)| {
             let row = |number| {
-                let item = Item { manifest, card, dress, number, twin: export.twin };
+                let item = Item { manifest, card, exported, number, twin: export.twin };
                 columns.iter().map(|column| column.value(&item)).collect()
             };
-            (0..dress.levels.len()).map(row).collect::<Vec<Vec<Value>>>()
+            (0..exported.levels.len()).map(row).collect::<Vec<Vec<Value>>>()
         };
         shown.par_iter().flat_map_iter(of_game).collect::<Vec<Vec<Value>>>()
     };
@@ -133,9 +133,9 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
         Format::Parquet => table::write(&columns, &rows(), &released.manifest.canary)?,
         Format::Games => Vec::new(),
     };
-    let (games, levels) = (shown.len(), shown.iter().map(|(_, dress)| dress.levels.len()).sum());
+    let (games, levels) = (shown.len(), shown.iter().map(|(_, exported)| exported.levels.len()).sum());
     let files = match export.format {
-        Format::Games => shown.iter().flat_map(|(card, dress)| folder(card, dress)).collect(),
+        Format::Games => shown.iter().flat_map(|(card, exported)| folder(card, exported)).collect(),
         _ => {
             let file = format!("data/{SPLIT}.{}", export.format);
             let rows = Rows { file: &file, bytes: bytes.len(), games: &shown, levels };
@@ -147,9 +147,9 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
 }
 
 /// The files of a game as players and other tools read it: rules and levels in a folder of their own.
-fn folder(card: &Card, dress: &Dress<'_>) -> Vec<(String, Vec<u8>)> {
+fn folder(card: &Card, exported: &ExportedGame<'_>) -> Vec<(String, Vec<u8>)> {
     let file = |name: String, text: &str| (format!("{}/{name}", card.id), text.as_bytes().to_vec());
-    let levels = dress.levels.iter().enumerate();
+    let levels = exported.levels.iter().enumerate();
     let levels = levels.map(|(number, level)| file(format!("lvl{number}.txt"), &level.text));
-    std::iter::once(file("game.vgdl".to_owned(), &dress.source)).chain(levels).collect()
+    std::iter::once(file("game.vgdl".to_owned(), &exported.source)).chain(levels).collect()
 }

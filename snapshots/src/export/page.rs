@@ -2,7 +2,7 @@
 //! then Markdown.
 
 use super::columns::{Column, Kind};
-use super::item::Dress;
+use super::item::ExportedGame;
 use super::{Export, Format, SPLIT};
 use crate::released::Released;
 use forge::card::{Card, Origin};
@@ -15,7 +15,7 @@ pub(super) struct Rows<'a> {
     /// The size of the file in bytes.
     pub(super) bytes: usize,
     /// The exported games.
-    pub(super) games: &'a [(&'a Card, Dress<'a>)],
+    pub(super) games: &'a [(&'a Card, ExportedGame<'a>)],
     /// The number of levels, which is the number of rows.
     pub(super) levels: usize,
 }

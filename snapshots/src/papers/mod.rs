@@ -22,7 +22,7 @@ pub const PAPERS_LIMITS: Limits = Limits { files: 1000, file_bytes: 64 << 20, to
 
 /// The names that version control, file managers and downloads leave at the top of a folder. Their content is not
 /// read.
-pub(crate) const PASSED_OVER: [&str; 12] = [
+pub(crate) const IGNORED_NAMES: [&str; 12] = [
     ".DS_Store",
     ".cache",
     ".directory",
@@ -39,7 +39,7 @@ pub(crate) const PASSED_OVER: [&str; 12] = [
 
 /// The files of a release folder that its manifest does not list.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Beside {
+pub struct Untracked {
     /// The papers, by path.
     pub papers: Vec<Entry>,
     /// Files that other programs left at the top, by name; they are not read.
@@ -50,8 +50,8 @@ pub struct Beside {
 ///
 /// # Errors
 /// A folder cannot be read.
-pub(crate) fn list(root: &Path) -> Result<(Listing, Beside), SnapshotError> {
-    let mut listing = folder::list_but(root, &Limits::SNAPSHOT, &PASSED_OVER)?;
+pub(crate) fn list(root: &Path) -> Result<(Listing, Untracked), SnapshotError> {
+    let mut listing = folder::list_but(root, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
     let is_paper = |path: &str| path.starts_with(PAPERS);
     let entries = std::mem::take(&mut listing.entries);
     let (papers, entries): (Vec<Entry>, _) = entries.into_iter().partition(|entry| is_paper(&entry.path));
@@ -69,7 +69,7 @@ pub(crate) fn list(root: &Path) -> Result<(Listing, Beside), SnapshotError> {
     listing.problems.extend(too_many.into_iter().chain(too_large).map(problem));
     listing.problems.sort_unstable();
     let ignored = std::mem::take(&mut listing.passed_over);
-    Ok((listing, Beside { papers, ignored }))
+    Ok((listing, Untracked { papers, ignored }))
 }
 
 impl Minted {
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn papers_and_what_programs_leave_are_told_apart_from_the_tree() {
+    fn papers_and_ignored_files_are_not_in_the_tree() {
         check(
             &[
                 ("README.md", 1),

@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn what_faces_right_by_its_class_is_told_to_face_left() {
+    fn default_orientations_are_mirrored_explicitly() {
         check(
             "    boat > Bomber stype=gate cooldown=50\n    rower > ShootAvatar stype=gate\n",
             "",
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_tell_a_side_follow() {
+    fn names_with_a_side_are_swapped() {
         check(
             "    boat > Missile\n      westBoat > orientation=LEFT\n      eastBoat > orientation=RIGHT\n    eastern > \
              Immovable\n    rower > MovingAvatar\n",
@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_mirror_image_is_refused() {
+    fn games_without_a_mirror_image_are_refused() {
         let rower = "    rower > MovingAvatar\n";
         let boat = |text: &str| format!("    boat > {text}\n{rower}");
         refuses(&boat("Immovable wMult=2"), "", "A b g\n", "`boat` is not as wide as a cell");

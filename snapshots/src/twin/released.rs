@@ -17,7 +17,7 @@ pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, Twin
     if kind == Twin::Mirrored {
         let card = &released.card;
         for (own, told) in [(&mut twin.description, &card.description), (&mut twin.goal, &card.goal)] {
-            if !tells_a_side(told) {
+            if !names_a_side(told) {
                 own.clone_from(told);
             }
         }
@@ -25,7 +25,7 @@ pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, Twin
     Ok(twin)
 }
 
-fn tells_a_side(text: &str) -> bool {
+fn names_a_side(text: &str) -> bool {
     let text = text.to_lowercase();
     let mut words = text.split(|c: char| !c.is_alphabetic());
     text.contains("the left") || text.contains("to left") || words.any(|word| SIDES.contains(&word))
@@ -36,9 +36,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_that_tell_a_side() {
-        assert!(tells_a_side("Steam drifts to the left."));
-        assert!(tells_a_side("The wind is from the East, always."));
-        assert!(!tells_a_side("You win when no feast is left."));
+    fn texts_with_a_side() {
+        assert!(names_a_side("Steam drifts to the left."));
+        assert!(names_a_side("The wind is from the East, always."));
+        assert!(!names_a_side("You win when no feast is left."));
     }
 }

@@ -4,7 +4,7 @@ use super::numbers;
 use super::replay::{Meter, Replayed, replay};
 use crate::contents::Contents;
 use crate::manifest::{Kind, Manifest};
-use crate::sealed::{STRANGER, Secret, held_witness};
+use crate::sealed::{Secret, UNRELATED_WITNESS, held_witness};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
 use engine::Game;
@@ -164,7 +164,7 @@ impl Checker<'_> {
                     wrong(&witness_file, "its canary is not the release's".to_owned());
                 }
                 Some(Ok(witness)) if self.secret.is_some_and(|secret| !secret.leads_to(&witness)) => {
-                    wrong(&witness_file, STRANGER.to_owned());
+                    wrong(&witness_file, UNRELATED_WITNESS.to_owned());
                 }
                 Some(Ok(Witness { episode, .. })) => {
                     let told = (level_card.witness_ticks, level_card.witness_score);

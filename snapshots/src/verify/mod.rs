@@ -24,7 +24,7 @@ use std::path::Path;
 pub(crate) use numbers::problems as number_problems;
 pub use replay::Bounds;
 pub(crate) use replay::problem as replay_problem;
-pub(crate) use version::COMPLETE;
+pub(crate) use version::CARD_AND_CANARY_SINCE;
 
 /// The results of checking the witnesses.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -193,7 +193,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     let (of, source) = match manifest.commitment {
         Some(commitment) => (Some(commitment), "commitment"),
         // The manifest has been read, so its recipe has a canonical text.
-        None if manifest.generation >= COMPLETE => {
+        None if manifest.generation >= CARD_AND_CANARY_SINCE => {
             (to_canonical_json(&manifest.recipe).ok().map(|text| Digest::of(text.as_bytes())), "recipe")
         }
         None => (None, ""),
@@ -209,7 +209,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
 /// Checks that `known` in the recipe is plausible for a release with this parent, or with none. Only the parent can
 /// show whether it is right: see [`chain`](crate::chain).
 fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
-    if manifest.generation < COMPLETE {
+    if manifest.generation < CARD_AND_CANARY_SINCE {
         return;
     }
     let mut wrong = |what: &str| problems.push(format!("{MANIFEST_FILE}: the recipe's `known` {what}"));

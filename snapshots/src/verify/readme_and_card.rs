@@ -1,7 +1,7 @@
 //! The files that describe a release as a whole: `README.md` and `CARD.json`.
 
 use super::carries;
-use super::version::COMPLETE;
+use super::version::CARD_AND_CANARY_SINCE;
 use crate::SnapshotError;
 use crate::contents::Contents;
 use crate::manifest::Manifest;
@@ -34,7 +34,7 @@ pub(super) fn problems(
         Some(_) => {}
     }
     match read(RELEASE_CARD_FILE)? {
-        None if manifest.generation < COMPLETE => {}
+        None if manifest.generation < CARD_AND_CANARY_SINCE => {}
         None => problems.push(format!("{RELEASE_CARD_FILE}: missing: a release has one")),
         Some(text) => problems.extend(
             of_card(&text, manifest, cards).into_iter().map(|what| format!("{RELEASE_CARD_FILE}: {what}")),

@@ -4,7 +4,7 @@ use crate::version::{CURRENT, MintedBy, VERSIONS, Version};
 
 /// The first generation whose releases have a `CARD.json`, a canary derived from their recipe, and the content of
 /// previous releases in it.
-pub(crate) const COMPLETE: u32 = 7;
+pub(crate) const CARD_AND_CANARY_SINCE: u32 = 7;
 
 /// The reason why no arcade can have minted under these versions; `None` if one can have, even a later one.
 pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
@@ -45,7 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn only_versions_that_were_or_may_come_are_possible() {
+    fn only_past_and_future_versions_are_possible() {
         let Version { number, generation, semantics, .. } = CURRENT;
         check(generation, semantics, Some(number), None);
         check(

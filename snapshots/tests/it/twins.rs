@@ -122,7 +122,7 @@ fn the_page_shows_real_twins() {
 }
 
 #[test]
-fn what_is_no_game_or_level_is_told() {
+fn invalid_games_and_levels_are_reported() {
     let game = Game::from_source(FLAT).unwrap();
     assert!(game.level("A e\n").is_ok());
     let of = |source: &str, level: &str| {

@@ -86,7 +86,7 @@ fn lanes_are_independent() {
 }
 
 #[test]
-fn what_a_batch_cannot_do_it_says() {
+fn invalid_batches_are_reported() {
     let (_, game, levels) = games(&workspace_root().join("corpora")).swap_remove(0);
     let seed = Seed::from_text("errors");
     assert_eq!(Batch::start(&game, &[], 2, seed).err(), Some(BatchError::NoLevels));

@@ -41,7 +41,7 @@ const KINDS: [(&str, Kind); 6] = [
 ];
 
 #[test]
-fn faults_are_told_at_their_line_with_their_repair() {
+fn faults_are_reported_at_their_line_with_a_repair() {
     let corpus = corpus();
     let (mut placed, mut repaired, mut all) = (0, 0, 0);
     let mut untold = String::new();

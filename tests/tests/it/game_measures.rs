@@ -45,7 +45,7 @@ fn played(name: &str) -> PlayMeasures {
 /// The jars wait for their porter, who can only lose by the clock; the hounds of the bog do not wait, and catch an
 /// avatar that stays.
 #[test]
-fn a_puzzle_and_a_flight_measure_as_they_play() {
+fn measures_match_play_of_a_puzzle_and_a_flight() {
     let (jars, bog) = (played("quiet-jars"), played("bog-lantern"));
     assert_eq!((jars.chance, jars.drama, jars.lead_changes), (0.0, 0.0, 0.0), "{jars:?}");
     // Jars are pushed, and come to rest.

@@ -7,7 +7,7 @@ use generators::games::{ConstructiveGames, Masked, Rethemed};
 use std::path::Path;
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
-use tests::dress;
+use tests::isomorphic;
 use tests::{games, public_games, workspace_root};
 use validators::novelty::{GameForm, NEAR, distance};
 
@@ -30,16 +30,16 @@ fn forms(all: &[(String, Game)]) -> Vec<(&str, GameForm)> {
 }
 
 #[test]
-fn another_dress_is_the_same_game() {
+fn isomorphic_games_have_equal_forms() {
     for (name, game) in all() {
         let form = GameForm::of(&game);
         for number in 0..8 {
             let mut sampler = Seed::from_text(&name).child("dress", number).sampler();
-            let dressed = dress::dressed(game.description(), &mut sampler);
-            let other = Game::compile(&dressed).unwrap_or_else(|problems| panic!("{name}: {problems}"));
+            let rethemed = isomorphic::rethemed(game.description(), &mut sampler);
+            let other = Game::compile(&rethemed).unwrap_or_else(|problems| panic!("{name}: {problems}"));
             let other = GameForm::of(&other);
             assert_eq!(distance(&form, &other), 0.0, "{name} {number}");
-            let text = engine::syntax::print(&dressed);
+            let text = engine::syntax::print(&rethemed);
             assert_eq!(form.digest(), other.digest(), "{name} {number}\n{text}");
         }
     }
@@ -47,18 +47,18 @@ fn another_dress_is_the_same_game() {
 
 /// Generated games of every class, effect and parameter.
 #[test]
-fn another_dress_of_an_invented_game_is_the_same_game() {
+fn generated_isomorphic_games_have_equal_forms() {
     let mut sampler = Seed::from_text("invented").sampler();
     let mut tried = 0;
     for number in 0..300 {
-        let invented = any_game(&mut Choices::new(&random_bytes(&mut sampler, 400)));
-        let Ok(game) = Game::from_source(&invented.source) else { continue };
+        let generated = any_game(&mut Choices::new(&random_bytes(&mut sampler, 400)));
+        let Ok(game) = Game::from_source(&generated.source) else { continue };
         let form = GameForm::of(&game);
-        let dressed = dress::dressed(game.description(), &mut sampler);
-        let Ok(other) = Game::compile(&dressed) else { continue };
+        let rethemed = isomorphic::rethemed(game.description(), &mut sampler);
+        let Ok(other) = Game::compile(&rethemed) else { continue };
         let other = GameForm::of(&other);
-        let text = engine::syntax::print(&dressed);
-        assert_eq!(form.digest(), other.digest(), "{number}\n{}\n{text}", invented.source);
+        let text = engine::syntax::print(&rethemed);
+        assert_eq!(form.digest(), other.digest(), "{number}\n{}\n{text}", generated.source);
         assert_eq!(distance(&form, &other), 0.0, "{number}");
         tried += 1;
     }
@@ -97,7 +97,7 @@ fn another_rule_is_another_game() {
         let form = GameForm::of(&game);
         for number in 0..20 {
             let mut sampler = Seed::from_text(&name).child("alter", number).sampler();
-            let Some(altered) = dress::altered(game.description(), &mut sampler) else { continue };
+            let Some(altered) = isomorphic::altered(game.description(), &mut sampler) else { continue };
             let Ok(other) = Game::compile(&altered) else { continue };
             // A random change may restore the original.
             if other.clauses() == game.clauses() {
@@ -129,10 +129,10 @@ fn distance_is_symmetric_and_zero_for_equal_forms_only() {
 }
 
 #[test]
-fn other_numbers_make_a_duplicate() {
+fn other_numbers_are_duplicates() {
     let mut tried = 0;
     for (name, game) in all() {
-        let copy = dress::renumbered(game.description()).and_then(|tree| Game::compile(&tree).ok());
+        let copy = isomorphic::renumbered(game.description()).and_then(|tree| Game::compile(&tree).ok());
         let Some(copy) = copy else { continue };
         let (form, copy) = (GameForm::of(&game), GameForm::of(&copy));
         assert!(form.digest() != copy.digest() && form.is_near(&copy), "{name} {}", distance(&form, &copy));
@@ -142,7 +142,7 @@ fn other_numbers_make_a_duplicate() {
 }
 
 #[test]
-fn games_that_people_wrote_are_no_duplicates() {
+fn hand_written_games_are_not_duplicates() {
     let all = all();
     let forms = forms(&all);
     let near = |one: usize| (0..one).filter(|&two| forms[one].1.is_near(&forms[two].1)).count();
@@ -154,7 +154,7 @@ fn games_that_people_wrote_are_no_duplicates() {
 }
 
 #[test]
-fn a_common_frame_makes_no_neighbours() {
+fn common_frames_do_not_make_games_similar() {
     let game = |sprites: &str, rules: &str, wins: &str| {
         let frame = "avatar wall > stepBack\n    avatar EOS > stepBack\n    thing wall > stepBack\n    thing EOS > stepBack";
         let source = format!(

@@ -28,7 +28,7 @@ use std::path::Path;
 use tests::{read, rust_files, workspace_files, workspace_root};
 
 #[test]
-fn every_page_says_what_happens() {
+fn every_page_matches_its_game() {
     let bless = std::env::var_os("BLESS").is_some();
     let mut failures = String::new();
     for file in pages("docs/ontology").chain(pages("docs/diagnostics")) {

@@ -215,7 +215,7 @@ fn wins_are_the_shortest_and_proofs_are_right() {
 /// Pruned states are lost: from no state that [`Pushes`] prunes can any win be reached, and no state needs fewer
 /// ticks than its bound.
 #[test]
-fn pushes_never_promise_too_little() {
+fn push_distances_are_lower_bounds() {
     for (name, game, levels) in cases().into_iter().take(2) {
         let analysis = Analysis::of(&game);
         for (number, (level, _)) in levels.into_iter().enumerate() {
@@ -247,7 +247,7 @@ fn pushes_never_promise_too_little() {
 }
 
 #[test]
-fn limits_are_kept_and_prove_nothing() {
+fn bounded_searches_keep_limits_and_are_unknown() {
     let game = drains();
     let analysis = Analysis::of(&game);
     let level = game.level("wwwwwww\nw  o  w\nw ccc w\nw  H  w\nwwwwwww\n").unwrap();

@@ -102,7 +102,7 @@ fn replays(case: &Case, report: &Report) {
 
 #[allow(clippy::print_stderr, reason = "a case that is put off says so")]
 #[test]
-fn bad_levels_fail_for_the_reason_that_is_theirs() {
+fn bad_levels_fail_for_the_expected_reason() {
     let cases = cases("bad");
     assert!(cases.len() >= 20, "{} cases", cases.len());
     for case in &cases {

@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_share_is_told_and_stays_on_the_scale() {
+    fn shares_are_shown_within_the_scale() {
         let row = |name: &str, share, reference| ForestRow {
             label: Label { name: name.to_owned(), note: String::new() },
             share,

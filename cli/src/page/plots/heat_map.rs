@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn every_value_is_told_and_what_is_missing_is_hatched() {
+    fn values_are_shown_and_gaps_hatched() {
         let cells = [vec![Some(0.0), Some(0.5), None], vec![Some(1.0), Some(f64::NAN), Some(0.25)]];
         let svg = drawn(&cells);
         for value in [">0<", ">50<", ">100<", ">25<", "class=\"q0\"", "class=\"q10\""] {

@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_pair_is_told_once() {
+    fn each_pair_is_reported_once() {
         let names = ["win", "steps", "distance"].map(str::to_owned);
         let cell = |value: f64| Some((value, "p < 0.001".to_owned()));
         let cells = [vec![], vec![cell(-0.28)], vec![None, cell(f64::NAN)]];

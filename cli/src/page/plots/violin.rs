@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn spreads_are_told_and_drawn() {
+    fn spreads_are_described_and_drawn() {
         let many: Vec<f64> = (0..200).map(|at| f64::from(at % 20) / 20.0).collect();
         let svg = drawn(&[0.2, 0.4, f64::NAN], &many);
         for part in ["median 0.30, n = 2", "median 0.47, n = 200", "class=\"first\"", "class=\"second\""] {

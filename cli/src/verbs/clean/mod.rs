@@ -42,10 +42,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let folders = if args.folders.is_empty() { &here } else { args.folders.as_slice() };
     let mut found = Vec::new();
     for folder in folders {
-        if !paths::look(folder)?.is_some_and(|found| found.is_dir()) {
+        if !paths::metadata(folder)?.is_some_and(|found| found.is_dir()) {
             return Err(Failure::malformed(format_args!("{}: there is no such folder", folder.display())));
         }
-        look_through(folder, console, &mut found)?;
+        search(folder, console, &mut found)?;
     }
     found.extend(leftover::scratch());
     let (mut entries, mut removed, mut freed) = (Vec::new(), 0_usize, 0);
@@ -98,7 +98,7 @@ fn kept(args: &Args, kind: &Kind) -> Option<&'static str> {
 }
 
 /// Adds the leftovers in the folder and in all folders below.
-fn look_through(folder: &Path, console: &Console, found: &mut Vec<Leftover>) -> Result<(), Failure> {
+fn search(folder: &Path, console: &Console, found: &mut Vec<Leftover>) -> Result<(), Failure> {
     let mut waiting = vec![folder.to_path_buf()];
     while let Some(folder) = waiting.pop() {
         if fs::symlink_metadata(folder.join(MANIFEST_FILE)).is_ok() {

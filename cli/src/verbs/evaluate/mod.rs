@@ -86,24 +86,24 @@ pub(crate) struct Args {
 }
 
 /// The player as requested.
-enum Asked {
+enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
     Human(PromptSettings),
     Prompted(PromptPlayer, PromptSettings),
     Process(Box<Process>),
-    Model(Box<model::Asked>),
+    Model(Box<model::RequestedModel>),
 }
 
-/// The player, ready to play.
-enum Ready {
+/// The player, connected to play.
+enum ConnectedPlayer {
     Planner(PlannerSpec, Budget),
     Replay(Replay),
     Human(Prompters),
     Prompted(PromptPlayer, Prompters),
     /// A command line, and the seconds for an answer.
     Process(String, u64),
-    Model(Box<model::Ready>),
+    Model(Box<model::ConnectedModel>),
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -113,8 +113,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.jobs == Some(0) {
         return Err(Failure::malformed("--jobs takes a number of episodes at a time, at least 1"));
     }
-    let asked = asked(args)?;
-    refuse_idle_flags(args, &asked)?;
+    let requested = requested_player(args)?;
+    reject_unused_flags(args, &requested)?;
     let choice =
         subjects::Choice { games: &args.games, levels: &args.levels, as_reference: args.as_reference };
     let subjects = subjects::read(&args.subjects, &choice)?;
@@ -123,7 +123,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
         snapshot: subjects.snapshot,
-        entrant: asked.entrant(args, &subjects.games)?,
+        entrant: requested.entrant(args, &subjects.games)?,
         seed: args.seed.clone(),
         runs: args.runs,
         max_steps: args.max_steps,
@@ -133,7 +133,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Failure::malformed(format!("{problem}; see --runs, --max-steps, --games and --levels"))
     })?;
     if args.dry_run {
-        return forecast(&asked, &settings, &subjects.games, console);
+        return forecast(&requested, &settings, &subjects.games, console);
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
     protected::check(&folder)?;
@@ -143,14 +143,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             folder.display()
         )));
     }
-    let ready = asked.ready(args, &subjects.games)?;
+    let connected = requested.connect(args, &subjects.games)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
     } else {
         Evaluation::create(&folder, settings, subjects.games)
     };
     let evaluation = evaluation.map_err(failure)?;
-    ready.charge_logged(&evaluation)?;
+    connected.charge_logged(&evaluation)?;
     let hint = format!(
         "interrupted: finished episodes are in {}; run the same command with --resume to continue",
         folder.display()
@@ -158,8 +158,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     interrupt::watch(end_players, hint);
     let episodes = evaluation.tasks().len();
     let bar = Bar::new(console, episodes as u64);
-    let contestant = |task: &Task<'_>| Ok::<_, Halt>(ready.contestant(task));
-    let tally = in_pool(Some(ready.threads(args, episodes, console)), || evaluation.run(contestant, &bar));
+    let contestant = |task: &Task<'_>| Ok::<_, Halt>(connected.contestant(task));
+    let tally =
+        in_pool(Some(connected.threads(args, episodes, console)), || evaluation.run(contestant, &bar));
     interrupt::defer();
     let tally = tally?.map_err(|error| match failure(error) {
         Failure::Environment(error) => Failure::environment(
@@ -169,14 +170,19 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         other => other,
     })?;
     bar.bar.finish_and_clear();
-    told(console, &folder, &evaluation.settings.entrant, &tally, &ready)
+    print_results(console, &folder, &evaluation.settings.entrant, &tally, &connected)
 }
 
 /// Prints the expected effort, and the differences that the evaluation could show.
-fn forecast(asked: &Asked, settings: &Settings, subjects: &[Subject], console: &Console) -> Answer {
+fn forecast(
+    requested: &RequestedPlayer,
+    settings: &Settings,
+    subjects: &[Subject],
+    console: &Console,
+) -> Answer {
     let tasks = run::tasks(settings, subjects);
-    let (mut document, text) = match asked {
-        Asked::Model(model) => {
+    let (mut document, text) = match requested {
+        RequestedPlayer::Model(model) => {
             let forecast = model.forecast(&tasks)?;
             (json!(forecast), forecast.to_string())
         }
@@ -195,12 +201,12 @@ fn forecast(asked: &Asked, settings: &Settings, subjects: &[Subject], console: &
     Ok(true)
 }
 
-impl Asked {
+impl RequestedPlayer {
     /// Returns the player as results name it.
     fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let (name, details) = match self {
-            Asked::Model(model) => return model.entrant(subjects),
-            Asked::Planner(spec) => {
+            RequestedPlayer::Model(model) => return model.entrant(subjects),
+            RequestedPlayer::Planner(spec) => {
                 let budget = spec.budget().unwrap_or(Budget(args.budget));
                 let looks_ahead = !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil");
                 let name = match looks_ahead {
@@ -209,58 +215,62 @@ impl Asked {
                 };
                 (name, json!({ "planner": spec.name(), "budget": budget }))
             }
-            Asked::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
-            Asked::Human(prompts) => ("human".to_owned(), json!({ "prompt": prompts })),
-            Asked::Prompted(player, prompts) => (player.to_string(), json!({ "prompt": prompts })),
-            Asked::Process(process) => {
+            RequestedPlayer::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
+            RequestedPlayer::Human(prompts) => ("human".to_owned(), json!({ "prompt": prompts })),
+            RequestedPlayer::Prompted(player, prompts) => (player.to_string(), json!({ "prompt": prompts })),
+            RequestedPlayer::Process(process) => {
                 let command = process.command();
                 (format!("cmd:{command}"), json!({ "command": command, "protocol": PROTOCOL }))
             }
         };
         let aids = match self {
-            Asked::Human(prompts) | Asked::Prompted(_, prompts) => prompts.aids(),
+            RequestedPlayer::Human(prompts) | RequestedPlayer::Prompted(_, prompts) => prompts.aids(),
             _ => Vec::new(),
         };
         Ok(Entrant { name, mode: None, aids, details })
     }
 
-    fn ready(self, args: &Args, subjects: &[Subject]) -> Result<Ready, Failure> {
+    fn connect(self, args: &Args, subjects: &[Subject]) -> Result<ConnectedPlayer, Failure> {
         Ok(match self {
-            Asked::Planner(spec) => Ready::Planner(spec, Budget(args.budget)),
-            Asked::Replay(replay) => Ready::Replay(replay),
-            Asked::Human(prompts) => Ready::Human(model::prompters(subjects, &prompts)?),
-            Asked::Prompted(player, prompts) => {
-                Ready::Prompted(player, model::prompters(subjects, &prompts)?)
+            RequestedPlayer::Planner(spec) => ConnectedPlayer::Planner(spec, Budget(args.budget)),
+            RequestedPlayer::Replay(replay) => ConnectedPlayer::Replay(replay),
+            RequestedPlayer::Human(prompts) => ConnectedPlayer::Human(model::prompters(subjects, &prompts)?),
+            RequestedPlayer::Prompted(player, prompts) => {
+                ConnectedPlayer::Prompted(player, model::prompters(subjects, &prompts)?)
             }
-            Asked::Process(process) => Ready::Process(process.command().to_owned(), args.model.timeout),
-            Asked::Model(model) => Ready::Model(Box::new(model.connect(subjects)?)),
+            RequestedPlayer::Process(process) => {
+                ConnectedPlayer::Process(process.command().to_owned(), args.model.timeout)
+            }
+            RequestedPlayer::Model(model) => ConnectedPlayer::Model(Box::new(model.connect(subjects)?)),
         })
     }
 }
 
-impl Ready {
+impl ConnectedPlayer {
     fn contestant(&self, task: &Task<'_>) -> Contestant {
         match self {
-            Ready::Planner(spec, budget) => Contestant::Planner { spec: spec.clone(), budget: *budget },
-            Ready::Replay(replay) => Contestant::Agent(Box::new(replay.clone())),
-            Ready::Human(prompters) => {
+            ConnectedPlayer::Planner(spec, budget) => {
+                Contestant::Planner { spec: spec.clone(), budget: *budget }
+            }
+            ConnectedPlayer::Replay(replay) => Contestant::Agent(Box::new(replay.clone())),
+            ConnectedPlayer::Human(prompters) => {
                 Contestant::Agent(Box::new(Human::new(prompters[&task.subject.id].clone())))
             }
-            Ready::Prompted(player, prompters) => {
+            ConnectedPlayer::Prompted(player, prompters) => {
                 let prompter = prompters[&task.subject.id].clone();
                 Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter)))
             }
-            Ready::Process(command, timeout) => {
+            ConnectedPlayer::Process(command, timeout) => {
                 let process = process(command, *timeout).expect("it was read before");
                 Contestant::Agent(Box::new(process))
             }
-            Ready::Model(model) => model.contestant(task),
+            ConnectedPlayer::Model(model) => model.contestant(task),
         }
     }
 
     /// Charges the expenses of earlier runs of the evaluation.
     fn charge_logged(&self, evaluation: &Evaluation) -> Result<(), Failure> {
-        if let Ready::Model(model) = self {
+        if let ConnectedPlayer::Model(model) = self {
             for task in evaluation.tasks() {
                 model.caps.charge_logged(&evaluation.events(&task).map_err(failure)?);
             }
@@ -270,20 +280,20 @@ impl Ready {
 
     /// Returns the number of concurrent episodes, at most their number. Episodes of models wait most of the time.
     fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
-        let asked = match self {
-            Ready::Model(_) => args.model.concurrency.get(),
-            Ready::Human(_) => 1,
+        let requested = match self {
+            ConnectedPlayer::Model(_) => args.model.concurrency.get(),
+            ConnectedPlayer::Human(_) => 1,
             _ => {
                 args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
             }
         };
         let episodes = episodes.max(1);
-        if args.jobs.is_some() && asked > episodes {
+        if args.jobs.is_some() && requested > episodes {
             console.remark(format_args!(
-                "--jobs {asked}: there are {episodes} episodes, so {episodes} at a time"
+                "--jobs {requested}: there are {episodes} episodes, so {episodes} at a time"
             ));
         }
-        asked.min(episodes)
+        requested.min(episodes)
     }
 }
 
@@ -294,8 +304,8 @@ fn end_players() {
 }
 
 /// Refuses flags that would have no effect: a user who gives them expects one.
-fn refuse_idle_flags(args: &Args, asked: &Asked) -> Result<(), Failure> {
-    if matches!(asked, Asked::Model(_)) {
+fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
+    if matches!(requested, RequestedPlayer::Model(_)) {
         return match args.jobs {
             Some(_) => Err(Failure::malformed(
                 "--jobs does not apply to models; set the number of concurrent requests with --concurrency",
@@ -304,12 +314,12 @@ fn refuse_idle_flags(args: &Args, asked: &Asked) -> Result<(), Failure> {
         };
     }
     let player = args.player.as_deref().unwrap_or_default();
-    if let Some(flag) = args.model.idle_without_model() {
+    if let Some(flag) = args.model.unused_without_model() {
         return Err(Failure::malformed(format!(
             "{flag} applies to language models (--model) only; remove it for the player `{player}`"
         )));
     }
-    let is_shown_prompts = matches!(asked, Asked::Human(_) | Asked::Prompted(..));
+    let is_shown_prompts = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Prompted(..));
     if !is_shown_prompts && args.model.prompt.settings()? != PromptSettings::default() {
         return Err(Failure::malformed(format!(
             "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
@@ -319,9 +329,9 @@ fn refuse_idle_flags(args: &Args, asked: &Asked) -> Result<(), Failure> {
     Ok(())
 }
 
-fn asked(args: &Args) -> Result<Asked, Failure> {
+fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
     if let Some(id) = &args.model.model {
-        return Ok(Asked::Model(Box::new(model::Asked::new(id, &args.model)?)));
+        return Ok(RequestedPlayer::Model(Box::new(model::RequestedModel::new(id, &args.model)?)));
     }
     let Some(player) = args.player.as_deref() else {
         return Err(Failure::malformed(
@@ -331,23 +341,23 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
     };
     if let Some(file) = player.strip_prefix("replay:") {
         let episode = crate::episodes::read(Path::new(file))?;
-        return Ok(Asked::Replay(Replay::of(&episode)));
+        return Ok(RequestedPlayer::Replay(Replay::of(&episode)));
     }
     if player == "human" {
-        return Ok(Asked::Human(args.model.prompt.settings()?));
+        return Ok(RequestedPlayer::Human(args.model.prompt.settings()?));
     }
     if let Some(command) = player.strip_prefix("cmd:") {
         let process = process(command, args.model.timeout).map_err(Failure::malformed)?;
         #[cfg(unix)]
         process.find().map_err(Failure::malformed)?;
-        return Ok(Asked::Process(Box::new(process)));
+        return Ok(RequestedPlayer::Process(Box::new(process)));
     }
     if player == "reflex" || player.starts_with("planner:") {
         let player: PromptPlayer = player.parse().map_err(Failure::malformed)?;
-        return Ok(Asked::Prompted(player, args.model.prompt.settings()?));
+        return Ok(RequestedPlayer::Prompted(player, args.model.prompt.settings()?));
     }
     let name = if player == "nil" { "do-nothing" } else { player };
-    name.parse().map(Asked::Planner).map_err(Failure::malformed)
+    name.parse().map(RequestedPlayer::Planner).map_err(Failure::malformed)
 }
 
 /// Makes a player of a program.
@@ -374,9 +384,15 @@ fn file_name(name: &str) -> String {
 }
 
 /// Prints the result.
-fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, ready: &Ready) -> Answer {
-    let spent = match ready {
-        Ready::Model(model) => {
+fn print_results(
+    console: &Console,
+    folder: &Path,
+    entrant: &Entrant,
+    tally: &Tally,
+    connected: &ConnectedPlayer,
+) -> Answer {
+    let spent = match connected {
+        ConnectedPlayer::Model(model) => {
             let spent = model.caps.spent();
             Some((spent, model.is_priced.then(|| spent.cost.dollars())))
         }

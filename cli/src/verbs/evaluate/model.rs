@@ -223,7 +223,7 @@ impl Aid {
 
 impl ModelArgs {
     /// Returns the first given flag that has an effect on language models only.
-    pub(crate) fn idle_without_model(&self) -> Option<&'static str> {
+    pub(crate) fn unused_without_model(&self) -> Option<&'static str> {
         let given = [
             ("--base-url", self.base_url.is_some()),
             ("--key-variable", self.key_variable.is_some()),
@@ -286,7 +286,7 @@ pub(crate) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Resu
 }
 
 /// A requested model, not yet connected.
-pub(crate) struct Asked {
+pub(crate) struct RequestedModel {
     options: ModelOptions,
     settings: ModelSettings,
     prompts: PromptSettings,
@@ -294,7 +294,7 @@ pub(crate) struct Asked {
 }
 
 /// A model that is ready to play.
-pub(crate) struct Ready {
+pub(crate) struct ConnectedModel {
     model: Arc<dyn client::Model>,
     prompters: Prompters,
     decoding: Decoding,
@@ -328,13 +328,13 @@ pub(crate) struct Forecast {
     forbidden: Option<String>,
 }
 
-impl Asked {
-    pub(crate) fn new(model: &str, args: &ModelArgs) -> Result<Asked, Failure> {
+impl RequestedModel {
+    pub(crate) fn new(model: &str, args: &ModelArgs) -> Result<RequestedModel, Failure> {
         let options = args.options(model)?;
         let settings = client::settings(&options).map_err(failure)?;
         client::price(&options).map_err(failure)?;
         let (prompts, reasks) = (args.prompt.settings()?, args.reasks);
-        Ok(Asked { options, settings, prompts, reasks })
+        Ok(RequestedModel { options, settings, prompts, reasks })
     }
 
     /// Returns the player as results name it.
@@ -363,9 +363,9 @@ impl Asked {
     }
 
     /// Connects without sending a request: a missing key is reported before anything is written.
-    pub(crate) fn connect(&self, subjects: &[Subject]) -> Result<Ready, Failure> {
+    pub(crate) fn connect(&self, subjects: &[Subject]) -> Result<ConnectedModel, Failure> {
         let connection = client::connect(&self.options).map_err(failure)?;
-        Ok(Ready {
+        Ok(ConnectedModel {
             model: Arc::from(connection.model),
             prompters: prompters(subjects, &self.prompts)?,
             decoding: connection.settings.decoding,
@@ -428,7 +428,7 @@ fn history(steps: u64, turn: u64, room: u64) -> u64 {
     grown.saturating_add((steps - growing).saturating_mul(room))
 }
 
-impl Ready {
+impl ConnectedModel {
     pub(crate) fn contestant(&self, task: &Task<'_>) -> evaluation::Contestant {
         let prompter = self.prompters[&task.subject.id].clone();
         let samples = task.chance().child("answers", 0);
@@ -476,7 +476,7 @@ mod tests {
     use super::history;
 
     #[test]
-    fn earlier_turns_add_up_until_there_is_no_room() {
+    fn earlier_turns_accumulate_up_to_the_limit() {
         for (steps, turn, room) in
             [(0, 7, 30), (1, 7, 30), (5, 7, 30), (12, 7, 28), (12, 7, 30), (9, 0, 30), (9, 40, 30)]
         {

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The most names of games that a message lists.
-const LISTED: usize = 12;
+const MAX_LISTED: usize = 12;
 
 /// The largest card: one of a game with many levels has some hundred kilobytes.
 const MAX_CARD: usize = 1 << 24;
@@ -104,8 +104,8 @@ fn help_with(unknown: &str, games: &[Subject]) -> String {
     if let Some(near) = near.filter(|_| !unknown.is_empty()) {
         return format!("did you mean `{near}`?");
     }
-    let listed: Vec<&str> = games.iter().map(|game| game.id.as_str()).take(LISTED).collect();
-    let more = games.len().saturating_sub(LISTED);
+    let listed: Vec<&str> = games.iter().map(|game| game.id.as_str()).take(MAX_LISTED).collect();
+    let more = games.len().saturating_sub(MAX_LISTED);
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
     format!("there are {}{more}", listed.join(", "))
 }

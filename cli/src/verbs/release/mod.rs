@@ -1,7 +1,7 @@
 //! `arcade release`: mints a benchmark.
 
-mod bars;
 mod outline;
+mod progress;
 mod sealed;
 mod summary;
 
@@ -15,7 +15,7 @@ use crate::protected;
 use crate::shell;
 pub(crate) use crate::threads::in_pool;
 use crate::verbs::verify::failure;
-pub(crate) use bars::Bars;
+pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::read as read_secret_file;
 use serde_json::json;
 use snapshots::mint::{LotFolder, MintError, Plan, Shard, Shelf, lay_out, make_lots};
@@ -157,7 +157,7 @@ fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) 
         return shard.is_whole(plan, out).map_err(failure);
     }
     let root = if plan.is_sealed() { out.join("public") } else { out.to_owned() };
-    if paths::look(&root.join(MANIFEST_FILE))?.is_none() {
+    if paths::metadata(&root.join(MANIFEST_FILE))?.is_none() {
         return Ok(false);
     }
     let found = check_integrity(&root).map_err(failure)?;
@@ -187,7 +187,7 @@ fn mint(
         console.remark(format_args!("if interrupted, continue with: {}", args.resumed(out)));
     }
     interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
-    let bars = Bars::new(console);
+    let bars = ProgressBars::new(console);
     let started = Stopwatch::start();
     in_pool(args.jobs, || make_lots(plan, lots, &shelf, &bars))?.map_err(mint_failure)?;
     bars.finish();
@@ -209,19 +209,19 @@ fn mint(
         console.say(format_args!("once all shards are made: arcade merge SHARD... --out DIR{secret}"));
         return Ok(true);
     }
-    let finished = Finished { plan, secret, shelf: &shelf, out };
+    let finished = FinishedMint { plan, secret, shelf: &shelf, out };
     finished.publish(draft, Some(started.seconds()), args.jobs, console)
 }
 
 /// A release whose jobs are all finished.
-pub(crate) struct Finished<'a> {
+pub(crate) struct FinishedMint<'a> {
     pub(crate) plan: &'a Plan<'a>,
     pub(crate) secret: Option<&'a Secret>,
     pub(crate) shelf: &'a dyn Shelf,
     pub(crate) out: &'a Path,
 }
 
-impl Finished<'_> {
+impl FinishedMint<'_> {
     /// Lays the release out, publishes it and reports it.
     pub(crate) fn publish(
         &self,

@@ -27,7 +27,7 @@ pub(super) fn outline(
         false => lots.to_vec(),
     };
     let seconds = plan.seconds(&left);
-    let range = spread(seconds);
+    let range = estimate_range(seconds);
     let place = out.display().to_string();
     let taken = check_vacant(out).err();
     let there = made.iter().filter(|made| **made).count();
@@ -102,7 +102,7 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crat
 const SPREAD: f64 = 0.25;
 
 /// Returns the least and the greatest seconds to expect.
-fn spread(seconds: f64) -> (f64, f64) {
+fn estimate_range(seconds: f64) -> (f64, f64) {
     // An empty sum may be -0.
     let seconds = seconds.abs();
     (seconds * (1.0 - SPREAD), seconds * (1.0 + SPREAD))

@@ -118,11 +118,11 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
     };
     // If both parts lie in one folder, the error names the folder.
     for (folder, part, file) in [(public, "public", MANIFEST_FILE), (held, "held", "secret.json")] {
-        if paths::look(&folder.join(file))?.is_some() {
+        if paths::metadata(&folder.join(file))?.is_some() {
             continue;
         }
         let inside = folder.join(part);
-        let help = match paths::look(&inside.join(file))?.is_some() {
+        let help = match paths::metadata(&inside.join(file))?.is_some() {
             true => format!("did you mean {}?", shell::quoted(&inside)),
             false => format!("name the folder `{part}` that the release was minted into: {usage}"),
         };
@@ -167,7 +167,7 @@ mod tests {
 
     /// An empty secret would have to be removed by hand, because a secret is never overwritten.
     #[test]
-    fn what_cannot_be_written_is_not_left() {
+    fn partial_secrets_are_removed() {
         let home = tempfile::tempdir().expect("temporary folder");
         let place = home.path().join("new.secret.json");
         fs::write(&place, "").expect("written");

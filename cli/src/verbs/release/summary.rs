@@ -37,7 +37,7 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
         );
         let _ = writeln!(text, "  {:<width$}  {}", "", card.goal);
     }
-    if let Some(board) = showpiece(minted, out) {
+    if let Some(board) = example_board(minted, out) {
         let _ = writeln!(text, "\n{board}");
     }
     for bin in card.planned.iter().filter(|_| !card.planned.is_empty()) {
@@ -76,7 +76,7 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
 }
 
 /// Returns one new level as text, as an illustration.
-fn showpiece(minted: &Minted, out: &Path) -> Option<String> {
+fn example_board(minted: &Minted, out: &Path) -> Option<String> {
     let new = |card: &&Card| matches!(card.origin, Origin::Generated { .. });
     let card = minted.cards.iter().find(new).or_else(|| minted.cards.first())?;
     let last = card.levels.last()?;

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use validators::{Board, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Report, Verdict};
 
 /// The widest board to show.
-const WIDEST: usize = 100;
+const MAX_WIDTH: usize = 100;
 /// The most boards of a level to show.
 const MOST_BOARDS: usize = 2;
 /// The most pieces of evidence of one criterion to show.
@@ -27,7 +27,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
     let together = document
         .judgements
         .iter()
-        .find(|judgement| !judgement.finding.verdict.is_pass() && !is_not_asked(&judgement.finding));
+        .find(|judgement| !judgement.finding.verdict.is_pass() && !is_skipped(&judgement.finding));
     let of_game = match together {
         Some(judgement) => format!("; {}", obstacle(judgement)),
         None => String::new(),
@@ -85,7 +85,7 @@ fn reasons(text: &mut String, report: &Report, level: &LevelDocument<'_>, source
     for judgement in &report.judgements {
         criterion(text, judgement, source, &mut boards);
         if let Some(ladder) = &judgement.finding.ladder {
-            climbed(text, ladder);
+            ladder_results(text, ladder);
         }
     }
 }
@@ -96,7 +96,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let mark = match &finding.verdict {
         Verdict::Pass { .. } => "pass",
         Verdict::Fail { .. } => "FAIL",
-        Verdict::Unknown { .. } if is_not_asked(finding) => "-",
+        Verdict::Unknown { .. } if is_skipped(finding) => "-",
         Verdict::Unknown { .. } => "?",
     };
     let words = answer(criterion, finding);
@@ -110,12 +110,13 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
     // The reason repeats the first evidence.
-    let told = |seen: &&Evidence| {
+    let is_new = |seen: &&Evidence| {
         seen.rule.is_some() || *criterion == "winnable" || !words.contains(seen.text.as_str())
     };
     // The table of a ladder says the same as its evidence.
-    let told = |seen: &&Evidence| told(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
-    let shown: Vec<&Evidence> = finding.evidence.iter().filter(told).collect();
+    let is_shown =
+        |seen: &&Evidence| is_new(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
+    let shown: Vec<&Evidence> = finding.evidence.iter().filter(is_shown).collect();
     let most = if *criterion == "winnable" { MOST_LINKS } else { MOST_SEEN };
     for seen in shown.iter().take(most) {
         // A chain of causes is written link by link, each with its position.
@@ -137,11 +138,11 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
 }
 
 /// Returns `true` if a criterion was skipped because it does not apply.
-fn is_not_asked(finding: &validators::Finding) -> bool {
+fn is_skipped(finding: &validators::Finding) -> bool {
     finding.evidence.first().is_some_and(|seen| seen.text.starts_with("skipped"))
 }
 
-fn is_broken_off(seen: &Evidence) -> bool {
+fn is_budget_note(seen: &Evidence) -> bool {
     seen.text.ends_with("by the budget")
 }
 
@@ -153,13 +154,13 @@ fn answer(criterion: &str, finding: &validators::Finding) -> String {
         }
         Verdict::Pass { witness: None } => String::new(),
         Verdict::Fail { reason, .. } => reason.0.clone(),
-        Verdict::Unknown { .. } if is_not_asked(finding) => finding.evidence[0].text.clone(),
+        Verdict::Unknown { .. } if is_skipped(finding) => finding.evidence[0].text.clone(),
         Verdict::Unknown { spent: 0 } if criterion == "winnable" => {
             "no win found: the budget allows no search".to_owned()
         }
         Verdict::Unknown { spent: 0 } => "needs a win, and none was found".to_owned(),
         // Work that the budget broke off comes first.
-        Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_broken_off) => {
+        Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_budget_note) => {
             finding.evidence[0].text.clone()
         }
         Verdict::Unknown { spent } => match criterion {
@@ -211,7 +212,7 @@ fn moment(text: &mut String, Board { rows, legend }: &Board) {
 }
 
 fn board(text: &mut String, rows: &[String]) {
-    if rows.iter().all(|row| row.chars().count() <= WIDEST) {
+    if rows.iter().all(|row| row.chars().count() <= MAX_WIDTH) {
         for row in rows {
             let _ = writeln!(text, "       {}", row.trim_end());
         }
@@ -219,7 +220,7 @@ fn board(text: &mut String, rows: &[String]) {
 }
 
 /// Writes the results of the players of a ladder.
-fn climbed(text: &mut String, ladder: &Ladder) {
+fn ladder_results(text: &mut String, ladder: &Ladder) {
     let ease = ladder.ease.map_or(String::new(), |ease| format!(" (ease {ease:.2})"));
     let who = match ladder.difficulty {
         Difficulty::Unbeaten => " by the players of the ladder",

@@ -74,7 +74,7 @@ fn seal(compressed: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn packed_and_unpacked_a_release_is_the_same() {
+fn packing_round_trips() {
     let home = home();
     let release = small("mole", None);
     let folder = release.write_in(&home);
@@ -433,7 +433,7 @@ fn recipes_that_are_wide() {
 
 #[cfg(unix)]
 #[test]
-fn what_is_no_file_is_not_opened() {
+fn non_files_are_not_opened() {
     let home = home();
     let socket = home.path().join("mole.tar.zst");
     let _bound = std::os::unix::net::UnixListener::bind(&socket).expect("bound");

@@ -112,7 +112,7 @@ fn other_archives_are_left_alone() {
 }
 
 #[test]
-fn a_spoiled_link_is_named_and_not_followed() {
+fn broken_chain_links_are_reported_and_not_followed() {
     let home = home();
     let [_, second, third] = three().map(|release| release.write_in(&home));
     let all = [home.path().to_path_buf()];
@@ -125,7 +125,7 @@ fn a_spoiled_link_is_named_and_not_followed() {
 }
 
 #[test]
-fn two_histories_are_told() {
+fn conflicting_histories_are_reported() {
     let home = home();
     let [first, _, third] = three();
     let second = small("2027-01", Some(&first));
@@ -143,7 +143,7 @@ fn two_histories_are_told() {
 
 /// The follower of an absent rival is reported.
 #[test]
-fn the_follower_of_an_absent_rival_is_told() {
+fn followers_of_absent_rivals_are_reported() {
     let home = home();
     let [first, second, third] = three();
     let rival = small("2027-01-b", Some(&first));
@@ -169,7 +169,7 @@ fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
 
 /// A release must list what its parent holds, and repeat none of it.
 #[test]
-fn what_is_known_is_what_the_parent_holds() {
+fn known_content_equals_the_parents() {
     let first = small("2026-12", None);
     let honest = small("2027-01", Some(&first));
     let known = |alter: &dyn Fn(&mut serde_json::Value), words: &str| {

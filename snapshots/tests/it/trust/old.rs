@@ -75,7 +75,7 @@ fn the_chain_crosses_versions() {
 
 /// Old releases are checked like new ones, except for the replay.
 #[test]
-fn old_releases_are_tampered_with_in_vain() {
+fn tampered_old_releases_are_detected() {
     let home = super::small::home();
     let place = unpacked("other-semantics", &home);
     let integrity = check_integrity(&place).expect("readable");

@@ -46,7 +46,7 @@ fn every_file_and_the_game_are_proved() {
 }
 
 #[test]
-fn what_there_is_not_is_not_proved() {
+fn absent_items_have_no_proof() {
     let release = small("mole", None);
     for id in ["", "games", "games/", "MANIFEST", "MANIFEST.json", "../README.md"] {
         assert!(matches!(ItemProof::of(&release.manifest, id), Err(ProofError::NoSuchItem { .. })), "{id}");
@@ -126,7 +126,7 @@ fn every_character_counts() {
 
 /// The leaf of the manifest's header is under every root, but it is not a file.
 #[test]
-fn the_header_is_no_file_of_a_release() {
+fn the_header_is_not_a_file_of_a_release() {
     let release = small("mole", None);
     let leaves = release.manifest.leaves().expect("plain recipe");
     let header = leaves.iter().find(|leaf| leaf.path == "MANIFEST").expect("a leaf");

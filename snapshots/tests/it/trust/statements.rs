@@ -7,8 +7,8 @@ use serde_json::json;
 use snapshots::export::{Export, Format, export};
 use snapshots::released::Released;
 use snapshots::{
-    Bounds, COVERING, Draft, Kind, SECRET_FILE, Secret, Verification, Witnesses, canary, reveal, verify,
-    verify_within,
+    Bounds, COMMITS_TO_RECIPE_SINCE, Draft, Kind, SECRET_FILE, Secret, Verification, Witnesses, canary,
+    reveal, verify, verify_within,
 };
 use std::fs;
 
@@ -33,7 +33,7 @@ fn check(alter: impl FnOnce(&mut Small), problems: &[&str]) {
 }
 
 #[test]
-fn the_manifest_says_what_its_recipe_says() {
+fn manifest_and_recipe_agree() {
     check(|_| {}, &[]);
     check(|release| release.manifest.name = "2027-01".into(), &["its `name` is not that of its recipe"]);
     check(
@@ -111,7 +111,7 @@ fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
 /// A secret unrelated to the games, a recipe changed after the commitment, and a made-up secret are all detected
 /// without minting again.
 #[test]
-fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
+fn secrets_must_match_games_and_recipe() {
     check(
         |release| seal_with(release, &secret(7), &secret(8)),
         &["lvl0.json: its seed is not derived from the release's secret"],
@@ -132,7 +132,7 @@ fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
     check(
         |release| {
             seal_with(release, &pair, &pair);
-            release.manifest.generation = COVERING;
+            release.manifest.generation = COMMITS_TO_RECIPE_SINCE;
         },
         &["held/secret.json: it names no recipe"],
     );
@@ -140,7 +140,7 @@ fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
     check(
         |release| {
             seal_with(release, &pair, &secret(8));
-            release.manifest.generation = COVERING - 1;
+            release.manifest.generation = COMMITS_TO_RECIPE_SINCE - 1;
             release.manifest.format = 1;
             release.manifest.version = None;
         },
@@ -179,7 +179,7 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
 /// Problems of the whole release are detected before the reveal: the two parts are merged only if they belong
 /// together.
 #[test]
-fn two_parts_that_do_not_belong_together_are_not_joined() {
+fn mismatched_parts_are_not_joined() {
     let joined = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small)| {
         let home = home();
         let mut release = small("2026-12", None);
@@ -205,7 +205,7 @@ fn two_parts_that_do_not_belong_together_are_not_joined() {
 }
 
 #[test]
-fn what_is_revealed_is_replayed() {
+fn revealed_witnesses_are_replayed() {
     let home = home();
     let mut release = small("2026-12", None);
     seal(&mut release);
@@ -242,7 +242,7 @@ fn change_card(release: &mut Small, alter: impl Fn(&mut serde_json::Value)) {
 }
 
 #[test]
-fn semantics_that_never_were_are_no_excuse() {
+fn impossible_semantics_are_problems() {
     for semantics in [0, engine::SEMANTICS - 1, engine::SEMANTICS + 1, u32::MAX] {
         let expect =
             format!("MANIFEST.json: GENERATION {} never had SEMANTICS {semantics}", generators::GENERATION);
@@ -265,7 +265,7 @@ fn semantics_that_never_were_are_no_excuse() {
 }
 
 #[test]
-fn numbers_that_no_judge_finds() {
+fn impossible_card_numbers() {
     let of_level = |key: &'static str, value: serde_json::Value, words: &str| {
         complains(
             |release| change_card(release, |card| card["levels"][0][key] = value.clone()),
@@ -303,7 +303,7 @@ fn large_cards_are_not_read() {
 }
 
 #[test]
-fn a_release_tells_of_itself() {
+fn releases_describe_themselves() {
     for file in ["README.md", "CARD.json"] {
         complains(
             |release| release.files.retain(|(path, _)| path != file),
@@ -382,7 +382,7 @@ fn repeat_game(release: &mut Small, name: &str) {
 
 /// Identical slow levels cost a verifier the replay of one.
 #[test]
-fn what_is_there_twice_is_a_problem_and_replayed_once() {
+fn duplicates_are_problems_and_replayed_once() {
     let once = verified(&mut small("2026-12", None), &Bounds::RELEASE);
     assert!(once.work > 0);
     let mut release = small("2026-12", None);
@@ -444,7 +444,7 @@ fn no_witness_is_longer_than_an_episode_can_be() {
 }
 
 #[test]
-fn what_is_known_fits_the_parent() {
+fn known_content_matches_the_parent() {
     let first = small("2026-12", None);
     let second = small("2027-01", Some(&first));
     assert_eq!(verified(&mut second.clone(), &Bounds::RELEASE).problems, [""; 0]);
@@ -466,7 +466,7 @@ fn what_is_known_fits_the_parent() {
 
 /// Withheld solutions cannot be exported, not even as empty lists.
 #[test]
-fn no_solutions_of_what_is_sealed() {
+fn sealed_releases_export_no_solutions() {
     let sealed = |keep: bool| {
         let mut release = small("2026-12", None);
         seal(&mut release);

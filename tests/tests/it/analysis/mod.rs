@@ -1,6 +1,6 @@
 //! Tests of the analysis in play: its proofs hold on the corpus, and on the reference's games if they are available.
 
-mod invented;
+mod generated;
 
 use engine::analysis::{Attainable, Reach};
 use engine::{Action, Analysis, Game, Level, Outcome, Rect, Sampler, Seed, SpriteType, State};
@@ -201,11 +201,11 @@ fn the_goals_of_the_corpus_are_in_reach() {
 
 /// The same for generated games.
 #[test]
-fn sprites_of_invented_games_are_where_they_can_be() {
+fn sprites_of_generated_games_are_where_they_can_be() {
     let (mut played, mut narrow) = (0, 0);
     for number in 0..INVENTED {
         let seed = sweep::seed("invented").child("game", number);
-        let (source, text) = invented::game(&mut seed.child("text", 0).sampler());
+        let (source, text) = generated::game(&mut seed.child("text", 0).sampler());
         let Ok(game) = Game::from_source(&source) else { continue };
         let Ok(level) = game.level(&text) else { continue };
         let reach = Analysis::of(&game).reach(&level);

@@ -14,20 +14,20 @@ const UNREACHED: u16 = u16::MAX;
 
 /// The useful targets in one game, by avatar type.
 #[derive(Clone, Debug)]
-pub(crate) struct Compass {
+pub(crate) struct GoalGuide {
     digest: Digest,
     analysis: Analysis,
     /// The winning terminations that play can cause by numbers of sprites.
     goals: Vec<Goal>,
     /// For each avatar type, in the order of the analysis.
-    charts: Vec<Chart>,
+    targets: Vec<Targets>,
     /// Pairs of a pushable type and the type to push it onto.
     pushes: Vec<(SpriteType, SpriteType)>,
 }
 
 /// The roles of types for an avatar of one type.
 #[derive(Clone, Debug)]
-struct Chart {
+struct Targets {
     avatar: SpriteType,
     blocks: Vec<SpriteType>,
     targets: Vec<Target>,
@@ -42,20 +42,21 @@ struct Target {
 
 /// Buffers for the distance search.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Ways {
-    distances: Vec<u16>,
+pub(crate) struct Distances {
+    steps: Vec<u16>,
     queue: VecDeque<u32>,
 }
 
-impl Compass {
+impl GoalGuide {
     /// Derives the targets from the rules. Cost: that of [`Analysis::of`].
-    pub(crate) fn of(game: &Game) -> Compass {
+    pub(crate) fn of(game: &Game) -> GoalGuide {
         let analysis = Analysis::of(game);
         let wanted = |goal: &&Goal| {
             goal.win && goal.attainable == Attainable::InPlay && !goal.condition.types().is_empty()
         };
         let goals: Vec<Goal> = analysis.goals().iter().filter(wanted).cloned().collect();
-        let charts = analysis.avatars().iter().map(|avatar| chart(game, &analysis, avatar.stype)).collect();
+        let targets =
+            analysis.avatars().iter().map(|avatar| targets_of(game, &analysis, avatar.stype)).collect();
         let aims = analysis.aims();
         let mut pushes = Vec::new();
         for pushable in analysis.pushables() {
@@ -71,10 +72,10 @@ impl Compass {
                 }
             }
         }
-        Compass { digest: game.digest(), analysis, goals, charts, pushes }
+        GoalGuide { digest: game.digest(), analysis, goals, targets, pushes }
     }
 
-    /// Returns `true` if the compass was made for this game.
+    /// Returns `true` if the guide was made for this game.
     pub(crate) fn fits(&self, game: &Game) -> bool {
         self.digest == game.digest()
     }
@@ -95,22 +96,22 @@ impl Compass {
     }
 
     /// Returns the closeness of the nearest useful target, in [0, 1); 0 if there is none. Cost: O(cells + sprites).
-    pub(crate) fn closeness(&self, game: &Game, state: &State, ways: &mut Ways) -> f64 {
-        let Some(chart) = state.avatar_sprite_type().and_then(|avatar| self.chart(avatar)) else {
+    pub(crate) fn closeness(&self, game: &Game, state: &State, distances: &mut Distances) -> f64 {
+        let Some(targets) = state.avatar_sprite_type().and_then(|avatar| self.targets_of(avatar)) else {
             return 0.0;
         };
         let Some(place) = state.avatar_place() else { return 0.0 };
         let at = cell(state, place);
-        self.flood(chart, state, at, ways);
+        self.flood(targets, state, at, distances);
         let (columns, rows) = state.size();
         let mut nearest = f64::INFINITY;
         // The distance of a cell that cannot be entered is that of its nearest neighbour, plus one.
-        let mut consider = |place: (i32, i32), further: f64, ways: &Ways| {
+        let mut consider = |place: (i32, i32), further: f64, distances: &Distances| {
             let (x, y) = cell(state, place);
             let reached = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].into_iter().filter_map(|(dx, dy)| {
                 let (x, y) = (x + dx, y + dy);
                 let inside = (0..columns).contains(&x) && (0..rows).contains(&y);
-                let steps = inside.then(|| ways.distances[(y * columns + x) as usize])?;
+                let steps = inside.then(|| distances.steps[(y * columns + x) as usize])?;
                 (steps != UNREACHED).then(|| f64::from(steps) + f64::from(u8::from((dx, dy) != (0, 0))))
             });
             let straight = f64::from((x - at.0).abs() + (y - at.1).abs());
@@ -118,9 +119,9 @@ impl Compass {
             let steps = reached.fold(f64::INFINITY, f64::min).min(40.0 + 4.0 * straight);
             nearest = nearest.min(steps + further);
         };
-        for target in &chart.targets {
+        for target in &targets.targets {
             if target.needs.is_none_or(|(resource, amount)| game.held(state, resource) >= amount) {
-                state.places(target.stype).for_each(|place| consider(place, 0.0, ways));
+                state.places(target.stype).for_each(|place| consider(place, 0.0, distances));
             }
         }
         for &(pushed, onto) in &self.pushes {
@@ -132,28 +133,28 @@ impl Compass {
                 });
                 let apart = apart.fold(f64::INFINITY, f64::min);
                 if apart > 0.0 && apart.is_finite() {
-                    consider(place, 3.0 * apart, ways);
+                    consider(place, 3.0 * apart, distances);
                 }
             }
         }
         HALF_WAY / (HALF_WAY + nearest)
     }
 
-    fn chart(&self, avatar: SpriteType) -> Option<&Chart> {
-        self.charts.iter().find(|chart| chart.avatar == avatar)
+    fn targets_of(&self, avatar: SpriteType) -> Option<&Targets> {
+        self.targets.iter().find(|targets| targets.avatar == avatar)
     }
 
     /// Computes the steps from a cell to all others, around obstacles.
-    fn flood(&self, chart: &Chart, state: &State, from: (i32, i32), ways: &mut Ways) {
+    fn flood(&self, targets: &Targets, state: &State, from: (i32, i32), distances: &mut Distances) {
         let (columns, rows) = state.size();
-        let Ways { distances, queue } = ways;
+        let Distances { steps: distances, queue } = distances;
         distances.clear();
         distances.resize((columns * rows) as usize, UNREACHED);
         let index = |(x, y): (i32, i32)| {
             ((0..columns).contains(&x) && (0..rows).contains(&y)).then(|| (y * columns + x) as usize)
         };
         // Blocked cells count as reached during the flood.
-        for &stype in &chart.blocks {
+        for &stype in &targets.blocks {
             for place in state.places(stype) {
                 if let Some(at) = index(cell(state, place)) {
                     distances[at] = UNREACHED - 1;
@@ -186,7 +187,7 @@ fn cell(state: &State, (x, y): (i32, i32)) -> (i32, i32) {
     ((x + block / 2).div_euclid(block), (y + block / 2).div_euclid(block))
 }
 
-fn chart(game: &Game, analysis: &Analysis, avatar: SpriteType) -> Chart {
+fn targets_of(game: &Game, analysis: &Analysis, avatar: SpriteType) -> Targets {
     let aims = analysis.aims();
     let shots = analysis.avatars().iter().find(|known| known.stype == avatar);
     let shots = shots.map_or(&[][..], |known| &known.shots);
@@ -220,7 +221,7 @@ fn chart(game: &Game, analysis: &Analysis, avatar: SpriteType) -> Chart {
             targets.push(Target { stype, needs });
         }
     }
-    Chart { avatar, blocks, targets }
+    Targets { avatar, blocks, targets }
 }
 
 #[cfg(test)]
@@ -234,18 +235,18 @@ mod tests {
     #[track_caller]
     fn check(level: &str, actions: &[Action], progress: f64, steps: f64) {
         let game = Game::from_source(GAME).unwrap();
-        let compass = Compass::of(&game);
+        let guide = GoalGuide::of(&game);
         let mut state = game.start(&game.level(level).unwrap(), Seed::from_text("compass"));
         for &action in actions {
             game.step(&mut state, action);
         }
-        assert_eq!(compass.progress(&game, &state), progress);
-        let closeness = compass.closeness(&game, &state, &mut Ways::default());
+        assert_eq!(guide.progress(&game, &state), progress);
+        let closeness = guide.closeness(&game, &state, &mut Distances::default());
         assert_eq!(closeness, if steps.is_finite() { HALF_WAY / (HALF_WAY + steps) } else { 0.0 });
     }
 
     #[test]
-    fn keys_come_before_doors_and_ways_lead_around_walls() {
+    fn keys_come_before_doors_and_paths_avoid_walls() {
         // One hive must go, and the key is two steps away; the hive beside the bear is still useless.
         check("hb k", &[], -1.0, 2.0);
         // With the key, the hive is the target.

@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Runs a search for a number of candidates, `batch` at a time, evaluates them on all threads, and reports to it the
-/// evaluation that `told` makes of each result. Returns `false` if the search runs out of proposals early.
-pub(crate) fn strive<S: Search<Candidate: Sync>, L: Send>(
+/// evaluation that `evaluation_of` makes of each result. Returns `false` if the search runs out of proposals early.
+pub(crate) fn run_search<S: Search<Candidate: Sync>, L: Send>(
     search: &mut S,
     (looks, batch): (usize, usize),
     look: impl Fn(&S::Candidate) -> L + Sync,
-    mut told: impl FnMut(&S::Candidate, L) -> Evaluation,
+    mut evaluation_of: impl FnMut(&S::Candidate, L) -> Evaluation,
 ) -> bool {
     let mut asked = 0;
     while asked < looks {
@@ -23,7 +23,7 @@ pub(crate) fn strive<S: Search<Candidate: Sync>, L: Send>(
         asked += candidates.len();
         let looks: Vec<L> = candidates.par_iter().map(&look).collect();
         let evaluated = candidates.into_iter().zip(looks).map(|(candidate, look)| {
-            let evaluation = told(&candidate, look);
+            let evaluation = evaluation_of(&candidate, look);
             (candidate, evaluation)
         });
         search.tell(evaluated.collect());
@@ -110,7 +110,7 @@ mod tests {
     use generators::Axis;
 
     #[test]
-    fn what_is_picked_lies_far_from_what_is_taken() {
+    fn picked_candidates_lie_far_apart() {
         let mut archive = Archive::new(vec![Axis::new("place", (0.0, 10.0), 10)], 0);
         for place in [0u8, 4, 5, 9] {
             let objective = if place == 5 { 0.9 } else { 0.5 };

@@ -6,26 +6,26 @@ use snapshots::mint::{FrozenGame, Progress};
 use std::sync::Mutex;
 
 /// Receives the progress of the jobs.
-pub(crate) struct Bars<'a> {
+pub(crate) struct ProgressBars<'a> {
     bar: ProgressBar,
     console: &'a Console,
     started: Stopwatch,
-    said: Mutex<Said>,
+    last_report: Mutex<LastReport>,
 }
 
 /// The progress last reported where there is no bar.
 #[derive(Default)]
-struct Said {
+struct LastReport {
     lots: u64,
     found: u64,
     made: u64,
     tenths: u64,
 }
 
-impl<'a> Bars<'a> {
-    pub(crate) fn new(console: &'a Console) -> Bars<'a> {
+impl<'a> ProgressBars<'a> {
+    pub(crate) fn new(console: &'a Console) -> ProgressBars<'a> {
         let bar = console.progress(0, "minting");
-        Bars { bar, console, started: Stopwatch::start(), said: Mutex::default() }
+        ProgressBars { bar, console, started: Stopwatch::start(), last_report: Mutex::default() }
     }
 
     pub(crate) fn finish(&self) {
@@ -33,14 +33,14 @@ impl<'a> Bars<'a> {
     }
 }
 
-impl Progress for Bars<'_> {
+impl Progress for ProgressBars<'_> {
     fn begin(&self, lots: usize, made: usize) {
         self.bar.set_length(lots as u64);
         self.bar.set_position(made as u64);
         // Jobs finished earlier say nothing about the time of the rest.
         self.bar.reset_eta();
-        if let Ok(mut said) = self.said.lock() {
-            *said = Said { lots: lots as u64, found: made as u64, ..Said::default() };
+        if let Ok(mut last_report) = self.last_report.lock() {
+            *last_report = LastReport { lots: lots as u64, found: made as u64, ..LastReport::default() };
         }
         if made > 0 {
             self.console.remark(format_args!("{made} of {lots} jobs were finished before"));
@@ -52,16 +52,17 @@ impl Progress for Bars<'_> {
         let what = if titles.is_empty() { "nothing passed".to_owned() } else { titles.join(", ") };
         self.bar.set_message(format!("{name}: {what}"));
         self.bar.inc(1);
-        let Ok(mut said) = self.said.lock() else { return };
-        said.made += 1;
-        let open = said.lots - said.found;
-        let tenths = 10 * said.made / open.max(1);
+        let Ok(mut last_report) = self.last_report.lock() else { return };
+        last_report.made += 1;
+        let open = last_report.lots - last_report.found;
+        let tenths = 10 * last_report.made / open.max(1);
         // A few jobs are soon done.
-        if self.bar.is_hidden() && open >= 20 && tenths > said.tenths {
-            said.tenths = tenths;
-            let left = self.started.seconds() / said.made as f64 * (open - said.made) as f64;
-            let done = said.found + said.made;
-            self.console.remark(format_args!("{done} of {} jobs; about {:.0} s left", said.lots, left));
+        if self.bar.is_hidden() && open >= 20 && tenths > last_report.tenths {
+            last_report.tenths = tenths;
+            let left = self.started.seconds() / last_report.made as f64 * (open - last_report.made) as f64;
+            let done = last_report.found + last_report.made;
+            self.console
+                .remark(format_args!("{done} of {} jobs; about {:.0} s left", last_report.lots, left));
         }
     }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// Returns an isomorphic game: other names, characters, colours and order; parameters that are inherited or have
 /// their default value are written out.
-pub fn dressed(description: &Description, sampler: &mut Sampler) -> Description {
+pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description {
     let mut tree = description.clone();
     rename(&mut tree, sampler);
     redraw(&mut tree.sprites, sampler);

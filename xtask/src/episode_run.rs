@@ -53,7 +53,7 @@ fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
 }
 
 /// Random episodes of a game, one after the other.
-pub(crate) struct Course<'a> {
+pub(crate) struct EpisodeRun<'a> {
     subject: &'a Subject,
     episodes: u64,
     states: Vec<State>,
@@ -65,12 +65,12 @@ pub(crate) struct Course<'a> {
     pub(crate) digest: u128,
 }
 
-impl<'a> Course<'a> {
-    pub(crate) fn new(subject: &'a Subject) -> Course<'a> {
+impl<'a> EpisodeRun<'a> {
+    pub(crate) fn new(subject: &'a Subject) -> EpisodeRun<'a> {
         let mut sampler = Seed::from_text(&subject.name).sampler();
         let draws = (0..DRAWS).map(|_| sampler.bits() as u32).collect();
         let (states, digest) = (vec![subject.start.clone(); BATCH], 0);
-        Course { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
+        EpisodeRun { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
     }
 
     /// Lets the buffers of the states grow to the size that `ticks` of the first episodes need, outside the
@@ -92,13 +92,13 @@ impl<'a> Course<'a> {
     pub(crate) fn batch(&mut self, ticks: u64) {
         self.prepare();
         let clock = ThreadTime::now();
-        self.play_on_the_clock(ticks);
+        self.play_measured(ticks);
         self.time += clock.elapsed();
     }
 
     /// The measured part. Instruction counting selects it by the function's name.
     #[inline(never)]
-    fn play_on_the_clock(&mut self, ticks: u64) {
+    fn play_measured(&mut self, ticks: u64) {
         self.play(ticks);
     }
 
@@ -130,8 +130,8 @@ fn chain(digest: u128, hash: u128) -> u128 {
 /// The digest of the states of the first batch. It must equal the one of stepping with hashes from scratch.
 pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
     const TICKS: u64 = 300;
-    let mut course = Course::new(subject);
-    course.batch(TICKS);
+    let mut episode_run = EpisodeRun::new(subject);
+    episode_run.batch(TICKS);
     let mut digest = 0;
     let (mut ticks, mut draw) = (0, BATCH.wrapping_mul(7919));
     for episode in 0..BATCH {
@@ -142,7 +142,7 @@ pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
                 break;
             }
             let actions = subject.game.actions(&state);
-            let drawn = u64::from(course.draws[draw & (DRAWS - 1)]);
+            let drawn = u64::from(episode_run.draws[draw & (DRAWS - 1)]);
             draw += 1;
             subject.game.step_unoptimised(
                 &mut state,
@@ -153,7 +153,7 @@ pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
             ticks += 1;
         }
     }
-    if digest != course.digest {
+    if digest != episode_run.digest {
         bail!("{}: the running hash is not the hash from scratch", subject.name);
     }
     Ok(digest)
