@@ -75,7 +75,7 @@ pub(crate) fn level(
     let found = fitting.find(|(level, _)| level.digest() == episode.level);
     found.map(|(level, named)| (named, level)).ok_or_else(|| {
         Failure::malformed(format!(
-            "the episode was recorded on level {}, which is none of the {count} levels of {}; name the level's file after the game",
+            "the episode was recorded on level {}, which is not one of the {count} levels of {}; name the level's file after the game",
             episode.level, input.title
         ))
     })

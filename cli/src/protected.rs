@@ -18,7 +18,7 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
         let is_held = folder.ends_with("held") && is_release(&folder.with_file_name("public"));
         if is_held || (!is_paper && is_release(folder)) {
             return Err(Failure::malformed(format_args!(
-                "`{}` is in the release itself, {}, which would no longer verify: choose a place elsewhere",
+                "`{}` is in the release itself, {}, which would no longer verify: choose a folder outside it",
                 place.display(),
                 shell::quoted(folder)
             )));

@@ -25,9 +25,7 @@ pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + S
     }
     if let Some(jobs) = jobs.filter(|&jobs| jobs > MAX_THREADS) {
         WARNED.call_once(|| {
-            console::warn(format_args!(
-                "--jobs {jobs} is more than any work here can use: {MAX_THREADS} threads"
-            ));
+            console::warn(format_args!("--jobs {jobs} exceeds the limit: using {MAX_THREADS} threads"));
         });
     }
     let pool: Result<ThreadPool, _> =

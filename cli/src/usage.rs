@@ -91,7 +91,7 @@ fn in_words(error: &clap::Error) -> Option<String> {
         _ if is_negative => "the number must not be negative",
         IntErrorKind::PosOverflow => "the number is too large",
         IntErrorKind::Zero => "the number must be at least 1",
-        _ => "a whole number is wanted",
+        _ => "expected a whole number",
     };
     Some(format!(
         "error: invalid value '{value}' for '{flag}': {what}\n\nFor more information, try '--help'.\n"
@@ -184,7 +184,7 @@ pub(crate) mod tests {
         assert!(flags > 20, "{flags}");
         assert!(refused("arcade evaluate", "--tries", "0").contains("must be at least 1"));
         assert!(refused("arcade evaluate", "--timeout", "0").contains("0 is not in 1.."));
-        assert!(refused("arcade run", "--budget", "many").contains("a whole number is wanted"));
+        assert!(refused("arcade run", "--budget", "many").contains("expected a whole number"));
         assert!(refused("arcade run", "--budget", "99999999999999999999").contains("too large"));
     }
 

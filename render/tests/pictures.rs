@@ -104,7 +104,7 @@ fn pixels_are_the_same_on_every_machine() {
 }
 
 #[test]
-fn the_text_tells_everything() {
+fn the_text_describes_everything() {
     let (analysis, _, mut state) = board();
     let looks = Looks::of(&analysis);
     let symbols = Symbols::of(&analysis, &looks);

@@ -23,7 +23,7 @@ pub(crate) fn play(session: &mut Session, view: &View) -> Result<(), Failure> {
              `arcade render` draws boards and episodes without one",
         ));
     }
-    let failed = |error: std::io::Error| Failure::environment(error, "the terminal fails");
+    let failed = |error: std::io::Error| Failure::environment(error, "the terminal cannot be used");
     let (width, height) = terminal::size().map_err(failed)?;
     if width < MIN_SIZE.0 || height < MIN_SIZE.1 {
         return Err(Failure::malformed(format!(

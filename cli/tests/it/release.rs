@@ -289,7 +289,7 @@ fn more_shards_than_jobs_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let shard = ["release", "tiny", "--shard", "300/300", "--out", "x", "--dry-run"];
     let output = run(folder.path(), &shard, 0);
-    assert!(text(&output.stderr).contains("more shards than lots"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("more shards than jobs"), "{}", text(&output.stderr));
     assert!(text(&output.stdout).contains("in 0 to 0 seconds"), "{}", text(&output.stdout));
 }
 

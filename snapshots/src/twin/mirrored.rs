@@ -107,19 +107,19 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
         let Some(class) = game.class(stype) else { continue };
         let why = match class {
             C::PathChaser | C::PathAltChaser | C::RandomPathAltChaser => {
-                "takes its turns in a fixed order among ways of equal length"
+                "turns in a fixed order among paths of equal length"
             }
             C::BirdAvatar => "drifts to the right",
             C::ShootOnlyAvatar => "has a shot of its own for each arrow key",
             C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar => "is turned by angles",
-            C::WizardAvatar => "looks to the right",
+            C::WizardAvatar => "faces right",
             _ => continue,
         };
         return Err(format!("`{}` ({}) {why}", game.name(stype), class.name()));
     }
     for (_, line) in game.description().sprite_lines() {
         if line.params.iter().any(|param| param.key.text == "wMult" && param.value.text.parse() != Ok(1.0)) {
-            return Err(format!("`{}` is not as wide as a cell", line.name.text));
+            return Err(format!("`{}` has a width other than one cell", line.name.text));
         }
     }
     Ok(())
@@ -383,7 +383,7 @@ mod tests {
     fn games_without_a_mirror_image_are_refused() {
         let rower = "    rower > MovingAvatar\n";
         let boat = |text: &str| format!("    boat > {text}\n{rower}");
-        refuses(&boat("Immovable wMult=2"), "", "A b g\n", "`boat` is not as wide as a cell");
+        refuses(&boat("Immovable wMult=2"), "", "A b g\n", "`boat` has a width other than one cell");
         refuses(
             "    boat > Immovable\n    rower > BirdAvatar\n",
             "",
@@ -394,7 +394,7 @@ mod tests {
             &boat("PathChaser stype=rower"),
             "",
             "A b g\n",
-            "`boat` (PathChaser) takes its turns in a fixed order among ways of equal length",
+            "`boat` (PathChaser) turns in a fixed order among paths of equal length",
         );
     }
 

@@ -103,7 +103,7 @@ impl Checker<'_> {
             }
         };
         if card.id != folder || card.digest != game.digest() || !folder.ends_with(&game.digest().short()) {
-            wrong("card.json", "card, folder name and game do not belong together".to_owned());
+            wrong("card.json", "card, folder name and game do not match".to_owned());
         }
         if matches!(&card.origin, Origin::Generated { patterns, .. } if patterns.len() > MAX_PATTERNS) {
             wrong("card.json", format!("more than {MAX_PATTERNS} patterns"));
@@ -142,7 +142,7 @@ impl Checker<'_> {
             };
             levels += 1;
             if level_card.file != file || level_card.digest != level.digest() {
-                wrong(&file, "card and level do not belong together".to_owned());
+                wrong(&file, "card and level do not match".to_owned());
             }
             for what in numbers::problems(level_card, &level) {
                 wrong("card.json", format!("{file}: {what}"));

@@ -27,12 +27,15 @@ pub(crate) fn problems(card: &LevelCard, level: &Level) -> Vec<String> {
     let found = (level.columns(), level.rows());
     expect(
         sides == found,
-        format!("a board of {} by {}, where it has {} by {}", sides.0, sides.1, found.0, found.1),
+        format!("a board of {} by {}, but it has {} by {}", sides.0, sides.1, found.0, found.1),
     );
     expect(is_share(card.difficulty), format!("a difficulty of {}, which goes from 0 to 1", card.difficulty));
     let ticks = card.witness_ticks;
     let possible = 1..=MAX_TICKS as usize;
-    expect(possible.contains(&ticks), format!("a witness of {ticks} ticks, where 1 to {MAX_TICKS} can be"));
+    expect(
+        possible.contains(&ticks),
+        format!("a witness of {ticks} ticks, but only 1 to {MAX_TICKS} are possible"),
+    );
     expect(is_score(card.witness_score), format!("a score of {}, which no episode has", card.witness_score));
     if let Some(optimal) = card.optimal_ticks {
         expect(
@@ -59,7 +62,7 @@ fn is_score(number: f64) -> bool {
 fn of_rate(rate: &Rate) -> Option<String> {
     let Rate { wins, plays, interval, mean_score, .. } = *rate;
     if plays > MAX_PLAYS {
-        return Some(format!("has {plays} plays, and at most {MAX_PLAYS} can be"));
+        return Some(format!("has {plays} plays, more than {MAX_PLAYS}"));
     }
     if wins > plays {
         return Some(format!("has {wins} wins in {plays} plays"));
@@ -82,7 +85,7 @@ fn of_ladder(ladder: &Ladder) -> Vec<String> {
         problems.extend(of_rate(rate).map(|what| format!("`{name}` {what}")));
         let in_time = win_ticks.is_none_or(|ticks| (0.0..=f64::from(MAX_TICKS)).contains(&ticks));
         if win_ticks.is_some() != (rate.wins > 0) || !in_time {
-            problems.push(format!("`{name}` has no sensible mean of ticks for {} wins", rate.wins));
+            problems.push(format!("`{name}` has an impossible mean of ticks for {} wins", rate.wins));
         }
         if !reward.is_none_or(is_share) {
             problems.push(format!("`{name}` has a reward out of 0 to 1"));

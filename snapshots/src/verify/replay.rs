@@ -89,7 +89,7 @@ pub(super) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Mete
     }
     if actions > MAX_TICKS as usize {
         return Replayed::Wrong(format!(
-            "the episode has {actions} ticks, and no game more than {MAX_TICKS}"
+            "the episode has {actions} ticks, more than the limit of {MAX_TICKS}"
         ));
     }
     if episode.outcome != Outcome::Won {

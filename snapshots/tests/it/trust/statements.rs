@@ -274,7 +274,7 @@ fn impossible_card_numbers() {
     };
     of_level("difficulty", json!(1e300), "a difficulty of 1000");
     of_level("difficulty", json!(-0.5), "a difficulty of -0.5");
-    of_level("columns", json!(7), "a board of 7 by 3, where it has 6 by 3");
+    of_level("columns", json!(7), "a board of 7 by 3, but it has 6 by 3");
     of_level("optimal_ticks", json!(4), "a shortest win of 4 ticks beside a witness of 3");
     of_level("optimal_ticks", json!(0), "a shortest win of 0 ticks");
     of_level("witness_score", json!(1e300), "a score of 1000");
@@ -435,7 +435,10 @@ fn no_witness_is_longer_than_an_episode_can_be() {
     };
     complains(
         |release| lengthen(release, 2001),
-        &["lvl0.json: the episode has 2001 ticks", "a witness of 2001 ticks, where 1 to 2000 can be"],
+        &[
+            "lvl0.json: the episode has 2001 ticks",
+            "a witness of 2001 ticks, but only 1 to 2000 are possible",
+        ],
     );
     complains(|release| lengthen(release, 4), &["continues after its end in tick 3"]);
     let mut release = small("2026-12", None);
