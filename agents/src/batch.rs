@@ -21,8 +21,9 @@ const STEPS_OF_A_TASK: usize = 64;
 /// Episodes, one after the other in each lane:
 ///
 /// ```
-/// use agents::Batch;
-/// use engine::{Action, Game, Outcome, Seed};
+/// use infinite_arcade_agents::Batch;
+/// # use engine as infinite_arcade_engine;
+/// use infinite_arcade_engine::{Action, Game, Outcome, Seed};
 ///
 /// let game = Game::from_source("
 /// BasicGame
@@ -53,8 +54,9 @@ const STEPS_OF_A_TASK: usize = 64;
 /// Futures of one state, each with its own plan:
 ///
 /// ```
-/// # use agents::Batch;
-/// # use engine::{Action, Game, Seed};
+/// # use infinite_arcade_agents::Batch;
+/// # use engine as infinite_arcade_engine;
+/// # use infinite_arcade_engine::{Action, Game, Seed};
 /// # let game = Game::from_source("
 /// # BasicGame
 /// #     SpriteSet

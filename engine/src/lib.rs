@@ -4,7 +4,7 @@
 //! messages that help.
 //!
 //! ```
-//! use engine::{Action, Game, Outcome, Seed};
+//! use infinite_arcade_engine::{Action, Game, Outcome, Seed};
 //!
 //! let game = Game::from_source("
 //! BasicGame
@@ -23,7 +23,7 @@
 //! game.step(&mut state, Action::Right);
 //! assert_eq!(game.step(&mut state, Action::Right), Outcome::Won);
 //! assert_eq!(state.score(), 1.0);
-//! # Ok::<(), engine::Diagnostics>(())
+//! # Ok::<(), infinite_arcade_engine::Diagnostics>(())
 //! ```
 
 mod ablation;

@@ -45,8 +45,9 @@ impl Default for FeasibleInfeasibleConfig {
 /// asked for twice.
 ///
 /// ```
-/// use engine::{Digest, Sampler, Seed};
-/// use generators::{Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, Search, Variation};
+/// # use engine as infinite_arcade_engine;
+/// use infinite_arcade_engine::{Digest, Sampler, Seed};
+/// use infinite_arcade_generators::{Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, Search, Variation};
 ///
 /// /// Numbers below 1000, one decimal digit changed at a time.
 /// struct Digits;

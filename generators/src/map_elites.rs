@@ -39,8 +39,9 @@ impl Default for MapElitesConfig {
 /// from the pockets of empty cells next to filled ones: there the frontier can advance. No candidate is asked for twice.
 ///
 /// ```
-/// use engine::{Digest, Sampler, Seed};
-/// use generators::{Axis, Evaluation, MapElites, MapElitesConfig, Search, Variation};
+/// # use engine as infinite_arcade_engine;
+/// use infinite_arcade_engine::{Digest, Sampler, Seed};
+/// use infinite_arcade_generators::{Axis, Evaluation, MapElites, MapElitesConfig, Search, Variation};
 ///
 /// /// Rectangles of up to 20 × 20.
 /// struct Rectangles;

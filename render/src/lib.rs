@@ -5,8 +5,9 @@
 //! back-ends, [`svg`] and [`png`], draw the same shapes. The same state gives the same bytes on every machine.
 //!
 //! ```
-//! use engine::{Analysis, Game, Seed};
-//! use render::{Looks, Style};
+//! # use engine as infinite_arcade_engine;
+//! use infinite_arcade_engine::{Analysis, Game, Seed};
+//! use infinite_arcade_render::{Looks, Style};
 //!
 //! let game = Game::from_source("
 //! BasicGame
@@ -22,10 +23,10 @@
 //! ")?;
 //! let state = game.start(&game.level("A g")?, Seed::from_text("example"));
 //! let analysis = Analysis::of(&game);
-//! let picture = render::picture(&Looks::of(&analysis), &state, &Style::bare(24))?;
+//! let picture = infinite_arcade_render::picture(&Looks::of(&analysis), &state, &Style::bare(24))?;
 //! assert_eq!((picture.width(), picture.height()), (72, 24));
-//! assert!(render::svg(&picture).starts_with("<svg"));
-//! assert!(render::png(&picture)?.starts_with(b"\x89PNG"));
+//! assert!(infinite_arcade_render::svg(&picture).starts_with("<svg"));
+//! assert!(infinite_arcade_render::png(&picture)?.starts_with(b"\x89PNG"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -144,7 +144,7 @@ impl Table {
     /// Formats the table as Markdown, with its title as a heading and the note below.
     ///
     /// ```
-    /// use report::{Table, TableCell};
+    /// use infinite_arcade_report::{Table, TableCell};
     /// let mut table = Table::new("wins", "Wins", "", &["player", "win rate"]);
     /// table.push(vec![TableCell::text("mcts|100"), TableCell::number(0.5, 2)]);
     /// assert_eq!(table.to_markdown(), "## Wins\n\n| player | win rate |\n|:--|--:|\n| mcts\\|100 | 0.50 |\n");
@@ -172,7 +172,7 @@ impl Table {
     /// Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
     ///
     /// ```
-    /// use report::{Table, TableCell};
+    /// use infinite_arcade_report::{Table, TableCell};
     /// let mut table = Table::new("wins", "Wins", "", &["player", "win rate"]);
     /// let rate = TableCell::Interval { value: 0.25, low: 0.125, high: 0.5, digits: 2 };
     /// table.push(vec![TableCell::text("a, b"), rate]);
@@ -237,7 +237,7 @@ impl Table {
 /// Escapes text for Markdown, on one line: characters that could be read as markup, HTML, a link or the end of a cell.
 ///
 /// ```
-/// use report::in_markdown;
+/// use infinite_arcade_report::in_markdown;
 /// assert_eq!(in_markdown("gpt_5 <b>[a](b)</b> &lt; R & D"), "gpt_5 &lt;b&gt;\\[a\\](b)&lt;/b&gt; &amp;lt; R & D");
 /// ```
 pub fn in_markdown(text: &str) -> String {

@@ -10,13 +10,14 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let home = tempfile::tempdir()?;
 //! # let out = home.path().join("example");
-//! use engine::Digest;
-//! use snapshots::{Draft, Item, Kind, MANIFEST_FILE, Manifest, canary, check_integrity};
+//! # use engine as infinite_arcade_engine;
+//! use infinite_arcade_engine::Digest;
+//! use infinite_arcade_snapshots::{Draft, Item, Kind, MANIFEST_FILE, Manifest, canary, check_integrity};
 //!
 //! let text: &[u8] = b"BasicGame\n";
 //! let recipe = serde_json::json!({ "name": "example", "seed": 7 });
 //! let mut manifest = Manifest {
-//!     format: snapshots::FORMAT,
+//!     format: infinite_arcade_snapshots::FORMAT,
 //!     name: "example".into(),
 //!     kind: Kind::Open,
 //!     semantics: 1,

@@ -19,9 +19,10 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 /// If `level` is not within 0..1.
 ///
 /// ```
+/// use infinite_arcade_statistics::bootstrap;
 /// let scores = [3.0, 4.0, 5.0, 4.0, 6.0, 2.0, 4.0, 5.0];
 /// let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
-/// let interval = statistics::bootstrap(&scores, mean, 1000, 0.95, [7; 32]).unwrap();
+/// let interval = bootstrap(&scores, mean, 1000, 0.95, [7; 32]).unwrap();
 /// assert!(interval.low < 4.1 && 4.1 < interval.high);
 /// ```
 pub fn bootstrap<T: Copy>(
@@ -51,7 +52,8 @@ pub fn bootstrap<T: Copy>(
 /// If `level` is not within 0..1.
 ///
 /// ```
-/// let interval = statistics::bootstrap_difference(&[3.0, 4.0, 5.0], &[1.0, 2.0], 1000, 0.95, [7; 32]).unwrap();
+/// use infinite_arcade_statistics::bootstrap_difference;
+/// let interval = bootstrap_difference(&[3.0, 4.0, 5.0], &[1.0, 2.0], 1000, 0.95, [7; 32]).unwrap();
 /// assert!(interval.low >= 1.0 && interval.high <= 4.0);
 /// ```
 pub fn bootstrap_difference(

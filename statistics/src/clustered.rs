@@ -13,9 +13,10 @@ use crate::wilson::Interval;
 /// If `level` is not within 0..1.
 ///
 /// ```
+/// use infinite_arcade_statistics::clustered_mean;
 /// // One game is always won, the other never: nothing is known of a third.
 /// let games = [vec![1.0; 25], vec![0.0; 25]];
-/// let interval = statistics::clustered_mean(&games, 999, 0.95, [7; 32]).unwrap();
+/// let interval = clustered_mean(&games, 999, 0.95, [7; 32]).unwrap();
 /// assert_eq!((interval.low, interval.high), (0.0, 1.0));
 /// ```
 pub fn clustered_mean<C: AsRef<[f64]>>(
@@ -42,8 +43,9 @@ pub fn clustered_mean<C: AsRef<[f64]>>(
 /// If `level` is not within 0..1.
 ///
 /// ```
+/// use infinite_arcade_statistics::clustered_difference;
 /// let games = [(vec![1.0, 1.0], vec![0.0, 1.0]), (vec![0.0, 1.0], vec![0.0, 0.0])];
-/// let interval = statistics::clustered_difference(&games, 999, 0.95, [7; 32]).unwrap();
+/// let interval = clustered_difference(&games, 999, 0.95, [7; 32]).unwrap();
 /// assert_eq!((interval.low, interval.high), (0.5, 0.5));
 /// ```
 pub fn clustered_difference<C: AsRef<[f64]>>(

@@ -10,7 +10,8 @@
 /// If a value is not a proportion.
 ///
 /// ```
-/// assert!((statistics::cohens_h(0.64, 0.16) - 1.0315567).abs() < 1e-7);
+/// use infinite_arcade_statistics::cohens_h;
+/// assert!((cohens_h(0.64, 0.16) - 1.0315567).abs() < 1e-7);
 /// ```
 pub fn cohens_h(p: f64, q: f64) -> f64 {
     angle(p) - angle(q)

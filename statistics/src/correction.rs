@@ -8,7 +8,8 @@
 /// If a value is not a probability.
 ///
 /// ```
-/// assert_eq!(statistics::benjamini_hochberg(&[0.01, 0.5, 0.02]), [0.03, 0.5, 0.03]);
+/// use infinite_arcade_statistics::benjamini_hochberg;
+/// assert_eq!(benjamini_hochberg(&[0.01, 0.5, 0.02]), [0.03, 0.5, 0.03]);
 /// ```
 pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
     assert!(p.iter().all(|p| (0.0..=1.0).contains(p)), "not all of {p:?} are probabilities");
@@ -31,7 +32,8 @@ pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
 /// If a value is not a probability.
 ///
 /// ```
-/// assert_eq!(statistics::bonferroni(&[0.125, 0.5, 0.25]), [0.375, 1.0, 0.75]);
+/// use infinite_arcade_statistics::bonferroni;
+/// assert_eq!(bonferroni(&[0.125, 0.5, 0.25]), [0.375, 1.0, 0.75]);
 /// ```
 pub fn bonferroni(p: &[f64]) -> Vec<f64> {
     assert!(p.iter().all(|p| (0.0..=1.0).contains(p)), "not all of {p:?} are probabilities");

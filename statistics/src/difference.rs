@@ -11,7 +11,8 @@ use crate::wilson::{Interval, wilson};
 /// Those of [`wilson`].
 ///
 /// ```
-/// let interval = statistics::difference([16, 4], [25, 25], statistics::Z95);
+/// use infinite_arcade_statistics::{Z95, difference};
+/// let interval = difference([16, 4], [25, 25], Z95);
 /// assert!(interval.low > 0.2 && interval.high < 0.7); // 48 points apart: the first wins more.
 /// ```
 pub fn difference(successes: [u64; 2], trials: [u64; 2], z: f64) -> Interval {

@@ -19,8 +19,9 @@ pub(crate) const SAME: f64 = 1.0 + 1e-7;
 /// If a group has more successes than trials.
 ///
 /// ```
+/// use infinite_arcade_statistics::fisher;
 /// // 16 wins of 25 against 4 of 25.
-/// assert!((statistics::fisher([16, 4], [25, 25]) - 0.001208589982).abs() < 1e-11);
+/// assert!((fisher([16, 4], [25, 25]) - 0.001208589982).abs() < 1e-11);
 /// ```
 pub fn fisher(successes: [u64; 2], trials: [u64; 2]) -> f64 {
     let tables = Tables::of(successes, trials);

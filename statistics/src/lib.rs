@@ -7,7 +7,7 @@
 //! whose last digits may differ between machines.
 //!
 //! ```
-//! use statistics::{Summary, Z95, wilson};
+//! use infinite_arcade_statistics::{Summary, Z95, wilson};
 //!
 //! let interval = wilson(19, 25, Z95);
 //! assert!(interval.low > 0.56 && interval.high < 0.89);

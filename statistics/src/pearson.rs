@@ -7,7 +7,8 @@ use crate::student::student_p;
 /// equal, or if one is not finite. Cost: O(n).
 ///
 /// ```
-/// assert_eq!(statistics::pearson(&[(1.0, 5.0), (2.0, 7.0), (3.0, 9.0)]), Some(1.0));
+/// use infinite_arcade_statistics::pearson;
+/// assert_eq!(pearson(&[(1.0, 5.0), (2.0, 7.0), (3.0, 9.0)]), Some(1.0));
 /// ```
 pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
     if pairs.len() < 2 || pairs.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
@@ -34,7 +35,8 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
 /// If `r` is not within −1..=1.
 ///
 /// ```
-/// assert!((statistics::correlation_p(0.8830926, 8).unwrap() - 0.00365248).abs() < 1e-7);
+/// use infinite_arcade_statistics::correlation_p;
+/// assert!((correlation_p(0.8830926, 8).unwrap() - 0.00365248).abs() < 1e-7);
 /// ```
 pub fn correlation_p(r: f64, pairs: usize) -> Option<f64> {
     assert!((-1.0..=1.0).contains(&r), "{r} is no correlation");

@@ -29,8 +29,9 @@ impl Power {
     /// trials.
     ///
     /// ```
+    /// use infinite_arcade_statistics::Power;
     /// // 25 episodes a side show differences of h = 0.79, about 0.1 against 0.44.
-    /// let h = statistics::Power::default().detectable_h(25);
+    /// let h = Power::default().detectable_h(25);
     /// assert!((h - 0.7924).abs() < 1e-4);
     /// ```
     pub fn detectable_h(&self, trials: u64) -> f64 {
@@ -44,7 +45,8 @@ impl Power {
     /// If `base` is not a proportion.
     ///
     /// ```
-    /// let [worse, better] = statistics::Power::default().detectable(25, 0.1);
+    /// use infinite_arcade_statistics::Power;
+    /// let [worse, better] = Power::default().detectable(25, 0.1);
     /// assert_eq!(worse, None);
     /// assert!((better.unwrap() - 0.4328).abs() < 1e-3);
     /// ```
@@ -62,7 +64,8 @@ impl Power {
     /// If one is not a proportion.
     ///
     /// ```
-    /// assert_eq!(statistics::Power::default().needed(0.5, 0.7), Some(93));
+    /// use infinite_arcade_statistics::Power;
+    /// assert_eq!(Power::default().needed(0.5, 0.7), Some(93));
     /// ```
     pub fn needed(&self, p: f64, q: f64) -> Option<u64> {
         let h = cohens_h(p, q);
@@ -83,8 +86,9 @@ impl Power {
 /// If a rate is not a proportion.
 ///
 /// ```
+/// use infinite_arcade_statistics::fisher_power;
 /// // Five episodes a side: even a player who always wins is told from one of 0.2 only in 74 of 100 evaluations.
-/// let power = statistics::fisher_power([1.0, 0.2], [5, 5], 0.05);
+/// let power = fisher_power([1.0, 0.2], [5, 5], 0.05);
 /// assert!((power - 0.73728).abs() < 1e-12);
 /// ```
 pub fn fisher_power(rates: [f64; 2], trials: [u64; 2], alpha: f64) -> f64 {

@@ -8,7 +8,8 @@
 /// If `share` is not within 0..=1.
 ///
 /// ```
-/// assert_eq!(statistics::quantile(&[4.0, 1.0, 2.0], 0.25), Some(1.5));
+/// use infinite_arcade_statistics::quantile;
+/// assert_eq!(quantile(&[4.0, 1.0, 2.0], 0.25), Some(1.5));
 /// ```
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     assert!((0.0..=1.0).contains(&share), "the share is {share}");

@@ -6,7 +6,8 @@
 /// number. Cost: O(n log n).
 ///
 /// ```
-/// assert_eq!(statistics::spearman(&[(1.0, 5.0), (2.0, 6.0), (3.0, 9.0)]), Some(1.0));
+/// use infinite_arcade_statistics::spearman;
+/// assert_eq!(spearman(&[(1.0, 5.0), (2.0, 6.0), (3.0, 9.0)]), Some(1.0));
 /// ```
 pub fn spearman(pairs: &[(f64, f64)]) -> Option<f64> {
     if pairs.len() < 2 || pairs.iter().any(|(x, y)| x.is_nan() || y.is_nan()) {

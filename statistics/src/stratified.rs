@@ -36,7 +36,7 @@ pub struct Stratified {
 /// If a group has more successes than trials.
 ///
 /// ```
-/// use statistics::{Stratum, stratified};
+/// use infinite_arcade_statistics::{Stratum, stratified};
 /// // On each of five levels one wins all five episodes, the other one of them.
 /// let levels = [Stratum { successes: [5, 1], trials: [5, 5] }; 5];
 /// let test = stratified(&levels);

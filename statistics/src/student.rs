@@ -12,7 +12,8 @@ use statrs::function::beta::beta_reg;
 /// If `t` is not a number or `df` is not positive and finite.
 ///
 /// ```
-/// assert!((statistics::student_p(2.83, 400.0) - 0.00488943).abs() < 1e-8);
+/// use infinite_arcade_statistics::student_p;
+/// assert!((student_p(2.83, 400.0) - 0.00488943).abs() < 1e-8);
 /// ```
 pub fn student_p(t: f64, df: f64) -> f64 {
     assert!(!t.is_nan(), "t is no number");

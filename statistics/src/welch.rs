@@ -18,7 +18,8 @@ pub struct Welch {
 /// neither side varies: then there is no standard error. Cost: O(n).
 ///
 /// ```
-/// let test = statistics::welch(&[0.2, 0.4, 0.5, 0.6, 0.9], &[0.1, 0.1, 0.2, 0.3, 0.3, 0.4, 0.8]).unwrap();
+/// use infinite_arcade_statistics::welch;
+/// let test = welch(&[0.2, 0.4, 0.5, 0.6, 0.9], &[0.1, 0.1, 0.2, 0.3, 0.3, 0.4, 0.8]).unwrap();
 /// assert!((test.t - 1.396501).abs() < 1e-6 && (test.p - 0.198555).abs() < 1e-6);
 /// ```
 pub fn welch(ours: &[f64], theirs: &[f64]) -> Option<Welch> {

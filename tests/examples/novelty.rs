@@ -1,5 +1,8 @@
 //! Prints the tables of `docs/novelty.md`: `cargo run -p infinite-arcade-tests --example novelty`.
 
+extern crate infinite_arcade_engine as engine;
+extern crate infinite_arcade_validators as validators;
+
 use engine::{Game, Seed};
 use std::io::Write;
 use std::path::Path;

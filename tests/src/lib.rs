@@ -3,6 +3,8 @@
 //!
 //! The tests themselves are in `tests/tests/it/`; `tidy/` there holds the rules that can be checked automatically.
 
+extern crate infinite_arcade_engine as engine;
+
 pub mod any_game;
 pub mod choices;
 pub mod hostile;

@@ -1,5 +1,7 @@
 //! The engine against the test vectors of the specification, and under hostile input.
 
+extern crate infinite_arcade_engine as engine;
+
 mod any_parameters;
 mod as_reference;
 mod board;

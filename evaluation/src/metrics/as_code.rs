@@ -10,8 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// last action. Rows of a text are joined by line feeds.
 ///
 /// ```
-/// use engine::Action::{Left, Right, Up};
-/// use evaluation::metrics::flags_as_code;
+/// # use engine as infinite_arcade_engine;
+/// use infinite_arcade_engine::Action::{Left, Right, Up};
+/// use infinite_arcade_evaluation::metrics::flags_as_code;
 /// let texts = ["wa..w", "w.a.w", "wa..w"].map(str::to_owned);
 /// assert_eq!(flags_as_code(&texts, &[Right, Left, Up], &[0.0, 5.0, 0.0]), [true, false]);
 /// ```

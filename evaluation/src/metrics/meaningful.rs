@@ -32,7 +32,7 @@ pub enum Effect {
 /// If `places` does not have one element more than `effects`.
 ///
 /// ```
-/// use evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
+/// use infinite_arcade_evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
 /// // Back and forth, into a wall, and on to where a box stands.
 /// let places = [0, 1, 0, 0, 1, 2].map(Some);
 /// let flags = meaningful(&[Moved, Moved, Nothing, Moved, Acted], &places);

@@ -34,7 +34,7 @@ impl Movement {
     /// If `cells` does not have one element more than `flags`.
     ///
     /// ```
-    /// use evaluation::metrics::Movement;
+    /// use infinite_arcade_evaluation::metrics::Movement;
     /// let movement = Movement::of(&[true, false], &[Some((1, 1)), Some((2, 1)), Some((2, 1))]);
     /// assert_eq!((movement.bump_rate, movement.unique_cells), (Some(0.5), Some(2)));
     /// ```

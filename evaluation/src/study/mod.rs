@@ -1,7 +1,7 @@
 //! A study: the combined results of several players, and every table of a report as plain data.
 //!
 //! ```
-//! use evaluation::study::{Player, Study};
+//! use infinite_arcade_evaluation::study::{Player, Study};
 //!
 //! // Players with the metrics of their episodes; here there are no episodes yet.
 //! let study = Study::new(vec![(Player::reference("random"), Vec::new())], Vec::new());

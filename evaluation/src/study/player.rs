@@ -38,7 +38,7 @@ impl Player {
     /// Returns the name with mode and aids, which is unique within a study.
     ///
     /// ```
-    /// use evaluation::study::{CONTEXTUAL, Player};
+    /// use infinite_arcade_evaluation::study::{CONTEXTUAL, Player};
     /// let player = Player { aids: vec!["coordinates".to_owned()], ..Player::model("a-model", CONTEXTUAL) };
     /// assert_eq!(player.label(), "a-model (contextual, coordinates)");
     /// ```

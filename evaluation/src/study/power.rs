@@ -25,7 +25,8 @@ pub struct PowerRow {
 /// comparisons detects less.
 ///
 /// ```
-/// let rows = evaluation::study::power(5, 5, 30);
+/// use infinite_arcade_evaluation::study::power;
+/// let rows = power(5, 5, 30);
 /// assert_eq!(rows.iter().map(|row| row.episodes).collect::<Vec<u64>>(), [5, 25, 150]);
 /// assert!(rows[1].from_tenth.is_some_and(|rate| (rate - 0.43).abs() < 0.01));
 /// ```

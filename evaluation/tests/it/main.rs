@@ -1,5 +1,7 @@
 //! Evaluations from prompts to tables, against scripted servers and players.
 
+extern crate infinite_arcade_evaluation as evaluation;
+
 mod boards;
 mod games;
 mod misbehaving_servers;

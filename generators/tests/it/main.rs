@@ -1,4 +1,6 @@
 //! Searches and measures of the generators.
 
+extern crate infinite_arcade_generators as generators;
+
 mod evolution;
 mod measures;

@@ -1,9 +1,15 @@
 //! Properties that span crates, and the tidiness of the tree.
 
+extern crate infinite_arcade_agents as agents;
+extern crate infinite_arcade_engine as engine;
+extern crate infinite_arcade_generators as generators;
+extern crate infinite_arcade_render as render;
+extern crate infinite_arcade_validators as validators;
+
 mod allocations;
 mod analysis;
 mod batch;
-mod engine;
+mod corpus;
 mod faults;
 mod game_measures;
 mod hostile;

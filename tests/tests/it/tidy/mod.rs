@@ -503,7 +503,7 @@ fn is_declaration(line: &str) -> bool {
     let item = line.strip_prefix("pub(crate) ").or_else(|| line.strip_prefix("pub ")).unwrap_or(line);
     let module = item.starts_with("mod ") && (item.ends_with(';') || item.ends_with("{}"));
     let constant = ["const SEMANTICS:", "const GENERATION:"].iter().any(|start| item.starts_with(start));
-    let starts = ["//", "#[", "#![", "use "];
+    let starts = ["//", "#[", "#![", "use ", "extern crate "];
     continued || module || constant || starts.iter().any(|start| item.starts_with(start))
 }
 
