@@ -258,7 +258,7 @@ mod tests {
             budget: 20_000,
             ..Criteria::full()
         };
-        let report = Panel::new(&criteria).judge_game(&game, &[level], Seed::from_text("ablation"));
+        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
         report
             .judgements
             .into_iter()
@@ -288,7 +288,7 @@ mod tests {
         let game = Game::from_source(&deadly).unwrap();
         let level = game.level("wwwwwww\nwA m pw\nw  f  w\nwwwwwww\n").unwrap();
         let criteria = Criteria { budget: 20_000, ladder_calls: 20_000, ..Criteria::full() };
-        let report = Panel::new(&criteria).judge_game(&game, &[level], Seed::from_text("ablation"));
+        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
         let matter = &report.judgements[1].finding;
         assert!(matter.verdict.is_pass(), "{matter:?}");
     }

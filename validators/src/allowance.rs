@@ -133,7 +133,7 @@ mod tests {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level(LEVEL).unwrap();
         let criteria = Criteria { budget: calls, ..Criteria::full() };
-        let panel = Panel::bounded(&criteria, calls);
+        let panel = Panel::bounded(&criteria, calls).unwrap();
         let report = panel.judge(&game, &level, Seed::from_text("allowance"));
         let together = panel.judge_together(
             &game,

@@ -8,8 +8,8 @@ use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::recording::{Recorded, Usage, explore};
 use crate::too_soon;
 use crate::{
-    Case, Criteria, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom, Reachable, Readable,
-    RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
+    Case, Criteria, CriteriaError, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom,
+    Reachable, Readable, RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
 };
 use agents::PortfolioConfig;
 use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
@@ -144,10 +144,11 @@ impl Report {
 impl Panel {
     /// Returns the panel of these criteria.
     ///
-    /// # Panics
-    /// If they name unknown players or criteria; see [`Criteria::check`].
-    pub fn new(criteria: &Criteria) -> Panel {
-        Panel::with_allowance(criteria, None)
+    /// # Errors
+    /// The first of their values that is out of its range; see [`Criteria::check`].
+    pub fn new(criteria: &Criteria) -> Result<Panel, CriteriaError> {
+        criteria.check()?;
+        Ok(Panel::with_allowance(criteria, None))
     }
 
     /// Like [`Panel::new`], with a number of forward-model calls for each level, and for the game over all its
@@ -155,16 +156,17 @@ impl Panel {
     /// minimum for an answer. Work that does not fit is broken off, and its answer is unknown. A tick with unusually
     /// much work counts as several calls.
     ///
-    /// # Panics
-    /// Those of [`Panel::new`].
-    pub fn bounded(criteria: &Criteria, calls: u64) -> Panel {
-        Panel { bound: Some((criteria.clone(), calls)), ..Panel::new(criteria) }
+    /// # Errors
+    /// As [`Panel::new`].
+    pub fn bounded(criteria: &Criteria, calls: u64) -> Result<Panel, CriteriaError> {
+        Ok(Panel { bound: Some((criteria.clone(), calls)), ..Panel::new(criteria)? })
     }
 
+    /// The panel of criteria that were checked.
     fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>) -> Panel {
         let bounded = allowance.map(|allowance| allowance.bounds(criteria));
         let c = bounded.as_ref().unwrap_or(criteria);
-        let players = c.ladder_config().expect("the criteria name planners that exist");
+        let players = c.ladder_config().expect("the criteria were checked");
         let play_calls = allowance.map_or(u64::MAX, |allowance| allowance.ladder_play(players.round_plays()));
         let [idle, random] = match allowance {
             None => [usize::MAX; 2],
@@ -400,7 +402,7 @@ mod tests {
         let game = Game::from_source(game).unwrap();
         let level = game.level(level).unwrap();
         let criteria = Criteria { budget: 100_000, ..Criteria::default() };
-        let report = Panel::new(&criteria).judge(&game, &level, Seed::from_text("panel"));
+        let report = Panel::new(&criteria).unwrap().judge(&game, &level, Seed::from_text("panel"));
         let word = |verdict: &Verdict| match verdict {
             Verdict::Pass { .. } => "pass",
             Verdict::Fail { .. } => "fail",
@@ -475,7 +477,8 @@ mod tests {
         for (part, fault, reason) in faults {
             let game = Game::from_source(&GAME.replace(part, fault)).unwrap();
             let level = game.level(GOOD).unwrap();
-            let report = Panel::new(&Criteria::default()).screen(&game, &level, Seed::from_text("over"));
+            let report =
+                Panel::new(&Criteria::default()).unwrap().screen(&game, &level, Seed::from_text("over"));
             assert_eq!(report.judgements.len(), 1);
             let obstacle = report.first_obstacle().unwrap();
             assert_eq!(obstacle.criterion, "well-formed");

@@ -190,7 +190,7 @@ mod tests {
             held_out: names(&[players[1]]),
             ..Criteria::default()
         };
-        let report = Panel::new(&criteria).judge_game(&game, &[level], Seed::from_text("overall"));
+        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("overall"));
         let finding = &report.judgements[0].finding;
         assert_eq!(finding.verdict.is_pass(), passes, "{finding:?}");
         assert!(finding.evidence.iter().any(|seen| seen.text.contains(words)), "{finding:?}");

@@ -70,7 +70,7 @@ mod tests {
     fn a_timeout_before_the_first_win_is_named_as_the_cause() {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level("wwwwwwwwww\nwA.....g.w\nwwwwwwwwww\n".replace('.', " ").as_str()).unwrap();
-        let report = Panel::new(&Criteria::default()).judge(&game, &level, Seed::from_text("soon"));
+        let report = Panel::new(&Criteria::default()).unwrap().judge(&game, &level, Seed::from_text("soon"));
         let finding = report.finding("winnable").unwrap();
         let Verdict::Fail { reason, .. } = &finding.verdict else { panic!("{finding:?}") };
         let meant = "the level cannot be won before `Timeout limit=4 win=False` ends the game; without it, it is won in 6 ticks";
@@ -80,7 +80,7 @@ mod tests {
         // With enough time the same level can be won.
         let game = Game::from_source(&GAME.replace("limit=4", "limit=40")).unwrap();
         let level = game.level(&level.to_string()).unwrap();
-        let report = Panel::new(&Criteria::default()).judge(&game, &level, Seed::from_text("soon"));
+        let report = Panel::new(&Criteria::default()).unwrap().judge(&game, &level, Seed::from_text("soon"));
         assert!(report.finding("winnable").unwrap().verdict.is_pass());
     }
 }

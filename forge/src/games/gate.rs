@@ -30,7 +30,8 @@ pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
 impl<'a> Gate<'a> {
     pub(super) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> Gate<'a> {
-        Gate { order, known, canary, panel: Panel::new(&order.criteria) }
+        let panel = Panel::new(&order.criteria).expect("the order was checked");
+        Gate { order, known, canary, panel }
     }
 
     /// Finds levels for a game, takes away what it can do without, and judges what is left on the same levels; none, with the
@@ -199,12 +200,17 @@ mod tests {
             let mut order = order();
             alter(&mut order.criteria);
             let GameOrder { levels: count, level_tries: tries, board, criteria, .. } = &order;
-            let (config, panel) = (&board.levels(), &Panel::new(criteria));
+            let (config, panel) = (&board.levels(), &Panel::new(criteria).unwrap());
             let levels = Levels { count: *count, tries: *tries, config, criteria, panel, seed };
             levels.hold(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
         };
         assert!(hold(&|_| {}));
-        assert!(!hold(&|criteria| (criteria.skill_wins, criteria.skill_scores) = (2.0, 2.0)), "levels");
+        let unskilled = |criteria: &mut Criteria| {
+            criteria.ladder.truncate(2);
+            criteria.held_out.clear();
+            (criteria.skill_wins, criteria.skill_scores) = (1.0, 1.0);
+        };
+        assert!(!hold(&unskilled), "levels");
         assert!(!hold(&|criteria| criteria.skill_overall = 1.0), "the game");
         assert!(hold(&|criteria| (criteria.budget, criteria.least_ticks) = (1, 1000)), "what is certain");
     }

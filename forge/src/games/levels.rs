@@ -141,7 +141,8 @@ impl Levels<'_> {
     pub(crate) fn hold(&self, game: &Game, levels: &[FoundLevel], seed: Seed, tally: &mut Tally) -> bool {
         let ask =
             self.criteria.ask.iter().filter(|name| !CERTAIN.contains(&name.as_str())).cloned().collect();
-        let panel = Panel::new(&Criteria { ask, ..self.criteria.clone() });
+        let panel =
+            Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
         let (mut boards, mut reports) = (Vec::new(), Vec::new());
         for (number, found) in (0..).zip(levels) {
             let Some(witness) = found.report.witness.clone() else { return false };
@@ -163,7 +164,8 @@ impl Levels<'_> {
     pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let ask = self.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
-        let panel = Panel::new(&Criteria { ask, ..self.criteria.clone() });
+        let panel =
+            Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
         let (place, mut carried) = ((found.difficulty, found.candidate), found.report.judgements.clone());
         let mut found = self.judged(&panel, game, level, place, found.seed, tally)?;
         carried.retain(|judgement| PLAYED.contains(&judgement.criterion));
@@ -232,8 +234,8 @@ impl Levels<'_> {
 /// The criteria whose answer does not depend on dice once there is a witness.
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
 
-/// The criteria whose plays are dear.
-const PLAYED: [&str; 1] = ["skill"];
+/// The criteria whose plays are dear, and the one that counts them.
+const PLAYED: [&str; 2] = ["skill", "skill-overall"];
 
 /// An episode played again, as one of another game.
 fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {

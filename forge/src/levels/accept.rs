@@ -36,7 +36,8 @@ impl<'a> Gate<'a> {
             held_out: Vec::new(),
             ..criteria.ladder_config().expect("the criteria were checked")
         });
-        Gate { analysis, order, panel: Panel::new(&criteria), climb, seed }
+        let panel = Panel::new(&criteria).expect("the criteria were checked");
+        Gate { analysis, order, panel, climb, seed }
     }
 
     /// Judges a level. The same level gets the same answer, whoever asks and when.

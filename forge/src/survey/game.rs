@@ -48,8 +48,7 @@ impl GameSurvey {
     pub fn new(criteria: &Criteria, seed: Seed) -> Result<GameSurvey, CriteriaError> {
         let ask = ASKED.map(str::to_owned).to_vec();
         let criteria = Criteria { ask, held_out: Vec::new(), ..criteria.clone() };
-        criteria.check()?;
-        Ok(GameSurvey { panel: Panel::new(&criteria), criteria, seed })
+        Ok(GameSurvey { panel: Panel::new(&criteria)?, criteria, seed })
     }
 
     /// Criteria whose budgets let a hundred games with three levels each be judged in half an hour on two cores.

@@ -68,7 +68,7 @@ impl<'a> LevelSurvey<'a> {
     ) -> Result<LevelSurvey<'a>, CriteriaError> {
         criteria.check()?;
         // The ladder is played here: twice would be dear.
-        let asked = |name: &&String| *name != "skill";
+        let asked = |name: &&String| !["skill", "skill-overall"].contains(&name.as_str());
         let panel = Criteria {
             ask: criteria.ask.iter().filter(asked).cloned().collect(),
             random_wins: criteria.random_wins.max(FOR_NOTHING),
@@ -78,7 +78,7 @@ impl<'a> LevelSurvey<'a> {
         Ok(LevelSurvey {
             analysis,
             layout: LevelMeasures::new(analysis),
-            panel: Panel::new(&panel),
+            panel: Panel::new(&panel)?,
             climb: Some(LadderConfig { held_out: Vec::new(), ..climb }),
             seed,
         })

@@ -295,7 +295,7 @@ impl<'a> Plan<'a> {
         };
         let config = like.map_or_else(|| recipe.board.levels(), LevelConfig::like);
         let criteria = self.corpus_criteria();
-        let panel = Panel::new(criteria);
+        let panel = Panel::new(criteria).expect("the recipe was checked");
         let found = (0..recipe.corpus.game_tries).find_map(|number| {
             let levels = Levels {
                 count: recipe.corpus.levels,

@@ -108,8 +108,11 @@ fn bad_levels_fail_for_the_expected_reason() {
     for case in &cases {
         let Case { name, game, level, expect } = case;
         let criterion = expect.criterion.as_deref().unwrap_or_else(|| panic!("{name} names no criterion"));
-        let report =
-            Panel::new(&criteria(expect)).judge_game(game, from_ref(level), Seed::from_text("suite"));
+        let report = Panel::new(&criteria(expect)).unwrap().judge_game(
+            game,
+            from_ref(level),
+            Seed::from_text("suite"),
+        );
         replays(case, &report.levels[0]);
         assert!(!report.passes(), "{name} passes: {}", expect.about);
         let all = report.levels[0].judgements.iter().chain(&report.judgements);
@@ -129,8 +132,11 @@ fn good_levels_meet_every_criterion() {
     assert!(cases.len() >= 8, "{} cases", cases.len());
     for case in &cases {
         let Case { name, game, level, expect } = case;
-        let report =
-            Panel::new(&criteria(expect)).judge_game(game, from_ref(level), Seed::from_text("suite"));
+        let report = Panel::new(&criteria(expect)).unwrap().judge_game(
+            game,
+            from_ref(level),
+            Seed::from_text("suite"),
+        );
         replays(case, &report.levels[0]);
         let all = report.levels[0].judgements.iter().chain(&report.judgements);
         let obstacle = all.into_iter().find(|judgement| !judgement.finding.verdict.is_pass());
@@ -163,7 +169,8 @@ fn levels_of_the_corpus_meet_the_criteria_of_levels() {
     let panel = Panel::new(&Criteria {
         ask: LEVEL_CRITERIA.iter().map(|&name| name.to_owned()).collect(),
         ..Criteria::default()
-    });
+    })
+    .unwrap();
     for (name, number) in CORPUS {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
         let game = Game::from_source(&fs::read_to_string(folder.join("game.vgdl")).unwrap()).unwrap();
@@ -183,7 +190,7 @@ fn levels_of_the_corpus_meet_the_criteria_of_levels() {
 fn the_same_seed_gives_the_same_answer_on_any_number_of_threads() {
     for case in cases("good").iter().take(3).chain(cases("bad").iter().take(4)) {
         let criteria = Criteria { budget: 100_000, ladder_calls: 300_000, ..Criteria::full() };
-        let panel = Panel::new(&criteria);
+        let panel = Panel::new(&criteria).unwrap();
         let judge = || panel.judge_game(&case.game, from_ref(&case.level), Seed::from_text("threads"));
         let [one, two] = [1, 2].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

@@ -16,7 +16,7 @@ fn judged(game: &CorpusGame, criteria: &Criteria) -> SurveyedGame {
     let CorpusGame { source, levels, card, .. } = game;
     let game = Game::from_source(source).unwrap();
     let levels: Vec<Level> = levels.iter().step_by(3).map(|text| game.level(text).unwrap()).collect();
-    let report = Panel::new(criteria).judge_game(&game, &levels, Seed::from_text("judged"));
+    let report = Panel::new(criteria).unwrap().judge_game(&game, &levels, Seed::from_text("judged"));
     SurveyedGame { name: card.title.clone(), goal: card.goal.clone(), game, levels, report }
 }
 

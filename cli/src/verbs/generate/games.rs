@@ -148,7 +148,7 @@ fn report(
         ladder_calls: 2 * plain.ladder_calls,
         ..plain
     };
-    let panel = Panel::new(&criteria);
+    let panel = Panel::new(&criteria).map_err(Failure::malformed)?;
     let seed = Seed::from_text(&args.seed).child("report", 0);
     let judge = |made: &MadeGame| {
         let levels: Vec<Level> = made.levels.iter().map(|found| found.level.clone()).collect();

@@ -82,7 +82,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return Err(Failure::malformed(message));
     }
     let criteria = Criteria { budget: args.budget, ..Criteria::full() };
-    let panel = Panel::bounded(&criteria, args.budget);
+    let panel = Panel::bounded(&criteria, args.budget).map_err(Failure::malformed)?;
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
     let mut judged: Vec<Judged<'_>> = levels

@@ -32,7 +32,7 @@ fn criteria() -> Criteria {
 fn reported(title: &str, source: &str) -> SurveyedGame {
     let game = Game::from_source(source).unwrap();
     let levels: Vec<Level> = LEVELS.iter().map(|text| game.level(text).unwrap()).collect();
-    let report = Panel::new(&criteria()).judge_game(&game, &levels, Seed::from_text("judged"));
+    let report = Panel::new(&criteria()).unwrap().judge_game(&game, &levels, Seed::from_text("judged"));
     SurveyedGame { name: title.to_owned(), goal: "Take all of it.".to_owned(), game, levels, report }
 }
 
