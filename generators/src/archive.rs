@@ -2,6 +2,7 @@
 
 use crate::Evaluation;
 use std::collections::BTreeMap;
+use std::iter::repeat;
 
 /// A candidate with its evaluation.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,21 +25,21 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis.
-    ///
-    /// # Panics
-    /// If the range is empty or not finite, or if there is no bin.
+    /// An axis, of one bin at least.
     pub fn new(name: &str, range: (f64, f64), bins: usize) -> Axis {
-        let width = range.1 - range.0;
-        assert!(width > 0.0 && width.is_finite() && bins > 0, "axis `{name}` has a range and bins");
-        Axis { name: name.to_owned(), range, bins }
+        Axis { name: name.to_owned(), range, bins: bins.max(1) }
+    }
+
+    /// How many bins there are, at least one.
+    fn len(&self) -> usize {
+        self.bins.max(1)
     }
 
     /// Returns the bin of a value. NaN counts as the lowest.
     pub fn bin(&self, value: f64) -> usize {
         let share = (value - self.range.0) / (self.range.1 - self.range.0);
         // The cast saturates at 0 and takes NaN to 0.
-        ((share * self.bins as f64) as usize).min(self.bins - 1)
+        ((share * self.bins as f64) as usize).min(self.len() - 1)
     }
 }
 
@@ -78,9 +79,6 @@ impl<C> Archive<C> {
     /// Adds a candidate if it is good enough. A feasible one becomes the elite of its cell if its objective is higher
     /// than the elite's. An infeasible one goes to the pocket and evicts the worst one if that is full: among equals the
     /// oldest, so that candidates of equal feasibility can still drift. Cost: O(log cells + pocket).
-    ///
-    /// # Panics
-    /// If the number of measures differs from the number of axes.
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
         let judged = Judged { candidate, evaluation };
@@ -114,13 +112,11 @@ impl<C> Archive<C> {
     }
 
     /// Removes the elite of a cell because a closer look found it infeasible after all, and moves it to the pocket. The
-    /// cell is then free for another elite.
-    ///
-    /// # Panics
-    /// If `feasibility` is that of a feasible candidate.
+    /// cell is then free for another elite. Nothing happens if `feasibility` is that of a feasible candidate.
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
-        assert!(feasibility < 1.0, "a demoted candidate must be infeasible");
-        if let Some(mut judged) = self.elites.remove(&cell) {
+        if feasibility < 1.0
+            && let Some(mut judged) = self.elites.remove(&cell)
+        {
             judged.evaluation.feasibility = feasibility;
             self.pocket_in(cell, judged);
         }
@@ -133,17 +129,13 @@ impl<C> Archive<C> {
 
     /// The number of cells, empty ones included.
     pub fn cells(&self) -> usize {
-        self.axes.iter().map(|axis| axis.bins).product()
+        self.axes.iter().map(Axis::len).product()
     }
 
-    /// Returns the cell of these measures.
-    ///
-    /// # Panics
-    /// If the number of measures differs from the number of axes.
+    /// Returns the cell of these measures. A missing measure counts as the lowest; one without an axis is ignored.
     pub fn cell(&self, measures: &[f64]) -> usize {
-        assert_eq!(measures.len(), self.axes.len(), "one measure for each axis");
-        let bins = self.axes.iter().zip(measures);
-        bins.fold(0, |cell, (axis, &measure)| cell * axis.bins + axis.bin(measure))
+        let bins = self.axes.iter().zip(measures.iter().chain(repeat(&f64::NAN)));
+        bins.fold(0, |cell, (axis, &measure)| cell * axis.len() + axis.bin(measure))
     }
 
     /// Returns the bins of a cell, by axis.
@@ -151,8 +143,8 @@ impl<C> Archive<C> {
         let mut rest = cell;
         let mut bins: Vec<usize> = Vec::with_capacity(self.axes.len());
         for axis in self.axes.iter().rev() {
-            bins.push(rest % axis.bins);
-            rest /= axis.bins;
+            bins.push(rest % axis.len());
+            rest /= axis.len();
         }
         bins.reverse();
         bins
@@ -163,7 +155,7 @@ impl<C> Archive<C> {
         let mut stride = self.cells();
         let mut cells = Vec::with_capacity(2 * self.axes.len());
         for (axis, bin) in self.axes.iter().zip(self.bins(cell)) {
-            stride /= axis.bins;
+            stride /= axis.len();
             cells.extend((bin > 0).then(|| cell - stride));
             cells.extend((bin + 1 < axis.bins).then(|| cell + stride));
         }
@@ -227,6 +219,8 @@ mod tests {
         let bins =
             [-1e300, 10.0, 14.9, 15.0, 29.9, 30.0, f64::INFINITY, f64::NAN].map(|value| axis.bin(value));
         assert_eq!(bins, [0, 0, 0, 1, 3, 3, 3, 0]);
+        let nothing = Axis { bins: 0, range: (1.0, 1.0), ..axis };
+        assert_eq!([0.0, 1.0, 2.0].map(|value| nothing.bin(value)), [0, 0, 0]);
     }
 
     #[test]
@@ -241,6 +235,12 @@ mod tests {
         assert_eq!(elites, [(0, "better"), (11, "elsewhere")]);
         assert_eq!((archive.coverage(), archive.qd_score()), (2.0 / 12.0, 0.6));
         assert_eq!(archive.best().map(|elite| elite.candidate), Some("better"));
+    }
+
+    #[test]
+    fn missing_measures_count_as_the_lowest() {
+        let archive = archive();
+        assert_eq!([&[][..], &[15.0], &[15.0, 0.6, 9.0]].map(|measures| archive.cell(measures)), [0, 4, 6]);
     }
 
     #[test]

@@ -93,20 +93,16 @@ pub struct FeasibleInfeasible<'a, V: Variation> {
 }
 
 impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
-    /// Creates a search that has not begun. Candidates with equal keys are the same.
-    ///
-    /// # Panics
-    /// If the population size or the tournament size is 0.
+    /// Creates a search that has not begun. Candidates with equal keys are the same. A population has at least one member, and a
+    /// tournament at least one entrant.
     pub fn new(
         variation: &'a V,
         key: impl Fn(&V::Candidate) -> Digest + Send + 'a,
         config: FeasibleInfeasibleConfig,
         seed: Seed,
     ) -> Self {
-        assert!(
-            config.size > 0 && config.tournament > 0,
-            "populations have members, and parents are of them"
-        );
+        let (size, tournament) = (config.size.max(1), config.tournament.max(1));
+        let config = FeasibleInfeasibleConfig { size, tournament, ..config };
         let breeding = Breeding::new(variation, Box::new(key), config.crossing, seed);
         let initial = config.initial.max(1);
         FeasibleInfeasible { config, breeding, initial, feasible: Vec::new(), infeasible: Vec::new() }

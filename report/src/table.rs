@@ -127,12 +127,9 @@ impl Table {
         Table { id: id.to_owned(), title: title.to_owned(), note: note.to_owned(), columns, rows: Vec::new() }
     }
 
-    /// Adds a row.
-    ///
-    /// # Panics
-    /// If the number of cells differs from the number of columns.
-    pub fn push(&mut self, row: Vec<TableCell>) {
-        assert_eq!(row.len(), self.columns.len(), "a row of {} has other columns", self.id);
+    /// Adds a row. Columns without a cell are [`Missing`](TableCell::Missing); cells without a column are left out.
+    pub fn push(&mut self, mut row: Vec<TableCell>) {
+        row.resize(self.columns.len(), TableCell::Missing);
         self.rows.push(row);
     }
 
@@ -363,8 +360,12 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "other columns")]
-    fn rows_of_another_length_panic() {
-        table().push(vec![]);
+    fn rows_are_fitted_to_the_columns() {
+        let mut table = table();
+        table.push(vec![TableCell::Count(1); 9]);
+        table.push(Vec::new());
+        let columns = table.columns.len();
+        assert_eq!(table.rows[table.rows.len() - 2], vec![TableCell::Count(1); columns]);
+        assert_eq!(table.rows[table.rows.len() - 1], vec![TableCell::Missing; columns]);
     }
 }

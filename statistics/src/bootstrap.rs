@@ -12,11 +12,8 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 ///
 /// Draws `resamples` samples of the same size with replacement, and returns the range of the central `level` (0.95
 /// for 95 %) of their statistics; with `m` resamples the ends are the values of rank ⌊(1 − level) / 2 · (m − 1)⌋ from
-/// below and from above. `None` without values or resamples, or if a statistic is not a number. Cost: O(resamples ·
-/// values).
-///
-/// # Panics
-/// If `level` is not within 0..1.
+/// below and from above. `None` without values or resamples, if a statistic is not a number, or if `level` is not
+/// within 0..1. Cost: O(resamples · values).
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap;
@@ -32,8 +29,7 @@ pub fn bootstrap<T: Copy>(
     level: f64,
     seed: [u8; 32],
 ) -> Option<Interval> {
-    assert!((0.0..1.0).contains(&level), "the level is {level}");
-    if values.is_empty() || resamples == 0 {
+    if values.is_empty() || resamples == 0 || !(0.0..1.0).contains(&level) {
         return None;
     }
     let mut draws = ChaCha8Rng::from_seed(seed);
@@ -48,9 +44,6 @@ pub fn bootstrap<T: Copy>(
 /// Returns the percentile interval of the mean of `ours` minus the mean of `theirs`: like [`bootstrap`], with a
 /// sample drawn from each, ours first.
 ///
-/// # Panics
-/// If `level` is not within 0..1.
-///
 /// ```
 /// use infinite_arcade_statistics::bootstrap_difference;
 /// let interval = bootstrap_difference(&[3.0, 4.0, 5.0], &[1.0, 2.0], 1000, 0.95, [7; 32]).unwrap();
@@ -63,8 +56,7 @@ pub fn bootstrap_difference(
     level: f64,
     seed: [u8; 32],
 ) -> Option<Interval> {
-    assert!((0.0..1.0).contains(&level), "the level is {level}");
-    if ours.is_empty() || theirs.is_empty() || resamples == 0 {
+    if ours.is_empty() || theirs.is_empty() || resamples == 0 || !(0.0..1.0).contains(&level) {
         return None;
     }
     let mut draws = ChaCha8Rng::from_seed(seed);

@@ -7,10 +7,8 @@ use crate::bootstrap::bootstrap;
 use crate::wilson::Interval;
 
 /// Returns the percentile interval of the mean of all values, with games drawn with replacement. `None` without
-/// values, or if one is not a number; clusters without values are left out. Cost: O(values + resamples · clusters).
-///
-/// # Panics
-/// If `level` is not within 0..1.
+/// values, if one is not a number, or if `level` is not within 0..1; clusters without values are left out. Cost:
+/// O(values + resamples · clusters).
 ///
 /// ```
 /// use infinite_arcade_statistics::clustered_mean;
@@ -38,9 +36,6 @@ pub fn clustered_mean<C: AsRef<[f64]>>(
 /// Returns the percentile interval of the mean of ours minus the mean of theirs: a pair of clusters holds the values
 /// of both sides on one game, and is drawn as a whole, so that the difficulty of a game cancels. `None` as for
 /// [`clustered_mean`], or if no cluster has values on both sides; the others are left out.
-///
-/// # Panics
-/// If `level` is not within 0..1.
 ///
 /// ```
 /// use infinite_arcade_statistics::clustered_difference;

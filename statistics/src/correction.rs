@@ -4,15 +4,16 @@
 /// Returns the Benjamini–Hochberg adjusted values (q-values) of `p`, in the order given: rejecting all tests with q
 /// at most 5 % keeps the expected share of false rejections at most 5 %. Never above 1. Cost: O(n log n).
 ///
-/// # Panics
-/// If a value is not a probability.
+/// All are NaN if a value is not a probability.
 ///
 /// ```
 /// use infinite_arcade_statistics::benjamini_hochberg;
 /// assert_eq!(benjamini_hochberg(&[0.01, 0.5, 0.02]), [0.03, 0.5, 0.03]);
 /// ```
 pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
-    assert!(p.iter().all(|p| (0.0..=1.0).contains(p)), "not all of {p:?} are probabilities");
+    if !p.iter().all(|p| (0.0..=1.0).contains(p)) {
+        return vec![f64::NAN; p.len()];
+    }
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|&a, &b| p[b].total_cmp(&p[a]));
     let mut adjusted = vec![1.0; p.len()];
@@ -28,15 +29,16 @@ pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
 /// Returns the Bonferroni adjusted values of `p`, in the order given: rejecting all tests with one at most 5 % keeps
 /// the probability of even one false rejection at most 5 %. Never above 1. Cost: O(n).
 ///
-/// # Panics
-/// If a value is not a probability.
+/// All are NaN if a value is not a probability.
 ///
 /// ```
 /// use infinite_arcade_statistics::bonferroni;
 /// assert_eq!(bonferroni(&[0.125, 0.5, 0.25]), [0.375, 1.0, 0.75]);
 /// ```
 pub fn bonferroni(p: &[f64]) -> Vec<f64> {
-    assert!(p.iter().all(|p| (0.0..=1.0).contains(p)), "not all of {p:?} are probabilities");
+    if !p.iter().all(|p| (0.0..=1.0).contains(p)) {
+        return vec![f64::NAN; p.len()];
+    }
     p.iter().map(|one| (one * p.len() as f64).min(1.0)).collect()
 }
 
@@ -63,8 +65,9 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "are probabilities")]
     fn no_probability() {
-        benjamini_hochberg(&[0.5, f64::NAN]);
+        for adjusted in [benjamini_hochberg(&[0.5, f64::NAN]), bonferroni(&[0.5, 2.0])] {
+            assert!(adjusted.len() == 2 && adjusted.iter().all(|p| p.is_nan()), "{adjusted:?}");
+        }
     }
 }

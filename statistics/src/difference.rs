@@ -7,8 +7,7 @@ use crate::wilson::{Interval, wilson};
 /// Returns the interval of the first proportion minus the second, at `z` standard deviations ([`Z95`](crate::Z95) for
 /// 95 %), within [−1, 1]. A side without trials may have any rate.
 ///
-/// # Panics
-/// Those of [`wilson`].
+/// NaN where [`wilson`] is.
 ///
 /// ```
 /// use infinite_arcade_statistics::{Z95, difference};
@@ -17,7 +16,7 @@ use crate::wilson::{Interval, wilson};
 /// ```
 pub fn difference(successes: [u64; 2], trials: [u64; 2], z: f64) -> Interval {
     let (a, b) = (wilson(successes[0], trials[0], z), wilson(successes[1], trials[1], z));
-    if trials.contains(&0) {
+    if trials.contains(&0) || a.low.is_nan() || b.low.is_nan() {
         return Interval { low: a.low - b.high, high: a.high - b.low };
     }
     let p = [0, 1].map(|side: usize| successes[side] as f64 / trials[side] as f64);
@@ -64,5 +63,7 @@ mod tests {
         assert_eq!(difference([0, 0], [0, 0], Z95), Interval { low: -1.0, high: 1.0 });
         let half = difference([5, 0], [5, 0], Z95);
         assert!(half.low > -0.5 && half.low < -0.4 && half.high == 1.0, "{half:?}");
+        let no_counts = difference([9, 1], [5, 5], Z95);
+        assert!(no_counts.low.is_nan() && no_counts.high.is_nan());
     }
 }

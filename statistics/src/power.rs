@@ -39,10 +39,7 @@ impl Power {
     }
 
     /// Returns the rates nearest to `base`, below and above, that `trials` a side tell from it; `None` if there is
-    /// none.
-    ///
-    /// # Panics
-    /// If `base` is not a proportion.
+    /// none, or if `base` is not a proportion.
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
@@ -58,10 +55,7 @@ impl Power {
         })
     }
 
-    /// Returns the trials a side needed to tell `p` from `q`; `None` if they are equal.
-    ///
-    /// # Panics
-    /// If one is not a proportion.
+    /// Returns the trials a side needed to tell `p` from `q`; `None` if they are equal, or if one is not a proportion.
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
@@ -70,7 +64,7 @@ impl Power {
     pub fn needed(&self, p: f64, q: f64) -> Option<u64> {
         let h = cohens_h(p, q);
         let ratio = self.deviations() / h;
-        (h != 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
+        (h.abs() > 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
     }
 
     /// Returns the standard deviations between no difference and one detected with the required power.
@@ -82,8 +76,7 @@ impl Power {
 /// Returns the probability that [`fisher`] gives at most `alpha`, if two players with win rates `rates` play `trials`
 /// episodes each. Cost: cubic in the trials; a few hundred are fine.
 ///
-/// # Panics
-/// If a rate is not a proportion.
+/// NaN if a rate is not a proportion.
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher_power;
@@ -92,6 +85,9 @@ impl Power {
 /// assert!((power - 0.73728).abs() < 1e-12);
 /// ```
 pub fn fisher_power(rates: [f64; 2], trials: [u64; 2], alpha: f64) -> f64 {
+    if !rates.iter().all(|rate| (0.0..=1.0).contains(rate)) {
+        return f64::NAN;
+    }
     let [ours, theirs] = [0, 1].map(|side: usize| binomial(rates[side], trials[side]));
     let mut seen = 0.0;
     for (a, chance) in ours.iter().enumerate() {
@@ -106,7 +102,6 @@ pub fn fisher_power(rates: [f64; 2], trials: [u64; 2], alpha: f64) -> f64 {
 
 /// Returns the probabilities of 0 to `trials` successes.
 fn binomial(rate: f64, trials: u64) -> Vec<f64> {
-    assert!((0.0..=1.0).contains(&rate), "{rate} is no proportion");
     let mut chances = vec![1.0];
     for _ in 0..trials {
         let next = |k: usize| {

@@ -32,8 +32,7 @@ pub struct Stratified {
 
 /// Compares two groups within strata. Cost: O(successes · tables), at most the square of all trials.
 ///
-/// # Panics
-/// If a group has more successes than trials.
+/// Nothing is known, and `p` is not a number, if a group has more successes than trials.
 ///
 /// ```
 /// use infinite_arcade_statistics::{Stratum, stratified};
@@ -47,7 +46,9 @@ pub fn stratified(strata: &[Stratum]) -> Stratified {
     let (mut weights, mut observed) = (vec![1.0], 0);
     let (mut gain, mut weight, mut odds, mut against) = (0.0, 0.0, 0.0, 0.0);
     for Stratum { successes: [a, b], trials: [m, n] } in strata.iter().copied() {
-        let tables = Tables::of([a, b], [m, n]);
+        let Some(tables) = Tables::of([a, b], [m, n]) else {
+            return Stratified { p: f64::NAN, difference: None, odds_ratio: None };
+        };
         weights = convolved(&weights, &tables.weights);
         observed += (a - tables.first) as usize;
         if m == 0 || n == 0 {

@@ -21,15 +21,12 @@ pub enum Effect {
 }
 
 /// Decides for each step if it is meaningful. `places` holds the position of the avatar before the first step and after each
-/// step, so that it has one element more than `effects`; it is `None` while there is no avatar.
+/// step; `None`, or missing at the end, while there is no avatar.
 ///
 /// A step that acted is meaningful. A step that moved is meaningful unless it is part of a loop: if the avatar returns to
 /// its position before a step at most [`WINDOW`] steps back, and all steps since then did nothing but move it, these moves
 /// cancel each other. A closed loop is forgotten: in the walk A B A B C the first two moves cancel each other, and the last
 /// two lead from A to C. Cost: O(steps).
-///
-/// # Panics
-/// If `places` does not have one element more than `effects`.
 ///
 /// ```
 /// use infinite_arcade_evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
@@ -39,12 +36,12 @@ pub enum Effect {
 /// assert_eq!(flags, [false, false, false, true, true]);
 /// ```
 pub fn meaningful<P: Copy + PartialEq>(effects: &[Effect], places: &[Option<P>]) -> Vec<bool> {
-    assert_eq!(places.len(), effects.len() + 1, "a place before the first step and one after each");
     let mut flags: Vec<bool> = effects.iter().map(|effect| *effect != Effect::Nothing).collect();
     // The walk without its loops since the last step that acted: each move with the place it left.
     let mut walk: Vec<(usize, P)> = Vec::new();
     for (step, effect) in effects.iter().enumerate() {
-        let (Some(from), Some(to), true) = (places[step], places[step + 1], *effect != Effect::Acted) else {
+        let place = |at: usize| places.get(at).copied().flatten();
+        let (Some(from), Some(to), true) = (place(step), place(step + 1), *effect != Effect::Acted) else {
             walk.clear();
             continue;
         };

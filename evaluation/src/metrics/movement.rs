@@ -30,16 +30,12 @@ impl Movement {
     /// Computes the metrics from the meaningful steps of an episode and the cells of its avatar, column and row, before the
     /// first step and after each step. Cost: O(steps log steps).
     ///
-    /// # Panics
-    /// If `cells` does not have one element more than `flags`.
-    ///
     /// ```
     /// use infinite_arcade_evaluation::metrics::Movement;
     /// let movement = Movement::of(&[true, false], &[Some((1, 1)), Some((2, 1)), Some((2, 1))]);
     /// assert_eq!((movement.bump_rate, movement.unique_cells), (Some(0.5), Some(2)));
     /// ```
     pub fn of(flags: &[bool], cells: &[Option<(i32, i32)>]) -> Movement {
-        assert_eq!(cells.len(), flags.len() + 1, "a cell before the first step and one after each");
         let steps = flags.len();
         let share = |count: usize, of: usize| (of > 0).then(|| count as f64 / of as f64);
         let bumps = |flags: &[bool]| share(flags.iter().filter(|flag| !**flag).count(), flags.len());
