@@ -30,8 +30,7 @@ pub(super) struct Judged {
 
 impl<'a> Gate<'a> {
     pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, seed: Seed) -> Gate<'a> {
-        let least_ticks = order.criteria.least_ticks.max(order.min_solution.unwrap_or(0));
-        let criteria = Criteria { least_ticks, ..order.criteria.clone() };
+        let criteria = order.criteria_of_levels();
         let climb = order.difficulty.map(|_| LadderConfig {
             held_out: Vec::new(),
             ..criteria.ladder_config().expect("the criteria were checked")

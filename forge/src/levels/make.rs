@@ -85,6 +85,7 @@ pub struct LevelSet {
 
 /// The reasons why no level was made.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum LevelsError {
     /// The game leaves the generator no way.
     #[error(transparent)]
@@ -130,7 +131,7 @@ pub fn make_levels(
     seed: Seed,
     progress: &dyn Progress,
 ) -> Result<LevelSet, LevelsError> {
-    order.criteria.check()?;
+    order.criteria_of_levels().check()?;
     let generator = ConstructiveLevels::new(game, order.config())?;
     let analysis = Analysis::of(game);
     let likeness = LevelSimilarity::of(&analysis);

@@ -121,7 +121,13 @@ impl LevelOrder {
         Criteria { ask, random_wins: 0.025, ..Criteria::default() }
     }
 
-    /// The configuration of the constructive generator, with the difficulty that is asked translated to its own scale.
+    /// The criteria with the requested shortest win.
+    pub(super) fn criteria_of_levels(&self) -> Criteria {
+        let least_ticks = self.criteria.least_ticks.max(self.min_solution.unwrap_or(0));
+        Criteria { least_ticks, ..self.criteria.clone() }
+    }
+
+    /// The configuration of the constructive generator, with the requested difficulty translated to its own scale.
     pub fn config(&self) -> LevelConfig {
         let labels = Difficulty::LABELS.iter().map(|(label, _)| label);
         let place = self.difficulty.and_then(|asked| labels.clone().position(|label| *label == asked));
