@@ -92,6 +92,7 @@ pub struct Batch {
 
 /// The errors of a batch.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BatchError {
     /// There is nothing to play.
     #[error("a batch of episodes needs at least one level")]

@@ -28,6 +28,7 @@ pub struct Episode {
 
 /// The first difference between a replay and the record.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Divergence {
     /// The record is of another game.
     #[error("the episode was recorded on game {recorded}, not on {given}")]

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// The reason why an evaluation cannot be set up, continued or read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum EvaluationError {
     /// A file or folder cannot be accessed.
     #[error("cannot {action} {}", path.display())]

@@ -2,6 +2,7 @@
 
 /// A failure to generate anything.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GenerateError {
     /// The generator can make nothing for the game, whatever the seed.
     #[error("no level can be made for this game: {0}")]

@@ -4,6 +4,7 @@ use crate::board::{MAX_CELL, MAX_PIXELS, MIN_CELL};
 
 /// A picture that could not be drawn or written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RenderError {
     /// A cell is too small or too large.
     #[error("a cell of {cell} pixels is out of range: use {MIN_CELL} to {MAX_CELL}")]

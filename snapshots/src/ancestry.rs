@@ -14,6 +14,7 @@ use validators::novelty::GameForm;
 
 /// The reasons why a release cannot follow another.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum AncestryError {
     /// The recipe names another parent.
     #[error("the recipe's parent is {asked}, but the root of `{name}` is {found}")]

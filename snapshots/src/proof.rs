@@ -23,6 +23,7 @@ const MAX_HEIGHT: usize = 64;
 
 /// The reasons why a proof cannot be made or read. They concern the request, not the item.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProofError {
     /// The release has no such item.
     #[error("`{}` is neither a file nor a game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]

@@ -188,6 +188,7 @@ impl Known {
 
 /// The problems that a recipe can have.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RecipeError {
     /// The recipe is not TOML, or not of this shape. The message names line, column and key.
     #[error("{0}")]

@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// The reasons why a release cannot be minted again here.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RegenerateError {
     /// Another version of the generators made it.
     #[error("this release was minted by {minted_by}; this is arcade {CURRENT}: {}", next_move(minted_by))]

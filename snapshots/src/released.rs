@@ -47,6 +47,7 @@ pub struct ReleasedLevel {
 
 /// The reasons why a release cannot be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReleasedError {
     /// It is no release, or cannot be read.
     #[error(transparent)]

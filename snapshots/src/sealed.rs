@@ -190,6 +190,7 @@ fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
 
 /// The reasons why a release cannot be revealed.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RevealError {
     /// It is open, or has no commitment.
     #[error("`{0}` is not sealed: there is nothing to reveal")]

@@ -154,7 +154,7 @@ pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
             Ok(false)
         }
         ReleasedError::Snapshot(error) => Err(verify::failure(error)),
-        error @ ReleasedError::Changed { .. } => Err(Failure::Environment(error.into())),
+        error => Err(Failure::Environment(error.into())),
     }
 }
 
@@ -162,6 +162,6 @@ fn failure(error: ExportError) -> Failure {
     match error {
         #[cfg(feature = "parquet")]
         error @ ExportError::Parquet(_) => Failure::Environment(error.into()),
-        error @ (ExportError::NoTwin(_) | ExportError::Held(_)) => Failure::malformed(error.to_string()),
+        error => Failure::malformed(error.to_string()),
     }
 }

@@ -158,6 +158,7 @@ pub struct ChatError {
 
 /// The cause of a missing answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ChatErrorKind {
     /// The network or the server failed in every try.
     Infrastructure,

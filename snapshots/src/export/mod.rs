@@ -74,6 +74,7 @@ pub struct Exported {
 
 /// The reasons why a release cannot be exported.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ExportError {
     /// The Parquet library failed.
     #[cfg(feature = "parquet")]

@@ -43,6 +43,7 @@ pub struct Minted {
 
 /// The reasons why minting fails.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MintError {
     /// The recipe is not sound, or it is sealed and its secret is missing.
     #[error(transparent)]

@@ -153,6 +153,7 @@ fn path(name: &str) -> String {
 
 /// The reasons why shards cannot be merged.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MergeError {
     /// There is no `SHARD.json`.
     #[error("{}: not a shard: there is no {SHARD_FILE}; one that is not finished goes on with `arcade release … --shard K/N --resume`", .0.display())]

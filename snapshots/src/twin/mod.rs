@@ -76,6 +76,7 @@ pub struct TwinGame {
 
 /// The reasons why a game has no twin.
 #[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum TwinError {
     /// The text is no game.
     #[error("not a game: {0}")]

@@ -428,8 +428,8 @@ fn print_results(
 pub(crate) fn failure(error: EvaluationError) -> Failure {
     match error {
         EvaluationError::Io { action: "read", path, source } => Failure::read(&path, source),
-        EvaluationError::Io { .. } => Failure::Environment(error.into()),
-        EvaluationError::Malformed(_) => Failure::Malformed(error.into()),
+        error @ EvaluationError::Io { .. } => Failure::Environment(error.into()),
+        error => Failure::Malformed(error.into()),
     }
 }
 
