@@ -6,10 +6,29 @@
 
 use crate::seed::Seed;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_core::{Rng, SeedableRng, TryRng, utils};
 use serde::{Deserialize, Serialize};
+use std::convert::Infallible;
 
 /// A stream of random draws. It is saved as its seed and its position.
+///
+/// It is also a generator for `rand` and for crates of distributions. Their results for the same bits may change with their
+/// versions; the methods here return the same values for ever.
+///
+/// ```
+/// use infinite_arcade_engine::{Sampler, Seed};
+/// use rand::distr::{Bernoulli, Distribution};
+/// use rand::seq::SliceRandom;
+///
+/// let mut sampler: Sampler = Seed::from_text("weather").sampler();
+/// let gusts = Bernoulli::new(0.25)?;
+/// let windy = gusts.sample_iter(&mut sampler).take(1000).filter(|&gust| gust).count();
+/// assert!((200..300).contains(&windy));
+///
+/// let mut deck = ["sun", "rain", "hail"];
+/// deck.shuffle(&mut sampler);
+/// # Ok::<(), rand::distr::BernoulliError>(())
+/// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "Saved", from = "Saved")]
 pub struct Sampler(ChaCha8Rng);
@@ -108,10 +127,38 @@ impl Sampler {
     }
 }
 
+/// The bits of [`Sampler::bits`], for the distributions of others. Every call takes whole draws of 64 bits: `next_u32` one, and
+/// `fill_bytes` one for eight bytes, the lowest first.
+impl TryRng for Sampler {
+    type Error = Infallible;
+
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        Ok(self.bits() as u32)
+    }
+
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
+        Ok(self.bits())
+    }
+
+    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
+        utils::fill_bytes_via_next_word(bytes, || self.try_next_u64())
+    }
+}
+
+/// From the bytes of a seed, the stream of [`Seed::sampler`].
+impl SeedableRng for Sampler {
+    type Seed = [u8; 32];
+
+    fn from_seed(seed: [u8; 32]) -> Sampler {
+        Sampler::new(seed)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Sampler;
     use crate::Seed;
+    use rand_core::{Rng, SeedableRng};
 
     /// Golden vectors: if they change, GENERATION must be incremented.
     #[test]
@@ -126,6 +173,26 @@ mod tests {
             format!("{below:?} {deck:?} {weighted:?} {unit:?}"),
             "[689, 939, 409, 440, 878, 202, 696, 398] [5, 4, 7, 0, 8, 2, 6, 1, 9, 3] [2, 0, 0, 2, 2, 2] 0.3425580970223794"
         );
+    }
+
+    /// The stream that others see, and how much of it each call takes.
+    #[test]
+    fn the_traits_of_rand_give_the_same_bits() {
+        let seed = Seed::from_text("golden");
+        let mut plain = seed.sampler();
+        let draws: Vec<u64> = (0..6).map(|_| plain.bits()).collect();
+        assert_eq!(draws[0], 12_727_791_363_885_834_071);
+
+        let mut sampler = Sampler::from_seed(*seed.as_bytes());
+        let mut bytes = [0; 20];
+        assert_eq!((sampler.next_u64(), sampler.next_u32()), (draws[0], draws[1] as u32));
+        sampler.fill_bytes(&mut bytes);
+        assert_eq!(bytes[..8], draws[2].to_le_bytes());
+        assert_eq!(bytes[8..16], draws[3].to_le_bytes());
+        assert_eq!(bytes[16..], draws[4].to_le_bytes()[..4]);
+        let saved = serde_json::to_string(&sampler).unwrap();
+        let mut loaded: Sampler = serde_json::from_str(&saved).unwrap();
+        assert_eq!((sampler.bits(), loaded.next_u64()), (draws[5], draws[5]));
     }
 
     #[test]
