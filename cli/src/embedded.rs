@@ -5,9 +5,9 @@ use engine::Digest;
 use include_dir::{Dir, include_dir};
 use snapshots::{Corpus, CorpusGame};
 
-static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../corpora");
-static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../seeds");
-static LOCKFILE: &[u8] = include_bytes!("../../Cargo.lock");
+static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/corpora");
+static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/seeds");
+static LOCKFILE: &[u8] = include_bytes!("../workspace.lock");
 
 /// Returns the corpus games, by name.
 pub(crate) fn corpus() -> Result<Corpus, Failure> {

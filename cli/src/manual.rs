@@ -5,7 +5,7 @@ use include_dir::{Dir, include_dir};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::ops::Range;
 
-static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../docs");
+static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs");
 
 /// A page of the manual.
 pub(crate) struct Page {

@@ -106,7 +106,7 @@ fn licence(manifest: &Manifest) -> String {
          You need not ask, and you need not name the models that you evaluate. A citation is welcome: CITATION.cff.\n\n\
          ----\n\n{}",
         manifest.name,
-        include_str!("../../../LICENSE-MIT")
+        include_str!("../../LICENSE-MIT")
     )
 }
 
