@@ -29,7 +29,6 @@ pub struct GameSet {
 
 /// The reasons why no game was made.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
 pub enum GamesError {
     /// The criteria are not sensible.
     #[error("the criteria: {0}")]
