@@ -2,29 +2,7 @@
 //!
 //! Goals, in order: the same behaviour as the reference engine, bit for bit; the same result on every machine; speed;
 //! messages that help.
-//!
-//! ```
-//! use infinite_arcade_engine::{Action, Game, Outcome, Seed};
-//!
-//! let game = Game::from_source("
-//! BasicGame
-//!     SpriteSet
-//!         goal > Door
-//!         avatar > MovingAvatar
-//!     LevelMapping
-//!         g > goal
-//!     InteractionSet
-//!         goal avatar > killSprite scoreChange=1
-//!     TerminationSet
-//!         SpriteCounter stype=goal win=True
-//! ")?;
-//! let level = game.level("A.g".replace('.', " ").as_str())?;
-//! let mut state = game.start(&level, Seed::from_text("example"));
-//! game.step(&mut state, Action::Right);
-//! assert_eq!(game.step(&mut state, Action::Right), Outcome::Won);
-//! assert_eq!(state.score(), 1.0);
-//! # Ok::<(), infinite_arcade_engine::Diagnostics>(())
-//! ```
+#![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod ablation;
 pub mod analysis;

@@ -3,6 +3,7 @@
 //! A [`Subject`] is a game with its levels. An [`Agent`] is shown a [`Turn`], never a state, and answers with a [`Choice`].
 //! The messages in both directions go into the [`Journal`] of the episode, an append-only log of [`Event`]s from which every
 //! metric is recomputed and the episode is replayed bit for bit. Models are reached through [`client::Model`].
+#![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 pub mod answer;
 pub mod client;

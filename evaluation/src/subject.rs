@@ -49,7 +49,8 @@ impl Subject {
 }
 
 /// The error for a game or level that does not compile.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{}{problems}", level.map_or(String::new(), |number| format!("level {number}: ")))]
 pub struct Unreadable {
     /// The level's number, or `None` if the game is at fault.
     pub level: Option<usize>,

@@ -10,6 +10,8 @@ pub mod choices;
 pub mod hostile;
 pub mod isomorphic;
 pub mod mutation;
+#[cfg(doctest)]
+mod readmes;
 pub mod robustness;
 pub mod sweep;
 pub mod vocabulary;

@@ -3,6 +3,7 @@
 //! A verdict has three values. *Pass* may carry a witness: an episode that replays. *Fail* gives a reason and may
 //! carry a counter-example. *Unknown* gives the calls spent: a level is never called unsolvable because the budget
 //! ran out.
+#![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod ablation;
 mod allowance;
