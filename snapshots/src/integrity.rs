@@ -32,7 +32,7 @@ impl Integrity {
 }
 
 /// Compares the folder `root` with its `MANIFEST.json` and reports every difference. Trusts nothing in it: no link is
-/// followed, and no file above the [limits](Limits::SNAPSHOT) or of another size than stated is read.
+/// followed, and no file above the limits of a snapshot or of another size than stated is read.
 ///
 /// Cost: one pass over the files, in pieces; memory proportional to the manifest.
 ///

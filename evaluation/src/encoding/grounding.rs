@@ -8,7 +8,7 @@ use engine::Observation;
 const NEAREST: usize = 8;
 
 /// Describes each of the four directions from the avatar, then the things on the board: `lantern: (3,2) (8,2)`, the nearest
-/// first and at most [`NEAREST`] per type, without walls. Without an avatar, only the things, row by row.
+/// first and at most `NEAREST` per type, without walls. Without an avatar, only the things, row by row.
 /// Cost: O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);

@@ -261,7 +261,7 @@ impl Evaluation {
 
     /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player of an episode.
     ///
-    /// The rest is left open after a cap, a request that the server rejects, or [`FAILURES_IN_A_ROW`] consecutive episodes
+    /// The rest is left open after a cap, a request that the server rejects, or `FAILURES_IN_A_ROW` consecutive episodes
     /// aborted by environment failures.
     ///
     /// # Errors

@@ -57,7 +57,7 @@ pub struct Rung {
     /// The detectable difference between the win rates of two releases of this size: at the 5 % level, with 80 %
     /// power.
     pub detectable: Option<f64>,
-    /// The same for two releases with [`MONTH`] games like these.
+    /// The same for two releases with `MONTH` games like these.
     pub detectable_month: Option<f64>,
 }
 
