@@ -1,6 +1,9 @@
 //! The `arcade` binary: one file per verb, everything else in the library crates.
 
-#![allow(rustdoc::broken_intra_doc_links, reason = "comments on arguments are the words of the help, brackets and all")]
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "comments on arguments are the words of the help, brackets and all"
+)]
 
 mod conformance;
 mod console;
