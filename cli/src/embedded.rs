@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use engine::Digest;
 use include_dir::{Dir, include_dir};
+use itertools::Itertools;
 use snapshots::{Corpus, CorpusGame};
 
 static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/corpora");
@@ -34,9 +35,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
 /// Returns the names of the recipes of `seeds/`.
 pub(crate) fn recipe_names() -> Vec<String> {
     let name = |file: &include_dir::File<'_>| Some(file.path().file_stem()?.to_string_lossy().into_owned());
-    let mut names: Vec<String> = SEEDS.files().filter_map(name).collect();
-    names.sort();
-    names
+    SEEDS.files().filter_map(name).sorted().collect_vec()
 }
 
 /// Returns the digest of the Cargo.lock that this binary was built with.

@@ -1,5 +1,6 @@
 //! Commands that messages propose, to be pasted into a shell.
 
+use itertools::Itertools;
 use std::ffi::OsStr;
 
 /// Returns an argument as a shell takes it: quoted if it holds a blank or any other special character. Text that is
@@ -12,7 +13,7 @@ pub(crate) fn quoted(argument: impl AsRef<OsStr>) -> String {
 /// Returns a command line of these arguments, with `arcade` first.
 pub(crate) fn command<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> String {
     let arguments = arguments.into_iter().map(quoted);
-    ["arcade".to_owned()].into_iter().chain(arguments).collect::<Vec<_>>().join(" ")
+    ["arcade".to_owned()].into_iter().chain(arguments).join(" ")
 }
 
 #[cfg(test)]

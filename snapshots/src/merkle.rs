@@ -14,6 +14,7 @@
 //! A proof shows that a leaf, including its path, is in the tree. As in RFC 6962 it does not bind the *number* of
 //! leaves: `size` only says which shape to follow, and another size can describe the same path to the root.
 
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use engine::Digest;
@@ -101,8 +102,7 @@ impl Proof {
 }
 
 fn sorted(leaves: &[Leaf]) -> Result<Vec<&Leaf>, DuplicatePath> {
-    let mut sorted: Vec<&Leaf> = leaves.iter().collect();
-    sorted.sort_unstable_by_key(|leaf| &leaf.path);
+    let sorted = leaves.iter().sorted_unstable_by_key(|leaf| &leaf.path).collect_vec();
     match sorted.windows(2).find(|pair| pair[0].path == pair[1].path) {
         Some(pair) => Err(DuplicatePath { path: pair[0].path.clone() }),
         None => Ok(sorted),

@@ -8,6 +8,7 @@ use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
 use engine::analysis::Role;
 use engine::{Action, Analysis, Chance, Episode, Game, Outcome, Seed, SpriteRecord, SpriteType, State};
+use itertools::Itertools;
 use rayon::prelude::*;
 
 /// Every executed interaction matters: with its consequences disabled but its random draws kept ([`Game::without`]),
@@ -129,9 +130,7 @@ impl RulesMatter {
                 break;
             }
         }
-        let mut levels: Vec<usize> = uses.iter().map(|at| at.level).collect();
-        levels.sort_unstable();
-        levels.dedup();
+        let levels = uses.iter().map(|at| at.level).sorted_unstable().dedup().collect_vec();
         for (number, level) in levels.into_iter().enumerate() {
             if calls >= most {
                 break;

@@ -3,6 +3,7 @@
 use crate::verdict::{Case, Rate};
 use agents::{Budget, Limits, Play, UnknownPlanner, planner, play};
 use engine::{Episode, Outcome, Seed};
+use itertools::Itertools;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -225,10 +226,7 @@ impl LadderConfig {
             let runs = played..self.plays.min(played + ROUND);
             played = runs.end;
             // The strongest players take longest, so they start first.
-            let tasks: Vec<(usize, u64)> = (0..players.len())
-                .rev()
-                .flat_map(|player| runs.clone().map(move |run| (player, run)))
-                .collect();
+            let tasks: Vec<(usize, u64)> = (0..players.len()).rev().cartesian_product(runs.clone()).collect();
             let done: Vec<Play> =
                 tasks.par_iter().map(|&(player, run)| players[player].play(case, run, limits)).collect();
             spent += done.iter().map(|play| play.calls + play.episode.actions.len() as u64).sum::<u64>();

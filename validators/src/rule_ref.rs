@@ -2,6 +2,7 @@
 
 use crate::evidence::Line;
 use engine::{Analysis, EFFECTS, Episode, Level, Meeting, SpriteType, Watch, nearest};
+use itertools::Itertools;
 
 /// The interactions of one game that match a written name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -167,7 +168,7 @@ fn suggestion<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 }
 
 fn quoted(words: &[&str]) -> String {
-    words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(" and ")
+    words.iter().map(|word| format!("`{word}`")).join(" and ")
 }
 
 /// The interactions that a sprite has.

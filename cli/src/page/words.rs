@@ -1,5 +1,6 @@
 //! Figures in words.
 
+use itertools::Itertools;
 use report::TableCell;
 
 /// `1 level`, `2 levels`.
@@ -18,7 +19,7 @@ pub(crate) fn grouped(count: u64) -> String {
     let first = digits.len() % 3;
     let (head, tail) = digits.split_at(first);
     let groups = (0..tail.len() / 3).map(|group| &tail[3 * group..3 * group + 3]);
-    std::iter::once(head).filter(|head| !head.is_empty()).chain(groups).collect::<Vec<_>>().join("\u{202f}")
+    std::iter::once(head).filter(|head| !head.is_empty()).chain(groups).join("\u{202f}")
 }
 
 /// The mark of a missing value.

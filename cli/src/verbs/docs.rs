@@ -3,6 +3,7 @@
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::manual::{self, Page};
+use itertools::Itertools;
 use serde_json::json;
 use std::fmt::Write;
 
@@ -49,8 +50,7 @@ fn list(pages: &[Page]) -> String {
     let own = |page: &&Page| {
         !NAMED.contains(&page.folder()) || NAMED.iter().any(|folder| folder.ends_with(&page.name))
     };
-    let mut titled: Vec<&Page> = pages.iter().filter(own).collect();
-    titled.sort_by_key(|page| page.folder() == DECISIONS);
+    let titled = pages.iter().filter(own).sorted_by_key(|page| page.folder() == DECISIONS).collect_vec();
     for page in titled {
         let _ = writeln!(text, "{:<width$}  {}", page.name, page.title());
     }

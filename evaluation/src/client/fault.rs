@@ -3,6 +3,7 @@
 use super::chat::{Finish, Usage};
 use super::provider::{Answer, Provider};
 use super::wire::HttpReply;
+use itertools::Itertools;
 use serde_json::Value;
 use std::time::{Duration, SystemTime};
 
@@ -130,7 +131,7 @@ fn seconds(text: &str) -> Option<Duration> {
 /// Shortens a text and puts it on one line, without control characters.
 pub(super) fn shorten(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
-    let line = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+    let line = plain.split_whitespace().join(" ");
     if line.chars().count() <= MAX_MESSAGE {
         line
     } else {

@@ -3,6 +3,7 @@
 use super::scene::{Scene, places};
 use crate::legend::{EntryRole, Legend};
 use engine::Observation;
+use itertools::Itertools;
 
 /// The maximum number of things of one type listed by place, the nearest first.
 const NEAREST: usize = 8;
@@ -47,7 +48,7 @@ fn way(scene: &Scene<'_>, from: (usize, usize), (dx, dy): (isize, isize)) -> Str
 
 /// Returns the contents of one cell, from the uppermost to the lowest.
 fn pile(names: &[&str]) -> String {
-    names.iter().rev().copied().collect::<Vec<_>>().join(" over ")
+    names.iter().rev().copied().join(" over ")
 }
 
 fn thing(scene: &Scene<'_>, name: &str) -> Option<String> {

@@ -2,6 +2,7 @@
 
 use crate::legend::Legend;
 use engine::{Direction, Observation};
+use itertools::Itertools;
 
 /// An observation, as all encodings read it.
 #[derive(Clone, Debug)]
@@ -55,7 +56,7 @@ pub(crate) fn place((column, row): (usize, usize)) -> String {
 
 /// Formats cells: `(3,4) (5,4)`.
 pub(crate) fn places(all: &[(usize, usize)]) -> String {
-    all.iter().map(|&cell| place(cell)).collect::<Vec<_>>().join(" ")
+    all.iter().map(|&cell| place(cell)).join(" ")
 }
 
 /// Returns `up`, `left`, `down` or `right`; `None` for any other direction.

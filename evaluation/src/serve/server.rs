@@ -13,6 +13,7 @@ use axum::routing::{get, post};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use itertools::Itertools;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
@@ -322,9 +323,7 @@ fn message(message: Message) -> Result<ChatMessage, String> {
     };
     let text = match message.content {
         Content::Text(text) => text,
-        Content::Parts(parts) => {
-            parts.into_iter().filter_map(|part| part.text).collect::<Vec<_>>().join("\n")
-        }
+        Content::Parts(parts) => parts.into_iter().filter_map(|part| part.text).join("\n"),
     };
     Ok(ChatMessage { role, text, image: None })
 }

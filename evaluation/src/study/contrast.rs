@@ -4,6 +4,7 @@ use crate::study::Study;
 use crate::study::player::{CONTEXTUAL, ZERO_SHOT};
 use crate::study::scores::Estimate;
 use crate::study::{LEVEL, RESAMPLES, seed};
+use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{
@@ -206,8 +207,7 @@ impl Contrasts {
             ]);
         }
         let list = |grain: &str, list: &[Comparison]| {
-            let mut sorted: Vec<&Comparison> = list.iter().collect();
-            sorted.sort_by(|a, b| a.p.total_cmp(&b.p));
+            let sorted = list.iter().sorted_by(|a, b| a.p.total_cmp(&b.p)).collect_vec();
             let believed = list.iter().filter(|comparison| comparison.q <= 0.05).count();
             let note = format!(
                 "Fisher's exact test, two-sided; q: corrected for all {} comparisons (Benjamini, Hochberg), of which {believed} have at \

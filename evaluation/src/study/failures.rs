@@ -3,6 +3,7 @@
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
 use crate::study::scores::{StudyEpisode, mean};
+use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{bonferroni, quantile, welch};
@@ -143,9 +144,7 @@ pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
         let rate = mean(rates.iter().copied()).filter(|rate| *rate > 0.0)?;
         Some(OscillationRow { player, game, level, rate, episodes: rates.len() as u64, wins })
     };
-    let mut rows: Vec<OscillationRow> = groups.into_iter().filter_map(row).collect();
-    rows.sort_by(|a, b| b.rate.total_cmp(&a.rate));
-    rows
+    groups.into_iter().filter_map(row).sorted_by(|a, b| b.rate.total_cmp(&a.rate)).collect_vec()
 }
 
 /// The number of rows of the oscillation table.

@@ -2,6 +2,7 @@
 
 use crate::study::Study;
 use crate::study::scores::{Estimate, Scores};
+use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
 
@@ -31,9 +32,7 @@ pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
         for player in 0..study.players.len() {
             let of_kind = |game: usize| study.games[game].taxonomy.contains(kind);
             let episodes = || study.on(player, None, None).iter().filter(|episode| of_kind(episode.game));
-            let mut games: Vec<usize> = episodes().map(|episode| episode.game).collect();
-            games.sort_unstable();
-            games.dedup();
+            let games = episodes().map(|episode| episode.game).sorted_unstable().dedup().collect_vec();
             if !games.is_empty() {
                 let (kind, scores) = (kind.clone(), Scores::of(episodes()));
                 rows.push(TaxonomyRow { kind, player, games: games.len() as u64, scores });

@@ -1,5 +1,7 @@
 //! From sprite names to English: `seaGlass` is "sea glass", "a sea glass", "sea glasses".
 
+use itertools::Itertools;
+
 /// Replaces each capital by a space and the small letter.
 pub(crate) fn spaced(name: &str) -> String {
     let mut text = String::new();
@@ -45,7 +47,7 @@ pub(crate) fn capital(text: &str) -> String {
 
 /// Capitalises every word.
 pub(crate) fn headline(text: &str) -> String {
-    text.split(' ').map(capital).collect::<Vec<_>>().join(" ")
+    text.split(' ').map(capital).join(" ")
 }
 
 /// Spells out a number: "one", "two" …

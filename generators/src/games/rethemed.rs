@@ -15,6 +15,7 @@ use engine::analysis::{Analysis, Genre, Role as Use};
 use engine::describe::Guide;
 use engine::syntax::{MappingLine, SpriteLine};
 use engine::{Description, Game, Sampler, Seed, SpriteType};
+use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum number of names in a clause of a summary.
@@ -380,7 +381,7 @@ fn goal(analysis: &Analysis) -> String {
             word.to_owned()
         }
     };
-    Guide::from_analysis(analysis).goal().split(' ').map(word).collect::<Vec<_>>().join(" ")
+    Guide::from_analysis(analysis).goal().split(' ').map(word).join(" ")
 }
 
 #[cfg(test)]

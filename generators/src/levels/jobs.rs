@@ -4,6 +4,7 @@ use super::palette::{Palette, Walk};
 use super::plan::{furnishable, round};
 use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
 use engine::{Analysis, Sampler, SpriteType};
+use itertools::Itertools;
 
 /// A task: push a sprite onto a partner.
 #[derive(Clone, Debug)]
@@ -106,9 +107,7 @@ impl Jobs {
 
     /// Adds jobs for every type that must go.
     fn removals(&mut self, wanted: &[Job], remove: &[SpriteType], count: usize, sampler: &mut Sampler) {
-        let mut types: Vec<SpriteType> = wanted.iter().map(|job| job.pushed).collect();
-        types.sort_unstable();
-        types.dedup();
+        let mut types = wanted.iter().map(|job| job.pushed).sorted_unstable().dedup().collect_vec();
         sampler.shuffle(&mut types);
         for at in 0..count.max(types.len().min(3)) {
             let stype = types[at % types.len()];

@@ -4,6 +4,7 @@ use super::grid::Grid;
 use super::palette::Palette;
 use engine::analysis::Role;
 use engine::{Analysis, Digest, Level};
+use itertools::Itertools;
 
 /// The number of symmetries of a board: bit 0 mirrors left and right, bit 1 up and down, bit 2 swaps columns and rows.
 const SYMMETRIES: usize = 8;
@@ -120,7 +121,7 @@ impl LevelSimilarity {
             false => (OUTSIDE, false),
         };
         let (mut differing, mut all) = (0, 0);
-        for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+        for (y, x) in (0..rows).cartesian_product(0..columns) {
             let ((one, one_border), (two, two_border)) = (at(grid, one, x, y), at(other_grid, two, x, y));
             if one == two
                 && (one == OUTSIDE || (one_border && two_border && self.structure[usize::from(one)]))

@@ -4,6 +4,7 @@ use super::{ConstructiveLevels, Examples, LevelConfig, cover};
 use crate::{GenerateError, Generator};
 use engine::analysis::{Role, Steering};
 use engine::{Action, Analysis, Game, Level, Outcome, Seed};
+use itertools::Itertools;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,9 +25,7 @@ pub(super) fn folders(path: &Path) -> Vec<PathBuf> {
         eprintln!("skipped: there is no folder {}", path.display());
         return Vec::new();
     };
-    let mut folders: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    folders.sort();
-    folders
+    entries.filter_map(|entry| Some(entry.ok()?.path())).sorted().collect_vec()
 }
 
 /// The game in a folder, if the engine can play it.

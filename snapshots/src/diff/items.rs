@@ -3,6 +3,7 @@
 use super::Compared;
 use crate::released::ReleasedGame;
 use engine::{Digest, Level};
+use itertools::Itertools;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use validators::novelty::canonical_types;
@@ -168,7 +169,7 @@ fn level_form(level: &Level, placed: &[Vec<u32>]) -> Digest {
     let image = |symmetry: usize| {
         let (wide, high) = if symmetry & 4 != 0 { (rows, columns) } else { (columns, rows) };
         let mut bytes: Vec<u8> = [wide as u32, high as u32].map(u32::to_le_bytes).as_flattened().to_vec();
-        for (x, y) in (0..high).flat_map(|y| (0..wide).map(move |x| (x, y))) {
+        for (y, x) in (0..high).cartesian_product(0..wide) {
             let (x, y) = if symmetry & 4 != 0 { (y, x) } else { (x, y) };
             let x = if symmetry & 1 != 0 { columns - 1 - x } else { x };
             let y = if symmetry & 2 != 0 { rows - 1 - y } else { y };

@@ -6,6 +6,7 @@ use forge::card::Card;
 use forge::games::FoundLevel;
 use forge::games::MadeGame;
 use forge::games::Step;
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 /// The games of a job; none if nothing passed.
@@ -68,7 +69,7 @@ fn path(
     let places = (0..count as u64).map(move |place| to(&[("level", place), ("candidate", candidate)]));
     let place = find(judges, found.seed, Box::new(places))?;
     // Usually the search for a win; if it found none, a win that another judge has seen.
-    let searched = (0..ROUNDS).flat_map(|round| (0..PLAYERS).map(move |player| (round, player)));
+    let searched = (0..ROUNDS).cartesian_product(0..PLAYERS);
     let searched = searched.map(move |(round, player)| {
         to(&[("winnable", 0), ("round", round), ("play", player), ("chance", 0)])
     });

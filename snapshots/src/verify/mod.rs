@@ -14,6 +14,7 @@ use crate::sealed::{HELD, SECRET_FILE, Secret};
 use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
 use forge::card::Card;
 use game::{Checker, Files, GameCheck};
+use itertools::Itertools;
 use rayon::prelude::*;
 use replay::Meter;
 use report::canonical::to_canonical_json;
@@ -172,9 +173,7 @@ fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
         let end = folder.char_indices().rev().nth(7).map_or(0, |(at, _)| at);
         by_end.entry(folder[end..].to_owned()).or_default().push((folder, files));
     }
-    let mut together: Vec<_> = by_end.into_values().collect();
-    together.sort_by(|one, two| one[0].0.cmp(&two[0].0));
-    together
+    by_end.into_values().sorted_by(|one, two| one[0].0.cmp(&two[0].0)).collect_vec()
 }
 
 /// Checks that the manifest's fields agree with its recipe.

@@ -5,6 +5,7 @@ use super::guards::Guards;
 use crate::measures::{Mean, actions};
 use crate::recording::Recorded;
 use engine::{Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteRecord, State, Watch};
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -139,7 +140,7 @@ impl Measured {
 /// Returns the number of sign changes; zeros are skipped.
 fn changes(leads: impl Iterator<Item = f64>) -> usize {
     let signs: Vec<bool> = leads.filter(|lead| *lead != 0.0).map(|lead| lead > 0.0).collect();
-    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+    signs.iter().tuple_windows().filter(|(one, next)| one != next).count()
 }
 
 /// Returns all sprites except the avatar.

@@ -4,6 +4,7 @@
 
 use super::graph::RuleGraph;
 use engine::Digest;
+use itertools::Itertools;
 
 /// The colour of a node.
 pub(super) type Colour = u64;
@@ -36,9 +37,8 @@ impl Neighbours {
     pub(super) fn refined(&self, colours: &[Colour]) -> Vec<Colour> {
         let mut bytes = Vec::new();
         let mut refine = |(at, neighbours): (usize, &Vec<(Colour, usize)>)| {
-            let mut seen: Vec<(Colour, Colour)> =
-                neighbours.iter().map(|&(role, to)| (role, colours[to])).collect();
-            seen.sort_unstable();
+            let seen =
+                neighbours.iter().map(|&(role, to)| (role, colours[to])).sorted_unstable().collect_vec();
             bytes.clear();
             bytes.extend(colours[at].to_le_bytes());
             for (role, to) in seen {

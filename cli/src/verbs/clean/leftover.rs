@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::verbs::verify::failure;
 use crate::whole_file::UNFINISHED;
+use itertools::Itertools;
 use snapshots::Abandoned;
 use snapshots::mint::Shard;
 use std::fs::{self, File};
@@ -122,9 +123,8 @@ const SETTLED: Duration = Duration::from_secs(3600);
 pub(super) fn scratch() -> Vec<Leftover> {
     let Some(used) = working_folders() else { return Vec::new() };
     let Ok(place) = fs::canonicalize(std::env::temp_dir()) else { return Vec::new() };
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(&place).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
-    paths.sort();
+    let mut paths =
+        fs::read_dir(&place).into_iter().flatten().flatten().map(|entry| entry.path()).sorted().collect_vec();
     paths.retain(|path| is_scratch(path) && !used.iter().any(|used| used.starts_with(path)));
     paths.into_iter().map(|path| Leftover { path, kind: Kind::Scratch }).collect()
 }

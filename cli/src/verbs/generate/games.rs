@@ -16,6 +16,7 @@ use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
 use indicatif::ProgressBar;
+use itertools::Itertools;
 use rayon::prelude::*;
 use serde_json::json;
 use snapshots::{Draft, Witness};
@@ -68,7 +69,7 @@ pub(crate) struct Args {
 fn kind(text: &str) -> Result<Kind, String> {
     let names = || Kind::ALL.iter().map(|kind| kind.name());
     Kind::ALL.iter().copied().find(|kind| kind.name() == text).ok_or_else(|| {
-        let all = || format!("there are {}", names().collect::<Vec<_>>().join(", "));
+        let all = || format!("there are {}", names().join(", "));
         let help = engine::nearest(text, names()).map_or_else(all, |near| format!("did you mean `{near}`?"));
         format!("unknown kind; {help}")
     })

@@ -28,6 +28,7 @@ use crate::turn::Turn;
 use child::{LineProcess, NoLine};
 use engine::Action;
 use engine::describe::Guide;
+use itertools::Itertools;
 use message::{Message, Past, Seen};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -288,7 +289,7 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Action, String> {
         let number = turn.number;
         return Err(format!("this answers turn {addressed}, but the current turn is {number}"));
     }
-    let names = || actions.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let names = || actions.iter().map(ToString::to_string).join(", ");
     let Answer { action } = serde_json::from_slice(answer)
         .map_err(|error| format!("{error}; answer {{\"action\": …}} with one of {}", names()))?;
     let known = actions.iter().find(|known| known.to_string() == action);

@@ -1,5 +1,6 @@
 //! A check of a command's program before it is started: a misspelt name is reported before a results folder is created.
 
+use itertools::Itertools;
 use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -87,9 +88,7 @@ fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
 /// Returns the names in a folder, sorted; none if it cannot be read.
 fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
-    names.sort();
-    names
+    entries.filter_map(|entry| entry.file_name().into_string().ok()).sorted().collect_vec()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The meaning of the rules' sentences for choosing a target. Only sentences written by `engine::describe` are read.
 
+use itertools::Itertools;
 use regex::{Captures, Regex};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
@@ -224,7 +225,7 @@ impl<'a> Beliefs<'a> {
         if self.is_me(found, "two") {
             self.taken.extend(goes.iter().map(|&name| (name, need)));
         }
-        self.removals.extend(goes.iter().flat_map(|&goes| by.iter().map(move |&by| (goes, by))));
+        self.removals.extend(goes.iter().copied().cartesian_product(by.iter().copied()));
     }
 
     fn end_both(&mut self, found: &Captures<'a>) {
@@ -235,7 +236,7 @@ impl<'a> Beliefs<'a> {
         if self.is_me(found, "two") {
             self.kills.extend(one.iter().map(|&name| (name, None)));
         }
-        for (&one, &two) in one.iter().flat_map(|one| two.iter().map(move |two| (one, two))) {
+        for (one, two) in one.into_iter().cartesian_product(two) {
             self.removals.extend([(one, two), (two, one)]);
         }
     }

@@ -12,6 +12,7 @@ use crate::levels::tests::{game_in, public_folder, workspace};
 use crate::{Generator, Variation};
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use engine::{Action, Analysis, Game, Level, Outcome, Seed, State};
+use itertools::Itertools;
 use std::collections::{BTreeMap, VecDeque};
 
 /// A game of pushing crates; `sprites`, `mapping` and `rules` define their destination.
@@ -219,9 +220,7 @@ fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize
     let mut state = game.start(level, Seed::from_text("proof"));
     let things = |state: &State| {
         let pushed = analysis.pushables().iter().flat_map(|pushable| state.rects(pushable.stype));
-        let mut places: Vec<(i32, i32)> = pushed.map(|rect| (rect.x, rect.y)).collect();
-        places.sort_unstable();
-        places
+        pushed.map(|rect| (rect.x, rect.y)).sorted_unstable().collect_vec()
     };
     let mut count = 0;
     for &action in actions {
