@@ -17,7 +17,7 @@ const BITS: usize = 64;
 
 /// The bits of a type.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Kind {
+pub(crate) struct TypeMask {
     /// Its bit; 0 for types without rules.
     pub(crate) own: u64,
     /// The bits of the types that a rule pairs it with.
@@ -26,7 +26,7 @@ pub(crate) struct Kind {
     pub(crate) barriers: u64,
 }
 
-impl Kind {
+impl TypeMask {
     fn bit(&self) -> usize {
         self.own.trailing_zeros() as usize
     }
@@ -41,7 +41,7 @@ impl Kind {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contacts {
     /// By type.
-    pub(crate) kinds: Vec<Kind>,
+    pub(crate) kinds: Vec<TypeMask>,
     bits: usize,
     /// By two bits: the pair's number.
     pair: Vec<u16>,
@@ -60,7 +60,7 @@ pub(crate) struct Contacts {
 impl Contacts {
     /// Computes the tables. Cost: O(types² + passes × the largest trees).
     pub(crate) fn of(types: &[TypeInfo], passes: &[Pass]) -> Contacts {
-        let mut contacts = Contacts { kinds: vec![Kind::default(); types.len()], ..Contacts::default() };
+        let mut contacts = Contacts { kinds: vec![TypeMask::default(); types.len()], ..Contacts::default() };
         for pass in passes {
             for side in [pass.first, pass.second] {
                 for stype in &types[side.index()].tree {
@@ -174,7 +174,7 @@ impl State {
 
     /// Notes that a sprite has started to cover a cell.
     #[inline(always)]
-    pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
+    pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &TypeMask, cell: usize) {
         let mask = &mut self.masks[cell];
         let partners = if *mask & kind.own == 0 {
             let others = *mask & kind.partners;
@@ -191,7 +191,7 @@ impl State {
 
     /// Notes that a sprite has stopped covering a cell; the chains are already up to date.
     #[inline(always)]
-    pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
+    pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &TypeMask, cell: usize) {
         let partners = if self.crowds_in(cell) & kind.own == 0 {
             let mask = &mut self.masks[cell];
             *mask &= !kind.own;
@@ -215,7 +215,7 @@ impl State {
 
     /// Notes that several sprites of a type cover a cell.
     #[inline(never)]
-    fn crowd(&mut self, kind: &Kind, cell: usize) {
+    fn crowd(&mut self, kind: &TypeMask, cell: usize) {
         self.crowds.resize(self.masks.len(), 0);
         self.crowds[cell] |= kind.own;
     }
@@ -280,7 +280,7 @@ impl State {
     }
 
     /// Notes the cells that a large sprite covers.
-    pub(crate) fn cover(&mut self, kind: &Kind, slot: Slot) {
+    pub(crate) fn cover(&mut self, kind: &TypeMask, slot: Slot) {
         let mut covered = std::mem::take(&mut self.covered);
         covered.resize(self.cells.len(), 0);
         if !self.covered_by(self.sprite(slot), |cell| covered[cell] |= kind.own) {

@@ -39,14 +39,14 @@ enum GateKind {
 
 /// A rule that involves a type, as a pass of the event phase.
 #[derive(Clone, Copy, Debug)]
-struct Gate {
+struct PassGate {
     pass: u16,
     kind: GateKind,
     /// The bits of the types with which the rule pairs this one (`contacts.rs`).
     bits: u64,
 }
 
-impl Gate {
+impl PassGate {
     fn bars(&self) -> bool {
         matches!(self.kind, GateKind::Back | GateKind::Flush)
     }
@@ -58,7 +58,7 @@ pub(crate) struct Barriers {
     /// The bits of the partners that do not put it back.
     others: u64,
     /// The rules in the order of the event phase, up to the last one that puts the sprite back.
-    gates: Vec<Gate>,
+    gates: Vec<PassGate>,
 }
 
 /// A sprite that has stepped into a barrier in this tick and is still entered at its old position.
@@ -118,10 +118,10 @@ pub(crate) fn barriers(
             let with =
                 |side: SpriteType, bits: u64| if types[side.index()].in_tree(stype) { bits } else { 0 };
             let bits = with(pass.first, sides.1) | with(pass.second, sides.0);
-            Gate { pass: at, kind: kind(stype, pass), bits }
+            PassGate { pass: at, kind: kind(stype, pass), bits }
         };
-        let mut gates: Vec<Gate> = contacts.passes_of(stype).iter().take(MAX_GATES).map(gate).collect();
-        gates.truncate(gates.iter().rposition(Gate::bars).map_or(0, |last| last + 1));
+        let mut gates: Vec<PassGate> = contacts.passes_of(stype).iter().take(MAX_GATES).map(gate).collect();
+        gates.truncate(gates.iter().rposition(PassGate::bars).map_or(0, |last| last + 1));
         let bits =
             |bar: bool| gates.iter().filter(|gate| gate.bars() == bar).fold(0, |bits, gate| bits | gate.bits);
         let (bars, others) = (bits(true), bits(false));
@@ -242,7 +242,7 @@ impl Step<'_> {
 
     /// Tests whether a rule puts a sprite with a deferred move back; `Some(false)` if the rule does not apply to it,
     /// `None` if the move is to be carried out.
-    fn meets(&self, deferred: &DeferredMove, gate: Gate, looked_at: bool) -> Option<bool> {
+    fn meets(&self, deferred: &DeferredMove, gate: PassGate, looked_at: bool) -> Option<bool> {
         let state = &*self.state;
         let sprite = state.sprite(deferred.slot);
         let under = state.bits_under(deferred.cell as usize, deferred.flags) & gate.bits != 0;

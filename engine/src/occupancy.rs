@@ -2,7 +2,7 @@
 //! lies in it, except those of types without rules. It is updated as sprites move, so the cost of a query for the sprites
 //! that overlap a rectangle depends only on the sprites that are there.
 
-use crate::contacts::{Contacts, Kind};
+use crate::contacts::{Contacts, TypeMask};
 use crate::game::Rules;
 use crate::geometry::Rect;
 use crate::span::Span;
@@ -325,7 +325,7 @@ impl State {
 
     /// Departs from a cell, and from the cell `across` further on if `across` is not 0.
     #[inline(always)]
-    pub(crate) fn depart_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
+    pub(crate) fn depart_beside(&mut self, contacts: &Contacts, kind: &TypeMask, cell: usize, across: usize) {
         self.depart(contacts, kind, cell);
         if across != 0 {
             self.depart(contacts, kind, cell + across);
@@ -333,7 +333,7 @@ impl State {
     }
 
     #[inline(always)]
-    pub(crate) fn arrive_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
+    pub(crate) fn arrive_beside(&mut self, contacts: &Contacts, kind: &TypeMask, cell: usize, across: usize) {
         self.arrive(contacts, kind, cell);
         if across != 0 {
             self.arrive(contacts, kind, cell + across);
@@ -345,7 +345,7 @@ impl State {
     fn shift_across(
         &mut self,
         contacts: &Contacts,
-        kind: &Kind,
+        kind: &TypeMask,
         (before, from): (usize, Located),
         (after, to): (usize, Located),
     ) {

@@ -2,7 +2,7 @@
 //! and picking candidates that lie far apart in an archive.
 
 use engine::Digest;
-use generators::{Archive, Evaluation, Judged, Search};
+use generators::{Archive, Evaluated, Evaluation, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -62,7 +62,7 @@ impl<C: Clone> Finalists<C> {
 }
 
 /// An elite of an archive, with its cell and the cell's bins.
-type Elite<'a, C> = (usize, Vec<usize>, &'a Judged<C>);
+type Elite<'a, C> = (usize, Vec<usize>, &'a Evaluated<C>);
 
 /// Candidates of an archive that were not shown before, with their cells, spread as far apart as possible: first the
 /// best one if no cell is taken, then always the one farthest from all cells taken or picked, with ties going to the

@@ -6,7 +6,7 @@ use std::iter::repeat;
 
 /// A candidate with its evaluation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judged<C> {
+pub struct Evaluated<C> {
     /// The candidate.
     pub candidate: C,
     /// Its evaluation.
@@ -64,9 +64,9 @@ pub struct Archive<C> {
     axes: Vec<Axis>,
     /// The maximum number of infeasible candidates in a cell.
     pocket_size: usize,
-    elites: BTreeMap<usize, Judged<C>>,
+    elites: BTreeMap<usize, Evaluated<C>>,
     /// By cell, the least infeasible first; among equals the youngest first. No pocket is empty.
-    pockets: BTreeMap<usize, Vec<Judged<C>>>,
+    pockets: BTreeMap<usize, Vec<Evaluated<C>>>,
 }
 
 impl<C> Archive<C> {
@@ -81,7 +81,7 @@ impl<C> Archive<C> {
     /// oldest, so that candidates of equal feasibility can still drift. Cost: O(log cells + pocket).
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
-        let judged = Judged { candidate, evaluation };
+        let judged = Evaluated { candidate, evaluation };
         if !judged.evaluation.is_feasible() {
             return self.pocket_in(cell, judged);
         }
@@ -95,12 +95,12 @@ impl<C> Archive<C> {
         }
     }
 
-    fn pocket_in(&mut self, cell: usize, judged: Judged<C>) -> AddStatus {
+    fn pocket_in(&mut self, cell: usize, judged: Evaluated<C>) -> AddStatus {
         if self.pocket_size == 0 {
             return AddStatus::Rejected;
         }
         let pocket = self.pockets.entry(cell).or_default();
-        let better = |kept: &Judged<C>| kept.evaluation.feasibility > judged.evaluation.feasibility;
+        let better = |kept: &Evaluated<C>| kept.evaluation.feasibility > judged.evaluation.feasibility;
         let place = pocket.partition_point(better);
         if place == self.pocket_size {
             return AddStatus::Rejected;
@@ -163,22 +163,22 @@ impl<C> Archive<C> {
     }
 
     /// The elite of a cell.
-    pub fn elite(&self, cell: usize) -> Option<&Judged<C>> {
+    pub fn elite(&self, cell: usize) -> Option<&Evaluated<C>> {
         self.elites.get(&cell)
     }
 
     /// All elites with their cells, in the order of the cells.
-    pub fn elites(&self) -> impl ExactSizeIterator<Item = (usize, &Judged<C>)> {
+    pub fn elites(&self) -> impl ExactSizeIterator<Item = (usize, &Evaluated<C>)> {
         self.elites.iter().map(|(&cell, elite)| (cell, elite))
     }
 
     /// The infeasible candidates of a cell, the least infeasible first.
-    pub fn pocket(&self, cell: usize) -> &[Judged<C>] {
+    pub fn pocket(&self, cell: usize) -> &[Evaluated<C>] {
         self.pockets.get(&cell).map_or(&[], Vec::as_slice)
     }
 
     /// All cells that hold infeasible candidates, with these candidates, in the order of the cells.
-    pub fn pockets(&self) -> impl ExactSizeIterator<Item = (usize, &[Judged<C>])> {
+    pub fn pockets(&self) -> impl ExactSizeIterator<Item = (usize, &[Evaluated<C>])> {
         self.pockets.iter().map(|(&cell, pocket)| (cell, pocket.as_slice()))
     }
 
@@ -194,7 +194,7 @@ impl<C> Archive<C> {
     }
 
     /// The elite with the highest objective; among equals that of the first cell.
-    pub fn best(&self) -> Option<&Judged<C>> {
+    pub fn best(&self) -> Option<&Evaluated<C>> {
         self.elites.values().reduce(|best, elite| {
             if elite.evaluation.objective > best.evaluation.objective { elite } else { best }
         })

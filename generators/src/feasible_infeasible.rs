@@ -1,7 +1,7 @@
 //! A search with two populations: one evolves towards a better objective, the other towards feasibility.
 
 use crate::breeding::Breeding;
-use crate::{Evaluation, Judged, Search, Variation};
+use crate::{Evaluated, Evaluation, Search, Variation};
 use engine::{Digest, Sampler, Seed};
 
 /// The parameters of [`FeasibleInfeasible`].
@@ -87,9 +87,9 @@ pub struct FeasibleInfeasible<'a, V: Variation> {
     /// Candidates that are still to be created before breeding starts.
     initial: usize,
     /// By objective, the best first; among equals the youngest first.
-    feasible: Vec<Judged<V::Candidate>>,
+    feasible: Vec<Evaluated<V::Candidate>>,
     /// By feasibility, the best first; among equals the youngest first.
-    infeasible: Vec<Judged<V::Candidate>>,
+    infeasible: Vec<Evaluated<V::Candidate>>,
 }
 
 impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
@@ -109,12 +109,12 @@ impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
     }
 
     /// The feasible population, the best first.
-    pub fn feasible(&self) -> &[Judged<V::Candidate>] {
+    pub fn feasible(&self) -> &[Evaluated<V::Candidate>] {
         &self.feasible
     }
 
     /// The infeasible population, the closest to feasible first.
-    pub fn infeasible(&self) -> &[Judged<V::Candidate>] {
+    pub fn infeasible(&self) -> &[Evaluated<V::Candidate>] {
         &self.infeasible
     }
 
@@ -150,7 +150,7 @@ impl<V: Variation> Search for FeasibleInfeasible<'_, V> {
     fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
         for (candidate, evaluation) in evaluated {
             self.breeding.note(&candidate);
-            let judged = Judged { candidate, evaluation };
+            let judged = Evaluated { candidate, evaluation };
             if judged.evaluation.is_feasible() {
                 insert_ranked(&mut self.feasible, judged, self.config.size, |evaluation| {
                     evaluation.objective
@@ -171,8 +171,8 @@ fn tournament(members: usize, size: usize, sampler: &mut Sampler) -> usize {
 
 /// Inserts a member at its rank, before its equals, and drops the last one if there are too many.
 fn insert_ranked<C>(
-    population: &mut Vec<Judged<C>>,
-    judged: Judged<C>,
+    population: &mut Vec<Evaluated<C>>,
+    judged: Evaluated<C>,
     size: usize,
     merit: impl Fn(&Evaluation) -> f64,
 ) {

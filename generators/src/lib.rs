@@ -17,7 +17,7 @@ mod search;
 mod toys;
 
 pub use annealing::{Annealing, AnnealingConfig};
-pub use archive::{AddStatus, Archive, Axis, Judged};
+pub use archive::{AddStatus, Archive, Axis, Evaluated};
 pub use error::GenerateError;
 pub use feasible_infeasible::{FeasibleInfeasible, FeasibleInfeasibleConfig};
 pub use generator::Generator;

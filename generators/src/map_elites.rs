@@ -1,7 +1,7 @@
 //! Illumination search: finds the best candidate of each cell by varying the known ones.
 
 use crate::breeding::Breeding;
-use crate::{Archive, Axis, Evaluation, Judged, Search, Variation};
+use crate::{Archive, Axis, Evaluated, Evaluation, Search, Variation};
 use engine::{Digest, Sampler, Seed};
 
 /// The minimum size of the tournament among infeasible parents: pockets keep many dead ends, and more of them the more
@@ -158,29 +158,29 @@ impl<V: Variation> Search for MapElites<'_, V> {
 }
 
 /// Draws an elite from an archive that has one.
-fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Judged<C> {
+fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated<C> {
     let at = sampler.below(archive.elites().len());
     archive.elites().nth(at).expect("an index below the length").1
 }
 
 /// Draws an infeasible candidate from an archive that has one: from an empty cell next to a filled one if possible,
 /// otherwise from any pocket.
-fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Judged<C> {
+fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated<C> {
     let is_filled = |cell: usize| archive.elite(cell).is_some();
-    let at_frontier = |(cell, _): &(usize, &[Judged<C>])| {
+    let at_frontier = |(cell, _): &(usize, &[Evaluated<C>])| {
         !is_filled(*cell) && archive.neighbours(*cell).into_iter().any(is_filled)
     };
-    let mut pockets: Vec<(usize, &[Judged<C>])> = archive.pockets().filter(at_frontier).collect();
+    let mut pockets: Vec<(usize, &[Evaluated<C>])> = archive.pockets().filter(at_frontier).collect();
     if pockets.is_empty() {
         pockets = archive.pockets().collect();
     }
-    let drawn: Vec<&Judged<C>> = (0..TOURNAMENT + pockets.len() / SHARE)
+    let drawn: Vec<&Evaluated<C>> = (0..TOURNAMENT + pockets.len() / SHARE)
         .map(|_| {
             let (_, pocket) = *sampler.choose(&pockets);
             sampler.choose(pocket)
         })
         .collect();
-    let merit = |judged: &Judged<C>| judged.evaluation.feasibility;
+    let merit = |judged: &Evaluated<C>| judged.evaluation.feasibility;
     drawn
         .into_iter()
         .reduce(|best, other| if merit(other) > merit(best) { other } else { best })

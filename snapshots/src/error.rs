@@ -112,7 +112,7 @@ pub enum SnapshotError {
     },
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
     #[error("`{}` is not a {expected}: fetch the snapshot again", .path.display())]
-    Kind {
+    ReleaseKind {
         /// The path of the entry.
         path: PathBuf,
         /// The expected kind of entry: "file" or "folder".

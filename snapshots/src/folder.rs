@@ -175,7 +175,7 @@ fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
             Some(_) => (found.is_dir(), "folder"),
         };
         if !fits {
-            return Err(SnapshotError::Kind { path, expected });
+            return Err(SnapshotError::ReleaseKind { path, expected });
         }
         examined = Some(found);
     }
@@ -188,7 +188,7 @@ fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
     if examined.is_some_and(|examined| same_file(&examined, &found)) {
         Ok(file)
     } else {
-        Err(SnapshotError::Kind { path, expected: "file" })
+        Err(SnapshotError::ReleaseKind { path, expected: "file" })
     }
 }
 
@@ -310,8 +310,11 @@ mod tests {
             assert!(matches!(read(&root, path, 9), Err(SnapshotError::Path { .. })), "{path}");
         }
         assert!(matches!(read(&root, "absent", 9), Err(SnapshotError::Io { .. })));
-        assert!(matches!(read(&root, "a/b", 9), Err(SnapshotError::Kind { expected: "folder", .. })));
-        assert!(matches!(read(home.path(), "in", 9), Err(SnapshotError::Kind { expected: "file", .. })));
+        assert!(matches!(read(&root, "a/b", 9), Err(SnapshotError::ReleaseKind { expected: "folder", .. })));
+        assert!(matches!(
+            read(home.path(), "in", 9),
+            Err(SnapshotError::ReleaseKind { expected: "file", .. })
+        ));
     }
 
     #[cfg(unix)]
@@ -349,7 +352,7 @@ mod tests {
             let home = home(&[("a", 1)]);
             let _socket = UnixListener::bind(home.path().join("socket")).expect("bound");
             check(&home, Limits::SNAPSHOT, &[("a", 1)], &[("socket", Flaw::Special)]);
-            assert!(matches!(read(home.path(), "socket", 9), Err(SnapshotError::Kind { .. })));
+            assert!(matches!(read(home.path(), "socket", 9), Err(SnapshotError::ReleaseKind { .. })));
         }
 
         #[test]

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::error::SnapshotError;
 use crate::folder::{self, Listing};
-use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
 use crate::papers::{self, Untracked};
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
@@ -105,7 +105,7 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
     // A sealed release withholds some of its files until it is revealed: all of them or none.
-    let is_held = |path: &str| manifest.kind == Kind::Sealed && path.starts_with(HELD);
+    let is_held = |path: &str| manifest.kind == ReleaseKind::Sealed && path.starts_with(HELD);
     let all_held = manifest
         .items
         .iter()

@@ -12,14 +12,14 @@
 //! # let out = home.path().join("example");
 //! # use engine as infinite_arcade_engine;
 //! use infinite_arcade_engine::Digest;
-//! use infinite_arcade_snapshots::{Draft, Item, Kind, MANIFEST_FILE, Manifest, canary, check_integrity};
+//! use infinite_arcade_snapshots::{Draft, Item, ReleaseKind, MANIFEST_FILE, Manifest, canary, check_integrity};
 //!
 //! let text: &[u8] = b"BasicGame\n";
 //! let recipe = serde_json::json!({ "name": "example", "seed": 7 });
 //! let mut manifest = Manifest {
 //!     format: infinite_arcade_snapshots::FORMAT,
 //!     name: "example".into(),
-//!     kind: Kind::Open,
+//!     kind: ReleaseKind::Open,
 //!     semantics: 1,
 //!     generation: 1,
 //!     version: Some("0.1.0".into()),
@@ -79,7 +79,7 @@ pub use corpus::{Corpus, CorpusCard, CorpusGame, Intent};
 pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
 pub use integrity::{Integrity, check_integrity};
-pub use manifest::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+pub use manifest::{FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
 pub use papers::{PAPERS, PAPERS_LIMITS, Untracked};
 pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};

@@ -2,7 +2,7 @@
 
 use crate::corpus::Corpus;
 use crate::folder::{self, Limits};
-use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
 use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
 use crate::papers;
 use crate::recipe::{Recipe, RecipeError};
@@ -109,9 +109,9 @@ impl Regeneration {
             });
         }
         let secret = match manifest.kind {
-            Kind::Open => None,
-            Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_revealed(root, SECRET_FILE)?),
-            Kind::Sealed => return Err(RegenerateError::Sealed),
+            ReleaseKind::Open => None,
+            ReleaseKind::Sealed if root.join(SECRET_FILE).exists() => Some(read_revealed(root, SECRET_FILE)?),
+            ReleaseKind::Sealed => return Err(RegenerateError::Sealed),
         };
         let recipe: Recipe =
             serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;

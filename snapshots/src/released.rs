@@ -2,7 +2,7 @@
 
 use crate::contents::Contents;
 use crate::integrity::Integrity;
-use crate::manifest::{Kind, MANIFEST_FILE, Manifest};
+use crate::manifest::{MANIFEST_FILE, Manifest, ReleaseKind};
 use crate::sealed::held_witness;
 use crate::verify::{Verification, verify};
 use crate::witness::Witness;
@@ -111,8 +111,8 @@ fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<R
     let level = |number: usize| {
         let file = format!("lvl{number}.txt");
         let witness = match manifest.kind {
-            Kind::Open => format!("{folder}/witness/lvl{number}.json"),
-            Kind::Sealed => held_witness(&card.id, number),
+            ReleaseKind::Open => format!("{folder}/witness/lvl{number}.json"),
+            ReleaseKind::Sealed => held_witness(&card.id, number),
         };
         let text = need(&file)?;
         let level = game.level(&text).map_err(|_| changed(&file))?;

@@ -2,7 +2,7 @@
 //! parameters, terminations, and a small level in which the sprites meet.
 
 use crate::choices::Choices;
-use crate::vocabulary::{self, Kind};
+use crate::vocabulary::{self, ValueKind};
 use engine::syntax::{
     self, Description, Header, InteractionLine, MappingLine, Param, ParameterLine, SpriteLine,
     TerminationLine, Word,
@@ -126,7 +126,7 @@ impl Author<'_, '_> {
                 let kind = vocabulary::sprite_parameter(key).expect("every parameter has a kind");
                 if let Some(value) = vocabulary::value(kind, self.choices) {
                     line.params.push(Param::new(key, value));
-                } else if kind == Kind::Fixed {
+                } else if kind == ValueKind::Fixed {
                     let resource = matches!(class, Some(SpriteClass::Resource | SpriteClass::ResourcePack));
                     let avatar = class.is_some_and(SpriteClass::is_avatar);
                     let value = if key == "is_avatar" { avatar } else { resource };
@@ -166,13 +166,14 @@ impl Author<'_, '_> {
                 "resource_name" => class != C::ResourcePack,
                 _ => false,
             };
-            if !matches!(kind, Kind::Sprite | Kind::Sprites) || optional && !self.choices.once_in(2) {
+            if !matches!(kind, ValueKind::Sprite | ValueKind::Sprites) || optional && !self.choices.once_in(2)
+            {
                 continue;
             }
             let follows =
                 class.is_a(C::Chaser) || class.is_a(C::PathChaser) || class.is_a(C::AlternateChaser);
             let shoots = class.is_a(C::ShootAvatar) || class == C::WizardAvatar;
-            let many = kind == Kind::Sprites && class != C::FlakAvatar || key == "stype" && shoots;
+            let many = kind == ValueKind::Sprites && class != C::FlakAvatar || key == "stype" && shoots;
             let count = if many { 1 + self.choices.below(3) } else { 1 };
             let names: Vec<String> =
                 (0..count).map(|_| if follows { self.family() } else { self.leaf_but(own) }).collect();

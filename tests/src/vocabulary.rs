@@ -4,7 +4,7 @@ use crate::choices::Choices;
 
 /// The kind of a sprite parameter's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ValueKind {
     /// A whole number.
     Int,
     /// A number of ticks: seldom 0.
@@ -34,11 +34,11 @@ pub enum Kind {
 }
 
 /// Returns the kind of a sprite parameter; None if there is no such parameter.
-pub fn sprite_parameter(key: &str) -> Option<Kind> {
+pub fn sprite_parameter(key: &str) -> Option<ValueKind> {
     Some(match key {
-        "cooldown" | "timeToLive" | "cons" | "age" | "limit" | "total" => Kind::Ticks,
+        "cooldown" | "timeToLive" | "cons" | "age" | "limit" | "total" => ValueKind::Ticks,
         "healthPoints" | "maxHealthPoints" | "limitHealthPoints" | "value" | "maxDistance" | "start"
-        | "counter" | "lastmove" | "minAmmo" | "ammoCost" | "last_block_time" | "frameRate" => Kind::Int,
+        | "counter" | "lastmove" | "minAmmo" | "ammoCost" | "last_block_time" | "frameRate" => ValueKind::Int,
         "speed"
         | "mass"
         | "gravity"
@@ -51,20 +51,20 @@ pub fn sprite_parameter(key: &str) -> Option<Kind> {
         | "ground_speedup_factor"
         | "air_slowdown_factor"
         | "shrinkfactor"
-        | "randomtiling" => Kind::Number,
-        "spreadprob" | "prob" | "probability" | "epsilon" => Kind::Probability,
-        "wMult" | "hMult" => Kind::Size,
+        | "randomtiling" => ValueKind::Number,
+        "spreadprob" | "prob" | "probability" | "epsilon" => ValueKind::Probability,
+        "wMult" | "hMult" => ValueKind::Size,
         "is_oriented" | "rotateInPlace" | "is_static" | "only_active" | "stationary" | "solid"
         | "singleton" | "portal" | "is_npc" | "hidden" | "invisible" | "is_stochastic" | "draw_arrow"
         | "autotiling" | "is_from_avatar" | "isFirstTick" | "on_ground" | "airsteering" | "fleeing"
-        | "randomTarget" => Kind::Flag,
-        "orientation" | "spawnorientation" | "facing_dir" => Kind::Direction,
-        "physicstype" => Kind::Physics,
-        "color" => Kind::Color,
-        "stype" | "spawnBehind" | "stypeMissile" | "resource_name" => Kind::Sprite,
-        "stype1" | "stype2" | "stypes" | "ammo" => Kind::Sprites,
-        "img" | "orientedImg" => Kind::Text,
-        "is_resource" | "is_avatar" => Kind::Fixed,
+        | "randomTarget" => ValueKind::Flag,
+        "orientation" | "spawnorientation" | "facing_dir" => ValueKind::Direction,
+        "physicstype" => ValueKind::Physics,
+        "color" => ValueKind::Color,
+        "stype" | "spawnBehind" | "stypeMissile" | "resource_name" => ValueKind::Sprite,
+        "stype1" | "stype2" | "stypes" | "ammo" => ValueKind::Sprites,
+        "img" | "orientedImg" => ValueKind::Text,
+        "is_resource" | "is_avatar" => ValueKind::Fixed,
         _ => return None,
     })
 }
@@ -93,23 +93,23 @@ pub fn probability(choices: &mut Choices<'_>) -> &'static str {
     choices.pick(&["1", "0.5", "0.1", "0.9", "0", "1.0", "0.3", "2"])
 }
 
-/// Returns the value of a parameter that names no sprite; None for kinds that do, and for [`Kind::Fixed`].
-pub fn value(kind: Kind, choices: &mut Choices<'_>) -> Option<String> {
+/// Returns the value of a parameter that names no sprite; None for kinds that do, and for [`ValueKind::Fixed`].
+pub fn value(kind: ValueKind, choices: &mut Choices<'_>) -> Option<String> {
     Some(match kind {
-        Kind::Int => int(choices).to_string(),
-        Kind::Ticks => ticks(choices).to_string(),
-        Kind::Number => number(choices).to_owned(),
-        Kind::Probability => probability(choices).to_owned(),
-        Kind::Size => choices.pick(&["1", "2", "0.5", "1.5", "0.1", "3", "0.01", "16"]).to_owned(),
-        Kind::Flag => choices.pick(&["True", "False"]).to_owned(),
-        Kind::Direction => {
+        ValueKind::Int => int(choices).to_string(),
+        ValueKind::Ticks => ticks(choices).to_string(),
+        ValueKind::Number => number(choices).to_owned(),
+        ValueKind::Probability => probability(choices).to_owned(),
+        ValueKind::Size => choices.pick(&["1", "2", "0.5", "1.5", "0.1", "3", "0.01", "16"]).to_owned(),
+        ValueKind::Flag => choices.pick(&["True", "False"]).to_owned(),
+        ValueKind::Direction => {
             let names = ["RIGHT", "LEFT", "UP", "DOWN", "NONE", "NIL", "DUP"];
             choices.pick(&names).to_owned()
         }
-        Kind::Physics => choices.pick(&["CONT", "GRID"]).to_owned(),
-        Kind::Color => choices.pick(&["RED", "LIGHTBLUE", "GOLD"]).to_owned(),
-        Kind::Text => choices.pick(&["dot", "a/b"]).to_owned(),
-        Kind::Sprite | Kind::Sprites | Kind::Fixed => return None,
+        ValueKind::Physics => choices.pick(&["CONT", "GRID"]).to_owned(),
+        ValueKind::Color => choices.pick(&["RED", "LIGHTBLUE", "GOLD"]).to_owned(),
+        ValueKind::Text => choices.pick(&["dot", "a/b"]).to_owned(),
+        ValueKind::Sprite | ValueKind::Sprites | ValueKind::Fixed => return None,
     })
 }
 

@@ -13,7 +13,7 @@ use validators::novelty::{GameForm, NEAR};
 use validators::{Panel, used_rules};
 
 /// Judges games for good, with dice that no search has seen.
-pub(super) struct Gate<'a> {
+pub(super) struct GameGate<'a> {
     order: &'a GameOrder,
     /// The games that others have to differ from.
     known: &'a [GameForm],
@@ -28,10 +28,10 @@ const SECOND_JUDGES: &str = "second judges";
 /// The reason for turning down a game that is too much like another.
 pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
-impl<'a> Gate<'a> {
-    pub(super) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> Gate<'a> {
+impl<'a> GameGate<'a> {
+    pub(super) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> GameGate<'a> {
         let panel = Panel::new(&order.criteria).expect("the order was checked");
-        Gate { order, known, canary, panel }
+        GameGate { order, known, canary, panel }
     }
 
     /// Finds levels for a game, takes away what it can do without, and judges what is left on the same levels; none, with the
@@ -155,7 +155,7 @@ mod tests {
     fn judge(order: &GameOrder, known: &[GameForm], genome: &GameGenome) -> (Option<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let seed = Seed::from_text("gate");
-        let made = Gate::new(order, known, "canary").judge(genome, 0, seed, &mut tally);
+        let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &mut tally);
         (made, tally)
     }
 

@@ -1,7 +1,7 @@
 //! The making of games by each method.
 
 use super::candidate::{MadeGame, Step};
-use super::gate::{Gate, NEAR_KNOWN};
+use super::gate::{GameGate, NEAR_KNOWN};
 use super::look::{Looker, axes};
 use super::order::GameOrder;
 use crate::levels::Method;
@@ -71,7 +71,7 @@ pub fn make_games(
     progress: &dyn Progress,
 ) -> Result<GameSet, GamesError> {
     order.check()?;
-    let gate = Gate::new(order, known, canary);
+    let gate = GameGate::new(order, known, canary);
     let maker = Maker { order, gate, seed, progress };
     let set = match order.method {
         Method::Constructive | Method::Search => maker.one_by_one(),
@@ -92,14 +92,14 @@ pub fn make_one(
     seed: Seed,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let maker = Maker { order, gate: Gate::new(order, known, canary), seed, progress: &() };
+    let maker = Maker { order, gate: GameGate::new(order, known, canary), seed, progress: &() };
     let Attempted { made, tally, .. } = maker.attempt(number, 0);
     (made.map(|(game, _)| game), tally)
 }
 
 struct Maker<'a> {
     order: &'a GameOrder,
-    gate: Gate<'a>,
+    gate: GameGate<'a>,
     seed: Seed,
     progress: &'a dyn Progress,
 }

@@ -8,7 +8,7 @@ use validators::{
 };
 
 /// Judges levels for good, with dice that no search has seen.
-pub(super) struct Gate<'a> {
+pub(super) struct LevelGate<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
     panel: Panel,
@@ -17,7 +17,7 @@ pub(super) struct Gate<'a> {
 }
 
 /// A level that was let in, or why it was not.
-pub(super) struct Judged {
+pub(super) struct Ruling {
     /// The first criterion that is not met.
     pub(super) obstacle: Option<&'static str>,
     /// The findings of the panel.
@@ -28,25 +28,25 @@ pub(super) struct Judged {
     pub(super) calls: u64,
 }
 
-impl<'a> Gate<'a> {
-    pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, seed: Seed) -> Gate<'a> {
+impl<'a> LevelGate<'a> {
+    pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, seed: Seed) -> LevelGate<'a> {
         let criteria = order.criteria_of_levels();
         let climb = order.difficulty.map(|_| LadderConfig {
             held_out: Vec::new(),
             ..criteria.ladder_config().expect("the criteria were checked")
         });
         let panel = Panel::new(&criteria).expect("the criteria were checked");
-        Gate { analysis, order, panel, climb, seed }
+        LevelGate { analysis, order, panel, climb, seed }
     }
 
     /// Judges a level. The same level gets the same answer, whoever asks and when.
-    pub(super) fn judge(&self, level: &Level) -> Judged {
+    pub(super) fn judge(&self, level: &Level) -> Ruling {
         let game = self.analysis.game();
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let report = self.panel.screen(game, level, seed.child("panel", 0));
         let calls = report.judgements.iter().map(|judgement| judgement.finding.calls()).sum();
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
-        let mut judged = Judged { obstacle, report, ladder: None, calls };
+        let mut judged = Ruling { obstacle, report, ladder: None, calls };
         let (None, Some(witness)) = (obstacle, judged.report.witness.clone()) else {
             judged.obstacle = obstacle.or(Some("winnable"));
             return judged;

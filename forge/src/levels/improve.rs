@@ -1,6 +1,6 @@
 //! Searches under the eyes of judges: each level by itself, or an archive of levels that differ.
 
-use super::accept::Gate;
+use super::accept::LevelGate;
 use super::aim::Aim;
 use super::axes::Axes;
 use super::look::{LEAST_EFFORT, Look, Looker};
@@ -36,7 +36,7 @@ impl Maker<'_> {
         let seed = self.level_seed(number);
         let aim = Aim::new(self.analysis, self.order);
         let looker = Looker::new(self.analysis, self.order, aim, seed.child("look", 0));
-        let gate = Gate::new(self.analysis, self.order, seed.child("gate", 0));
+        let gate = LevelGate::new(self.analysis, self.order, seed.child("gate", 0));
         let looks = self.order.effort.looks as usize;
         let mut cost = Cost::default();
         let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
@@ -74,7 +74,7 @@ impl Maker<'_> {
     pub(super) fn evolved(&self, variation: &LevelSearch<'_>) -> LevelSet {
         let aim = Aim::new(self.analysis, self.order);
         let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
-        let gate = Gate::new(self.analysis, self.order, self.seed.child("gate", 0));
+        let gate = LevelGate::new(self.analysis, self.order, self.seed.child("gate", 0));
         let wanted = self.order.count as usize;
         let effort = f64::from(self.order.effort.looks) * wanted as f64;
         let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };

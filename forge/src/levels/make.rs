@@ -1,6 +1,6 @@
 //! The making of levels by each method.
 
-use super::accept::{Gate, Judged};
+use super::accept::{LevelGate, Ruling};
 use super::look::Look;
 use super::order::{LevelOrder, Method};
 use crate::tally::reasons;
@@ -47,7 +47,7 @@ impl Cost {
         }
     }
 
-    pub(super) fn judged(&mut self, judged: &Judged) {
+    pub(super) fn judged(&mut self, judged: &Ruling) {
         self.judged += 1;
         self.calls += judged.calls;
         if let Some(obstacle) = judged.obstacle {
@@ -197,7 +197,7 @@ impl Maker<'_> {
     fn drawn_and_judged(&self, number: u32, refused: &BTreeSet<Digest>) -> Attempt {
         let mut cost = Cost::default();
         let seed = self.level_seed(number);
-        let gate = Gate::new(self.analysis, self.order, seed.child("gate", 0));
+        let gate = LevelGate::new(self.analysis, self.order, seed.child("gate", 0));
         for candidate in 0..u64::from(self.order.effort.looks * self.order.effort.rounds) {
             match self.generator.generate(seed.child("candidate", candidate)) {
                 Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),
@@ -256,7 +256,7 @@ const DRAWS: u64 = 20;
 pub(super) const TWICE: &str = "the same level twice";
 pub(super) const NO_BOARD: &str = "no board holds what is asked";
 
-pub(super) fn made(number: u32, level: Level, judged: Judged) -> MadeLevel {
+pub(super) fn made(number: u32, level: Level, judged: Ruling) -> MadeLevel {
     MadeLevel { number, level, report: Some(judged.report), ladder: judged.ladder }
 }
 

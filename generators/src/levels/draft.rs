@@ -19,7 +19,7 @@ const POCKET: usize = 4;
 
 /// The kind of a level character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum SymbolUse {
     /// Ground that can lie anywhere: the empty cell, floor, soil.
     Ground,
     /// An obstacle that always blocks the avatar.
@@ -34,7 +34,7 @@ pub(crate) enum Kind {
 #[derive(Clone, Debug)]
 pub(crate) struct Vocabulary {
     /// By character.
-    kinds: Vec<Kind>,
+    kinds: Vec<SymbolUse>,
     /// By character: `true` if it is harmful or makes harmful things.
     harmful: Vec<bool>,
     /// By character: the minimum and maximum number; equal if all sampled levels agree.
@@ -52,20 +52,20 @@ impl Vocabulary {
         let (game, analysis, palette) = (levels.game, &levels.analysis, &levels.palette);
         let kind = |symbol: u8| {
             if holds_avatar(analysis, symbol) {
-                return Kind::Avatar;
+                return SymbolUse::Avatar;
             }
             let types = game.places(symbol).iter().filter(|stype| !palette.ground.contains(stype));
             match types.map(|&stype| analysis.role(stype)).min() {
-                _ if palette.wall == Some(symbol) => Kind::Wall,
-                None | Some(Role::Soil | Role::Floor) => Kind::Ground,
-                Some(Role::Wall) => Kind::Wall,
-                Some(role) => Kind::Thing(role),
+                _ if palette.wall == Some(symbol) => SymbolUse::Wall,
+                None | Some(Role::Soil | Role::Floor) => SymbolUse::Ground,
+                Some(Role::Wall) => SymbolUse::Wall,
+                Some(role) => SymbolUse::Thing(role),
             }
         };
         let harmful = |symbol: u8| {
             let types = || game.places(symbol).iter().copied();
             let harms = |stype: SpriteType| analysis.harm(stype) != Harm::None || analysis.makes_harm(stype);
-            matches!(kind(symbol), Kind::Thing(_)) && types().any(harms)
+            matches!(kind(symbol), SymbolUse::Thing(_)) && types().any(harms)
         };
         let mut bounds: Option<Vec<(usize, usize)>> = None;
         let steering = analysis.start_avatar().map(|avatar| avatar.steering);
@@ -111,7 +111,7 @@ impl Vocabulary {
         }
     }
 
-    pub(crate) fn kind(&self, symbol: u8) -> Kind {
+    pub(crate) fn kind(&self, symbol: u8) -> SymbolUse {
         self.kinds[usize::from(symbol)]
     }
 
@@ -122,7 +122,7 @@ impl Vocabulary {
 
     /// The characters of things.
     pub(crate) fn things(&self) -> impl Iterator<Item = u8> + '_ {
-        (b' '..=b'~').filter(|&symbol| matches!(self.kind(symbol), Kind::Thing(_)))
+        (b' '..=b'~').filter(|&symbol| matches!(self.kind(symbol), SymbolUse::Thing(_)))
     }
 }
 
@@ -184,20 +184,20 @@ impl<'v> Draft<'v> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
         let cells = level.cells().to_vec();
         let mut border = (0..grid.len()).filter(|&cell| grid.on_border(cell));
-        let closed = border.all(|cell| vocabulary.kind(cells[cell]) == Kind::Wall);
+        let closed = border.all(|cell| vocabulary.kind(cells[cell]) == SymbolUse::Wall);
         Draft { levels, vocabulary, grid, cells, closed }
     }
 
-    pub(crate) fn kind(&self, cell: usize) -> Kind {
+    pub(crate) fn kind(&self, cell: usize) -> SymbolUse {
         self.vocabulary.kind(self.cells[cell])
     }
 
     pub(crate) fn is_wall(&self, cell: usize) -> bool {
-        self.kind(cell) == Kind::Wall
+        self.kind(cell) == SymbolUse::Wall
     }
 
     pub(crate) fn is_ground(&self, cell: usize) -> bool {
-        self.kind(cell) == Kind::Ground
+        self.kind(cell) == SymbolUse::Ground
     }
 
     /// Returns `true` if edits may change the cell: all except a closed border.
@@ -211,11 +211,11 @@ impl<'v> Draft<'v> {
     }
 
     pub(crate) fn things(&self) -> Vec<usize> {
-        self.cells_where(|draft, cell| matches!(draft.kind(cell), Kind::Thing(_)))
+        self.cells_where(|draft, cell| matches!(draft.kind(cell), SymbolUse::Thing(_)))
     }
 
     pub(crate) fn avatar(&self) -> Option<usize> {
-        (0..self.grid.len()).find(|&cell| self.kind(cell) == Kind::Avatar)
+        (0..self.grid.len()).find(|&cell| self.kind(cell) == SymbolUse::Avatar)
     }
 
     /// The number of cells that hold a character.
@@ -318,8 +318,8 @@ impl<'v> Draft<'v> {
             around.all(|next| next.is_some_and(|next| !self.is_wall(next)))
         };
         let misplaced = |&cell: &usize| match self.kind(cell) {
-            Kind::Wall => lonely(cell),
-            Kind::Thing(_) => !self.is_in_place(self.cells[cell], cell),
+            SymbolUse::Wall => lonely(cell),
+            SymbolUse::Thing(_) => !self.is_in_place(self.cells[cell], cell),
             _ => false,
         };
         (0..self.grid.len()).filter(misplaced).count()
@@ -346,7 +346,7 @@ impl<'v> Draft<'v> {
     /// Returns `true` if a character belongs in a cell: gates need walls on both sides, and if the avatar moves along a
     /// line, everything keeps its usual distance from that line.
     pub(crate) fn is_in_place(&self, symbol: u8, cell: usize) -> bool {
-        let gate = self.vocabulary.kind(symbol) == Kind::Thing(Role::Gate);
+        let gate = self.vocabulary.kind(symbol) == SymbolUse::Thing(Role::Gate);
         let place = || across(self.levels, self.grid, cell);
         let band = self.vocabulary.bands.get(usize::from(symbol));
         let in_band = band.is_none_or(|&(low, high)| low > high || (low..=high).contains(&place()));

@@ -1,6 +1,6 @@
 //! Small, meaningful changes to a level, such as a designer would make next.
 
-use super::draft::{Draft, Kind};
+use super::draft::{Draft, SymbolUse};
 use super::grid::{Grid, WAYS};
 use super::layout::{self, Family};
 use engine::Sampler;
@@ -153,8 +153,10 @@ impl Draft<'_> {
     /// The other things of the same character, if it gives shelter or is breakable: such things lie together.
     fn cluster(&self, thing: usize) -> Vec<usize> {
         let symbol = self.cells[thing];
-        let lies =
-            matches!(self.vocabulary.kind(symbol), Kind::Thing(Role::Cover | Role::Breakable | Role::Refuge));
+        let lies = matches!(
+            self.vocabulary.kind(symbol),
+            SymbolUse::Thing(Role::Cover | Role::Breakable | Role::Refuge)
+        );
         self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol)
     }
 
@@ -169,7 +171,7 @@ impl Draft<'_> {
             vocabulary.things().filter(|&symbol| self.count(symbol) < vocabulary.bounds(symbol).1).collect();
         let symbol = pick(&symbols, sampler)?;
         self.put(symbol, sampler)?;
-        if vocabulary.kind(symbol) == Kind::Thing(Role::Pushable) {
+        if vocabulary.kind(symbol) == SymbolUse::Thing(Role::Pushable) {
             let partners = self.partners(symbol);
             if let Some(partner) = pick(&partners, sampler) {
                 self.put(partner, sampler)?;
@@ -355,8 +357,8 @@ impl Draft<'_> {
                 continue;
             }
             match (self.is_wall(cell), self.kind(image)) {
-                (true, Kind::Ground) => self.cells[image] = wall,
-                (false, Kind::Wall) => self.clear(image),
+                (true, SymbolUse::Ground) => self.cells[image] = wall,
+                (false, SymbolUse::Wall) => self.clear(image),
                 _ => {}
             }
         }
@@ -385,15 +387,15 @@ impl Draft<'_> {
         for (inner, &is_wall) in walls.iter().enumerate() {
             let cell = at(inner);
             match self.kind(cell) {
-                Kind::Avatar => continue,
-                Kind::Thing(_) if is_wall => {
+                SymbolUse::Avatar => continue,
+                SymbolUse::Thing(_) if is_wall => {
                     things.push(self.cells[cell]);
                     self.cells[cell] = wall;
                 }
-                Kind::Thing(_) => {}
+                SymbolUse::Thing(_) => {}
                 _ if is_wall => self.cells[cell] = wall,
-                Kind::Wall => self.clear(cell),
-                Kind::Ground => {}
+                SymbolUse::Wall => self.clear(cell),
+                SymbolUse::Ground => {}
             }
         }
         for thing in things {

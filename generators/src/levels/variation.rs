@@ -2,7 +2,7 @@
 
 use super::config::LevelConfig;
 use super::constructive::ConstructiveLevels;
-use super::draft::{Draft, Faults, Kind, Vocabulary};
+use super::draft::{Draft, Faults, SymbolUse, Vocabulary};
 use super::edits::{Edit, pick};
 use crate::{GenerateError, Generator, Variation};
 use engine::{Game, Level, Sampler, Seed};
@@ -86,7 +86,7 @@ impl<'a> LevelVariation<'a> {
                 }
             }
         }
-        let avatars = child.cells_where(|draft, cell| draft.kind(cell) == Kind::Avatar);
+        let avatars = child.cells_where(|draft, cell| draft.kind(cell) == SymbolUse::Avatar);
         match pick(&avatars, sampler) {
             Some(kept) => {
                 avatars.into_iter().filter(|&cell| cell != kept).for_each(|cell| child.clear(cell));

@@ -25,7 +25,7 @@ use crate::draft::Draft;
 use crate::error::SnapshotError;
 use crate::folder;
 use crate::integrity::{Integrity, check_integrity, manifest_problems};
-use crate::manifest::{Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::manifest::{Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
 use crate::papers::Untracked;
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
@@ -99,7 +99,7 @@ fn pack_into(
     partial: &Path,
 ) -> Result<Packed, SnapshotError> {
     let is_held = |item: &&Item| item.path.starts_with(HELD) && !folder::join(root, &item.path).exists();
-    if manifest.kind == Kind::Sealed && manifest.items.iter().any(|item| is_held(&item)) {
+    if manifest.kind == ReleaseKind::Sealed && manifest.items.iter().any(|item| is_held(&item)) {
         return Err(SnapshotError::HeldBack { path: root.to_path_buf() });
     }
     let bytes = manifest.to_bytes()?;
@@ -195,7 +195,7 @@ impl Archive {
         // Checked before it is opened, because opening a pipe would wait for its other end.
         let found = fs::metadata(path).map_err(SnapshotError::io("examine", path))?;
         if !found.is_file() {
-            return Err(SnapshotError::Kind { path: path.to_path_buf(), expected: "file" });
+            return Err(SnapshotError::ReleaseKind { path: path.to_path_buf(), expected: "file" });
         }
         if !is_archive(path)? {
             return Err(match is_called_archive(path) {

@@ -1,6 +1,6 @@
 //! JSON Lines: one object per row, with its keys in the order of the columns.
 
-use super::columns::{Column, Kind, Value};
+use super::columns::{Column, ColumnKind, Value};
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
 /// Writes the rows as JSON Lines, in UTF-8. Floats are printed as the shortest text that reads back as the same
@@ -15,7 +15,7 @@ pub(super) fn write(columns: &[Column], rows: &[Vec<Value>]) -> Vec<u8> {
     bytes
 }
 
-struct Object<'a>(Vec<((&'static str, Kind), &'a Value)>);
+struct Object<'a>(Vec<((&'static str, ColumnKind), &'a Value)>);
 
 impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -27,7 +27,7 @@ impl Serialize for Object<'_> {
     }
 }
 
-struct Typed<'a>(Kind, &'a Value);
+struct Typed<'a>(ColumnKind, &'a Value);
 
 impl Serialize for Typed<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -38,9 +38,9 @@ impl Serialize for Typed<'_> {
             (_, Value::Number(number)) => serializer.serialize_f64(*number),
             (_, Value::Flag(flag)) => serializer.serialize_bool(*flag),
             (_, Value::Texts(texts)) => {
-                serializer.collect_seq(texts.iter().map(|text| Typed(Kind::Text, text)))
+                serializer.collect_seq(texts.iter().map(|text| Typed(ColumnKind::Text, text)))
             }
-            (Kind::Records(fields), Value::Records(records)) => {
+            (ColumnKind::Records(fields), Value::Records(records)) => {
                 let mut list = serializer.serialize_seq(Some(records.len()))?;
                 for record in records {
                     list.serialize_element(&Object(fields.iter().copied().zip(record).collect()))?;

@@ -10,7 +10,7 @@ mod page;
 #[cfg(feature = "parquet")]
 mod table;
 
-pub use columns::{Column, Kind, Value, columns};
+pub use columns::{Column, ColumnKind, Value, columns};
 
 use crate::released::Released;
 use crate::twin::{self, Twin, TwinError};

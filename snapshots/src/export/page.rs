@@ -1,7 +1,7 @@
 //! The `README.md` of an export: the dataset card in the form that dataset hubs read, YAML between two lines of `---`,
 //! then Markdown.
 
-use super::columns::{Column, Kind};
+use super::columns::{Column, ColumnKind};
 use super::item::ExportedGame;
 use super::{Export, Format, SPLIT};
 use crate::released::Released;
@@ -57,8 +57,8 @@ fn front(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'
     );
     for Column { name, kind, .. } in columns {
         let _ = match kind {
-            Kind::Texts => writeln!(text, "  - name: {name}\n    list: string"),
-            Kind::Records(fields) => {
+            ColumnKind::Texts => writeln!(text, "  - name: {name}\n    list: string"),
+            ColumnKind::Records(fields) => {
                 let _ = writeln!(text, "  - name: {name}\n    list:");
                 fields.iter().try_for_each(|(name, kind)| {
                     writeln!(text, "    - name: {name}\n      dtype: {}", dtype(*kind))
@@ -75,13 +75,13 @@ fn front(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'
     text
 }
 
-fn dtype(kind: Kind) -> &'static str {
+fn dtype(kind: ColumnKind) -> &'static str {
     match kind {
-        Kind::Text | Kind::MaybeText => "string",
-        Kind::Integer | Kind::MaybeInteger => "int64",
-        Kind::Number | Kind::MaybeNumber => "float64",
-        Kind::Flag => "bool",
-        Kind::Texts | Kind::Records(_) => unreachable!("a field of a record is no list"),
+        ColumnKind::Text | ColumnKind::MaybeText => "string",
+        ColumnKind::Integer | ColumnKind::MaybeInteger => "int64",
+        ColumnKind::Number | ColumnKind::MaybeNumber => "float64",
+        ColumnKind::Flag => "bool",
+        ColumnKind::Texts | ColumnKind::Records(_) => unreachable!("a field of a record is no list"),
     }
 }
 
@@ -128,8 +128,8 @@ fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
         manifest.semantics,
         manifest.generation,
         match manifest.kind {
-            crate::Kind::Open => "",
-            crate::Kind::Sealed => ", once that is revealed",
+            crate::ReleaseKind::Open => "",
+            crate::ReleaseKind::Sealed => ", once that is revealed",
         },
         export.format,
         export.twin.map(|twin| format!(" --twin {twin}")).unwrap_or_default(),

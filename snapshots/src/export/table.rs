@@ -3,7 +3,7 @@
 //! Plain format 1.0 without compression, with one row group and without time or machine in the footer: the same rows
 //! give the same bytes. Dictionaries of the columns keep repeated texts cheap.
 
-use super::columns::{Column, Kind, Value};
+use super::columns::{Column, ColumnKind, Value};
 use parquet::basic::Compression;
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
@@ -52,11 +52,11 @@ fn schema(columns: &[Column]) -> String {
     let mut text = "message item {\n".to_owned();
     for Column { name, kind, .. } in columns {
         let _ = match kind {
-            Kind::Texts => writeln!(
+            ColumnKind::Texts => writeln!(
                 text,
                 "required group {name} (LIST) {{ repeated group list {{ required binary element (STRING); }} }}"
             ),
-            Kind::Records(fields) => {
+            ColumnKind::Records(fields) => {
                 let fields: String = fields.iter().map(|(name, kind)| leaf(name, *kind)).collect();
                 writeln!(
                     text,
@@ -69,16 +69,16 @@ fn schema(columns: &[Column]) -> String {
     text + "}"
 }
 
-fn leaf(name: &str, kind: Kind) -> String {
+fn leaf(name: &str, kind: ColumnKind) -> String {
     match kind {
-        Kind::Text => format!("required binary {name} (STRING); "),
-        Kind::MaybeText => format!("optional binary {name} (STRING); "),
-        Kind::Integer => format!("required int64 {name}; "),
-        Kind::MaybeInteger => format!("optional int64 {name}; "),
-        Kind::Number => format!("required double {name}; "),
-        Kind::MaybeNumber => format!("optional double {name}; "),
-        Kind::Flag => format!("required boolean {name}; "),
-        Kind::Texts | Kind::Records(_) => unreachable!("a field of a record is no list"),
+        ColumnKind::Text => format!("required binary {name} (STRING); "),
+        ColumnKind::MaybeText => format!("optional binary {name} (STRING); "),
+        ColumnKind::Integer => format!("required int64 {name}; "),
+        ColumnKind::MaybeInteger => format!("optional int64 {name}; "),
+        ColumnKind::Number => format!("required double {name}; "),
+        ColumnKind::MaybeNumber => format!("optional double {name}; "),
+        ColumnKind::Flag => format!("required boolean {name}; "),
+        ColumnKind::Texts | ColumnKind::Records(_) => unreachable!("a field of a record is no list"),
     }
 }
 
@@ -93,8 +93,9 @@ struct Leaf<'a> {
 
 impl<'a> Leaf<'a> {
     /// Adds a value or null, `base` levels deep.
-    fn put(&mut self, kind: Kind, value: &'a Value, base: i16, repeated: i16) {
-        let optional = matches!(kind, Kind::MaybeText | Kind::MaybeInteger | Kind::MaybeNumber);
+    fn put(&mut self, kind: ColumnKind, value: &'a Value, base: i16, repeated: i16) {
+        let optional =
+            matches!(kind, ColumnKind::MaybeText | ColumnKind::MaybeInteger | ColumnKind::MaybeNumber);
         let missing = *value == Value::Missing;
         self.there.push(base + i16::from(optional && !missing));
         self.repeated.push(repeated);
@@ -147,10 +148,10 @@ impl<'a> Leaf<'a> {
 }
 
 /// The leaves of a column: one, or one for each field of its records.
-fn leaves<'a>(kind: Kind, rows: &[&'a Value]) -> Vec<Leaf<'a>> {
-    let fields: Vec<Kind> = match kind {
-        Kind::Records(fields) => fields.iter().map(|(_, kind)| *kind).collect(),
-        Kind::Texts => vec![Kind::Text],
+fn leaves<'a>(kind: ColumnKind, rows: &[&'a Value]) -> Vec<Leaf<'a>> {
+    let fields: Vec<ColumnKind> = match kind {
+        ColumnKind::Records(fields) => fields.iter().map(|(_, kind)| *kind).collect(),
+        ColumnKind::Texts => vec![ColumnKind::Text],
         other => vec![other],
     };
     let mut leaves: Vec<Leaf<'a>> = fields.iter().map(|_| Leaf::default()).collect();
@@ -168,7 +169,7 @@ fn leaves<'a>(kind: Kind, rows: &[&'a Value]) -> Vec<Leaf<'a>> {
             }
             Value::Texts(texts) => {
                 for (at, text) in texts.iter().enumerate() {
-                    leaves[0].put(Kind::Text, text, 1, i16::from(at > 0));
+                    leaves[0].put(ColumnKind::Text, text, 1, i16::from(at > 0));
                 }
                 if texts.is_empty() {
                     leaves[0].none();
@@ -186,17 +187,17 @@ mod tests {
     use crate::export::columns::Column;
     use parquet::file::reader::{FileReader, SerializedFileReader};
 
-    const FIELDS: &[(&str, Kind)] = &[("who", Kind::Text), ("share", Kind::MaybeNumber)];
+    const FIELDS: &[(&str, ColumnKind)] = &[("who", ColumnKind::Text), ("share", ColumnKind::MaybeNumber)];
 
     fn columns() -> Vec<Column> {
         let kinds = [
-            ("text", Kind::Text),
-            ("maybe_text", Kind::MaybeText),
-            ("maybe_integer", Kind::MaybeInteger),
-            ("maybe_number", Kind::MaybeNumber),
-            ("flag", Kind::Flag),
-            ("texts", Kind::Texts),
-            ("records", Kind::Records(FIELDS)),
+            ("text", ColumnKind::Text),
+            ("maybe_text", ColumnKind::MaybeText),
+            ("maybe_integer", ColumnKind::MaybeInteger),
+            ("maybe_number", ColumnKind::MaybeNumber),
+            ("flag", ColumnKind::Flag),
+            ("texts", ColumnKind::Texts),
+            ("records", ColumnKind::Records(FIELDS)),
         ];
         kinds.map(|(name, kind)| Column::new(name, kind, |_| Value::Missing)).to_vec()
     }

@@ -1,6 +1,6 @@
 //! The soundness of a manifest in itself: everything but the syntax, the root and the files.
 
-use super::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT};
+use super::{FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT, ReleaseKind};
 use crate::canary::is_canary;
 use crate::error::SnapshotError;
 use crate::folder::Limits;
@@ -21,8 +21,8 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
         )));
     }
     match (manifest.kind, manifest.commitment) {
-        (Kind::Sealed, None) => return Err(unsound("it is sealed and has no commitment".into())),
-        (Kind::Open, Some(_)) => return Err(unsound("it is open and has a commitment".into())),
+        (ReleaseKind::Sealed, None) => return Err(unsound("it is sealed and has no commitment".into())),
+        (ReleaseKind::Open, Some(_)) => return Err(unsound("it is open and has a commitment".into())),
         _ => {}
     }
     check_items(&manifest.items, &Limits::SNAPSHOT)
@@ -169,7 +169,7 @@ mod tests {
         refuse(|m| m.name = "a\u{1b}".into(), "the name `a\\u{1b}` is not");
         refuse(|m| m.canary = "xyz".into(), "the canary `xyz` is not");
         refuse(|m| m.commitment = None, "sealed and has no commitment");
-        refuse(|m| m.kind = Kind::Open, "open and has a commitment");
+        refuse(|m| m.kind = ReleaseKind::Open, "open and has a commitment");
     }
 
     #[test]

@@ -45,7 +45,7 @@ pub struct Manifest {
     /// The name of the release, such as `2026-12`: one path component.
     pub name: String,
     /// The kind of release: its seed is public from the start, or revealed later.
-    pub kind: Kind,
+    pub kind: ReleaseKind,
     /// The engine's `SEMANTICS` when the release was minted: witnesses replay under the same semantics.
     pub semantics: u32,
     /// The generators' `GENERATION` when the release was minted: the same generation gives the same bytes from the
@@ -78,7 +78,7 @@ pub struct Manifest {
 /// The kind of a release, by the publication of its seed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum ReleaseKind {
     /// The seed is in the recipe.
     Open,
     /// The recipe holds a commitment to the seed, which is revealed later.
@@ -109,7 +109,7 @@ impl Item {
 struct Header<'a> {
     format: u32,
     name: &'a str,
-    kind: Kind,
+    kind: ReleaseKind,
     semantics: u32,
     generation: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -263,7 +263,7 @@ pub(crate) mod tests {
         let mut manifest = Manifest {
             format: FORMAT,
             name: "2026-12".into(),
-            kind: Kind::Sealed,
+            kind: ReleaseKind::Sealed,
             semantics: 3,
             generation: 4,
             version: Some("0.4.0".into()),
@@ -330,7 +330,7 @@ pub(crate) mod tests {
             &|m| m.version = Some("0.4.1".into()),
             &|m| m.version = None,
             &|m| m.name.push('x'),
-            &|m| m.kind = Kind::Open,
+            &|m| m.kind = ReleaseKind::Open,
             &|m| m.semantics += 1,
             &|m| m.generation += 1,
             &|m| m.parent = None,

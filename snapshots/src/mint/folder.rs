@@ -3,7 +3,7 @@
 use super::card::ReleaseCard;
 use super::lot::FrozenGame;
 use super::{MintError, Plan};
-use crate::manifest::{FORMAT, Item, Kind, Manifest};
+use crate::manifest::{FORMAT, Item, Manifest, ReleaseKind};
 use crate::recipe::Recipe;
 use crate::sealed::{SECRET_FILE, Secret, held_witness};
 use crate::witness::Witness;
@@ -87,7 +87,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         let mut manifest = Manifest {
             format: FORMAT,
             name: recipe.name.clone(),
-            kind: if self.is_sealed { Kind::Sealed } else { Kind::Open },
+            kind: if self.is_sealed { ReleaseKind::Sealed } else { ReleaseKind::Open },
             semantics: engine::SEMANTICS,
             generation: generators::GENERATION,
             version: Some(crate::version::CURRENT.number.to_owned()),

@@ -1,7 +1,7 @@
 //! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al.,
 //! 2021).
 
-use crate::manifest::Kind;
+use crate::manifest::ReleaseKind;
 use crate::mint::{Minted, Rung};
 use forge::card::Origin;
 use report::Quantiles;
@@ -28,8 +28,8 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     let parent =
         manifest.parent.map_or("none: the first of its chain".to_owned(), |root| format!("`{root}`"));
     let kind = match manifest.kind {
-        Kind::Open => "open: its seed is public",
-        Kind::Sealed => SEALED,
+        ReleaseKind::Open => "open: its seed is public",
+        ReleaseKind::Sealed => SEALED,
     };
     let mut text = format!(
         "# Datasheet of `{}`\n\n{}\n\n| | |\n|---|---|\n| root | `{}` |\n| kind | {kind} |\n| release before | {parent} |\n\
@@ -87,8 +87,8 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     text += "\n- Whatever is published may be in the training data of later models. Search for the canary; compare with a release that is \
         newer than the model.\n";
     text += match manifest.kind {
-        Kind::Open => "- The seed and the winning episodes are public from the start.\n",
-        Kind::Sealed => UNCHECKED,
+        ReleaseKind::Open => "- The seed and the winning episodes are public from the start.\n",
+        ReleaseKind::Sealed => UNCHECKED,
     };
     text += "\n## People\n\n\
         No person's data is in it, and nobody was asked to play, write or label anything for it.\n\n\

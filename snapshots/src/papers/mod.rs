@@ -9,7 +9,7 @@ mod datasheet;
 
 use crate::SnapshotError;
 use crate::folder::{self, Entry, Limits, Listing};
-use crate::manifest::{Kind, Manifest};
+use crate::manifest::{Manifest, ReleaseKind};
 use crate::mint::Minted;
 use crate::problem::{Flaw, Problem};
 use std::path::Path;
@@ -151,8 +151,8 @@ fn quoted(text: &str) -> String {
 /// The page for errata.
 fn errata(manifest: &Manifest) -> String {
     let sealed = match manifest.kind {
-        Kind::Open => "",
-        Kind::Sealed => " When it is revealed, files are added and none is changed.",
+        ReleaseKind::Open => "",
+        ReleaseKind::Sealed => " When it is revealed, files are added and none is changed.",
     };
     format!(
         "# Errata of `{}`\n\n\

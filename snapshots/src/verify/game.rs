@@ -3,7 +3,7 @@
 use super::numbers;
 use super::replay::{Meter, Replayed, replay};
 use crate::contents::Contents;
-use crate::manifest::{Kind, Manifest};
+use crate::manifest::{Manifest, ReleaseKind};
 use crate::sealed::{Secret, UNRELATED_WITNESS, held_witness};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
@@ -119,7 +119,7 @@ impl Checker<'_> {
         if let Some(other) = twin {
             wrong("game.vgdl", format!("the same game as games/{other}"));
         }
-        let is_sealed = self.manifest.kind == Kind::Sealed;
+        let is_sealed = self.manifest.kind == ReleaseKind::Sealed;
         let mut known: BTreeSet<String> = ["game.vgdl", "card.json"].map(str::to_owned).into();
         let mut boards: BTreeMap<Digest, usize> = BTreeMap::new();
         let (mut levels, mut replayed) = (0, 0);

@@ -7,7 +7,7 @@ mod replay;
 pub(crate) mod version;
 
 use crate::contents::Contents;
-use crate::manifest::{Kind, Manifest};
+use crate::manifest::{Manifest, ReleaseKind};
 use crate::mint::RELEASE_CARD_FILE;
 use crate::recipe::Known;
 use crate::sealed::{HELD, SECRET_FILE, Secret};
@@ -93,7 +93,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     let manifest = integrity.manifest;
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
     let same_semantics = manifest.semantics == engine::SEMANTICS;
-    let is_sealed = manifest.kind == Kind::Sealed;
+    let is_sealed = manifest.kind == ReleaseKind::Sealed;
     let secret = if is_sealed && problems.is_empty() { contents.find(SECRET_FILE)? } else { None };
     let held = is_sealed && secret.is_none();
     let secret = match secret.map(|bytes| serde_json::from_slice::<Secret>(&bytes)).transpose() {
@@ -232,7 +232,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
 
 /// Checks that a sealed release commits to its secret and to a witness of every level, and to no other hidden file.
 fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
-    if manifest.kind != Kind::Sealed {
+    if manifest.kind != ReleaseKind::Sealed {
         return;
     }
     let witnesses = games.iter().flat_map(|game| &game.held).map(String::as_str);
@@ -272,7 +272,7 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
                 folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
             }
             None if [readme_and_card::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
-            None if manifest.kind == Kind::Sealed && item.path.starts_with(HELD) => {}
+            None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),
         }
     }

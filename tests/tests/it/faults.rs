@@ -29,9 +29,9 @@ struct Fault {
 }
 
 /// A generator of one kind of fault; None if the random choice allows none.
-type Kind = fn(&Sound, &mut Sampler) -> Option<Fault>;
+type FaultMaker = fn(&Sound, &mut Sampler) -> Option<Fault>;
 
-const KINDS: [(&str, Kind); 6] = [
+const KINDS: [(&str, FaultMaker); 6] = [
     ("typo", typo),
     ("missing token", missing_token),
     ("wrong indent", wrong_indent),

@@ -10,13 +10,13 @@ use engine::{Analysis, Meeting, SpriteType};
 #[derive(Clone, Debug)]
 pub struct Guards {
     /// By interaction line.
-    lines: Vec<Kind>,
+    lines: Vec<GuardKind>,
     /// By type: `true` for a wall.
     walls: Vec<bool>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum GuardKind {
     /// With the edge of the screen.
     Edge,
     /// By the clock.
@@ -44,12 +44,12 @@ impl Guards {
             let priced =
                 line.params.iter().any(|param| param.key.text == "scoreChange" && param.value.text != "0");
             match EffectFamily::of(&line.effect.text) {
-                _ if clock => Kind::Clock,
-                _ if is_guard(game, at) => Kind::Edge,
+                _ if clock => GuardKind::Clock,
+                _ if is_guard(game, at) => GuardKind::Edge,
                 Some(EffectFamily::Block) if !priced => {
-                    Kind::Block { walls: line.second.iter().all(|second| names_walls(&second.text)) }
+                    GuardKind::Block { walls: line.second.iter().all(|second| names_walls(&second.text)) }
                 }
-                _ => Kind::Other,
+                _ => GuardKind::Other,
             }
         };
         Guards { lines: game.description().interactions.iter().enumerate().map(kind).collect(), walls }
@@ -57,7 +57,8 @@ impl Guards {
 
     /// Returns the lines that are only guards: indices into [`Description::interactions`](engine::Description).
     pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
-        let guards = |line: &usize| matches!(self.lines[*line], Kind::Edge | Kind::Block { walls: true });
+        let guards =
+            |line: &usize| matches!(self.lines[*line], GuardKind::Edge | GuardKind::Block { walls: true });
         (0..self.lines.len()).filter(guards)
     }
 
@@ -65,14 +66,14 @@ impl Guards {
     /// types too.
     pub fn covers(&self, meeting: Meeting) -> bool {
         match self.lines[meeting.line] {
-            Kind::Edge => true,
-            Kind::Block { .. } => meeting.second.is_some_and(|second| self.walls[second.index()]),
-            Kind::Clock | Kind::Other => false,
+            GuardKind::Edge => true,
+            GuardKind::Block { .. } => meeting.second.is_some_and(|second| self.walls[second.index()]),
+            GuardKind::Clock | GuardKind::Other => false,
         }
     }
 
     /// Returns `true` if a line runs by the clock.
     pub(super) fn runs_by_clock(&self, line: usize) -> bool {
-        self.lines[line] == Kind::Clock
+        self.lines[line] == GuardKind::Clock
     }
 }

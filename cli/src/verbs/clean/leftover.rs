@@ -13,11 +13,11 @@ use std::time::{Duration, SystemTime};
 /// A file or folder that was left behind.
 pub(super) struct Leftover {
     pub(super) path: PathBuf,
-    pub(super) kind: Kind,
+    pub(super) kind: LeftoverKind,
 }
 
 /// The kinds of leftovers.
-pub(super) enum Kind {
+pub(super) enum LeftoverKind {
     /// The folder of a release, report or export that was not finished.
     Unfinished(Abandoned),
     /// An interrupted mint with finished jobs.
@@ -30,14 +30,14 @@ pub(super) enum Kind {
     Scratch,
 }
 
-impl Kind {
+impl LeftoverKind {
     pub(super) fn name(&self) -> &'static str {
         match self {
-            Kind::Unfinished(_) => "unfinished",
-            Kind::Interrupted(_) => "interrupted",
-            Kind::Shard(_) => "shard",
-            Kind::File(_) => "file",
-            Kind::Scratch => "scratch",
+            LeftoverKind::Unfinished(_) => "unfinished",
+            LeftoverKind::Interrupted(_) => "interrupted",
+            LeftoverKind::Shard(_) => "shard",
+            LeftoverKind::File(_) => "file",
+            LeftoverKind::Scratch => "scratch",
         }
     }
 }
@@ -47,26 +47,30 @@ impl Leftover {
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
         let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
         let kind = if found.is_file() {
-            unfinished_file(path).map(Kind::File)
+            unfinished_file(path).map(LeftoverKind::File)
         } else if !found.is_dir() {
             None
         } else if let Some(draft) = Abandoned::at(path).map_err(failure)? {
-            Some(if draft.finished_lots() == 0 { Kind::Unfinished(draft) } else { Kind::Interrupted(draft) })
+            Some(if draft.finished_lots() == 0 {
+                LeftoverKind::Unfinished(draft)
+            } else {
+                LeftoverKind::Interrupted(draft)
+            })
         } else {
-            Shard::at(path).map(|(shard, recipe)| Kind::Shard(format!("shard {shard} of `{recipe}`")))
+            Shard::at(path).map(|(shard, recipe)| LeftoverKind::Shard(format!("shard {shard} of `{recipe}`")))
         };
         Ok(kind.map(|kind| Leftover { path: path.to_path_buf(), kind }))
     }
 
     pub(super) fn in_words(&self) -> String {
         match &self.kind {
-            Kind::Unfinished(_) => "unfinished work".to_owned(),
-            Kind::Interrupted(draft) => {
+            LeftoverKind::Unfinished(_) => "unfinished work".to_owned(),
+            LeftoverKind::Interrupted(draft) => {
                 format!("an interrupted mint with {} finished jobs", draft.finished_lots())
             }
-            Kind::Shard(shard) => shard.clone(),
-            Kind::File(_) => "an unfinished file".to_owned(),
-            Kind::Scratch => "temporary files of a player".to_owned(),
+            LeftoverKind::Shard(shard) => shard.clone(),
+            LeftoverKind::File(_) => "an unfinished file".to_owned(),
+            LeftoverKind::Scratch => "temporary files of a player".to_owned(),
         }
     }
 
@@ -88,9 +92,11 @@ impl Leftover {
 
     pub(super) fn remove(self) -> Result<(), Failure> {
         let removed = match self.kind {
-            Kind::Unfinished(draft) | Kind::Interrupted(draft) => return draft.remove().map_err(failure),
-            Kind::Shard(_) | Kind::Scratch => fs::remove_dir_all(&self.path),
-            Kind::File(_) => fs::remove_file(&self.path),
+            LeftoverKind::Unfinished(draft) | LeftoverKind::Interrupted(draft) => {
+                return draft.remove().map_err(failure);
+            }
+            LeftoverKind::Shard(_) | LeftoverKind::Scratch => fs::remove_dir_all(&self.path),
+            LeftoverKind::File(_) => fs::remove_file(&self.path),
         };
         removed.map_err(|error| {
             Failure::environment(error, format_args!("cannot remove `{}`", self.path.display()))
@@ -126,7 +132,7 @@ pub(super) fn scratch() -> Vec<Leftover> {
     let mut paths =
         fs::read_dir(&place).into_iter().flatten().flatten().map(|entry| entry.path()).sorted().collect_vec();
     paths.retain(|path| is_scratch(path) && !used.iter().any(|used| used.starts_with(path)));
-    paths.into_iter().map(|path| Leftover { path, kind: Kind::Scratch }).collect()
+    paths.into_iter().map(|path| Leftover { path, kind: LeftoverKind::Scratch }).collect()
 }
 
 /// Returns `true` for a scratch folder of this user's players, untouched for an hour.
@@ -188,6 +194,9 @@ mod tests {
         file.lock().expect("locked");
         assert!(Leftover::at(&path).expect("examined").is_none());
         drop(file);
-        assert!(matches!(Leftover::at(&path).expect("examined"), Some(Leftover { kind: Kind::File(_), .. })));
+        assert!(matches!(
+            Leftover::at(&path).expect("examined"),
+            Some(Leftover { kind: LeftoverKind::File(_), .. })
+        ));
     }
 }

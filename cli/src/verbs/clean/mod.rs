@@ -6,7 +6,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::sorted_entries;
 use crate::paths;
-use leftover::{Kind, Leftover};
+use leftover::{Leftover, LeftoverKind};
 use serde_json::json;
 use snapshots::MANIFEST_FILE;
 use std::fs;
@@ -85,12 +85,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// Returns the reason why a leftover is kept, with advice; none if it is to be removed.
-fn kept(args: &Args, kind: &Kind) -> Option<&'static str> {
+fn kept(args: &Args, kind: &LeftoverKind) -> Option<&'static str> {
     match kind {
-        Kind::Interrupted(_) if !args.interrupted => Some(
+        LeftoverKind::Interrupted(_) if !args.interrupted => Some(
             "continue it with the same command and --resume, or remove it with `arcade clean --interrupted`",
         ),
-        Kind::Shard(_) if !args.shards => {
+        LeftoverKind::Shard(_) if !args.shards => {
             Some("join shards with `arcade merge`, or remove them with `arcade clean --shards`")
         }
         _ => None,

@@ -46,19 +46,19 @@ pub(crate) struct Args {
 }
 
 /// A level, and its findings: problems of its text, or judgements.
-struct Judged<'a> {
+struct JudgedLevel<'a> {
     named: &'a Named,
     level: Result<Level, Diagnostics>,
     report: Option<Report>,
 }
 
-impl<'a> Judged<'a> {
+impl<'a> JudgedLevel<'a> {
     /// Judges a level. The seed depends on the level, so that it gets the same answer alone and among others.
-    fn of(game: &Game, named: &'a Named, panel: &Panel, seed: Seed) -> Judged<'a> {
+    fn of(game: &Game, named: &'a Named, panel: &Panel, seed: Seed) -> JudgedLevel<'a> {
         let level = game.level(&named.text);
         let judge = |level: &Level| panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
         let report = level.as_ref().ok().map(judge);
-        Judged { named, level, report }
+        JudgedLevel { named, level, report }
     }
 }
 
@@ -85,9 +85,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let panel = Panel::bounded(&criteria, args.budget).map_err(Failure::malformed)?;
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
-    let mut judged: Vec<Judged<'_>> = levels
+    let mut judged: Vec<JudgedLevel<'_>> = levels
         .par_iter()
-        .map(|named| Judged::of(&game, named, &panel, seed))
+        .map(|named| JudgedLevel::of(&game, named, &panel, seed))
         .inspect(|_| bar.inc(1))
         .collect();
     let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
@@ -177,8 +177,8 @@ fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diag
     }
 }
 
-fn document_of<'a>(analysis: &Analysis, judged: &'a Judged<'_>) -> LevelDocument<'a> {
-    let Judged { named, level, report } = judged;
+fn document_of<'a>(analysis: &Analysis, judged: &'a JudgedLevel<'_>) -> LevelDocument<'a> {
+    let JudgedLevel { named, level, report } = judged;
     let problems = match level {
         Ok(level) => level.warnings(),
         Err(problems) => &problems.0,

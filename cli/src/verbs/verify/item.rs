@@ -87,7 +87,7 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
         return Ok(problems);
     }
     if !found.is_file() {
-        return Err(SnapshotError::Kind { path: place.to_path_buf(), expected: "file" });
+        return Err(SnapshotError::ReleaseKind { path: place.to_path_buf(), expected: "file" });
     }
     let limit = Limits::SNAPSHOT.file_bytes;
     if found.len() > limit {

@@ -198,7 +198,7 @@ fn damage(error: &SnapshotError) -> bool {
             | SnapshotError::Manifest { .. }
             | SnapshotError::Archive { .. }
             | SnapshotError::Link { .. }
-            | SnapshotError::Kind { .. }
+            | SnapshotError::ReleaseKind { .. }
             | SnapshotError::TooLarge { .. }
     )
 }

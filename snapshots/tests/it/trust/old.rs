@@ -1,7 +1,7 @@
 //! Releases of other versions, stored in `tests/suite/snapshots`: they must stay readable.
 
 use snapshots::chain::{Link, follow};
-use snapshots::{Kind, SnapshotError, Witnesses, check_integrity, verify};
+use snapshots::{ReleaseKind, SnapshotError, Witnesses, check_integrity, verify};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -36,7 +36,7 @@ fn of_one_level(semantics: u32) -> Witnesses {
 /// episodes.
 #[test]
 fn format_2_is_read() {
-    for (name, kind) in [("format-2", Kind::Open), ("sealed", Kind::Sealed)] {
+    for (name, kind) in [("format-2", ReleaseKind::Open), ("sealed", ReleaseKind::Sealed)] {
         let verification = verify(&stored(name)).expect("readable");
         assert!(verification.problems.is_empty(), "{:?}", verification.problems);
         assert_eq!(verification.witnesses, of_one_level(3));

@@ -7,7 +7,7 @@ use report::Quantiles;
 use report::canonical::to_canonical_json;
 use serde::Serialize;
 use snapshots::mint::{Novelty, RELEASE_CARD_FILE, ReleaseCard};
-use snapshots::{Draft, FORMAT, Item, Kind, MANIFEST_FILE, Manifest, Recipe, Witness, canary, follow};
+use snapshots::{Draft, FORMAT, Item, MANIFEST_FILE, Manifest, Recipe, ReleaseKind, Witness, canary, follow};
 use statistics::{Z95, wilson};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -149,7 +149,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     let mut manifest = Manifest {
         format: FORMAT,
         name: name.into(),
-        kind: Kind::Open,
+        kind: ReleaseKind::Open,
         semantics: engine::SEMANTICS,
         generation: generators::GENERATION,
         version: Some(snapshots::version::CURRENT.number.to_owned()),

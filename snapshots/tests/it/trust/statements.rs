@@ -7,8 +7,8 @@ use serde_json::json;
 use snapshots::export::{Export, Format, export};
 use snapshots::released::Released;
 use snapshots::{
-    Bounds, COMMITS_TO_RECIPE_SINCE, Draft, Kind, SECRET_FILE, Secret, Verification, Witnesses, canary,
-    reveal, verify, verify_within,
+    Bounds, COMMITS_TO_RECIPE_SINCE, Draft, ReleaseKind, SECRET_FILE, Secret, Verification, Witnesses,
+    canary, reveal, verify, verify_within,
 };
 use std::fs;
 
@@ -92,7 +92,7 @@ fn seal(release: &mut Small) {
 fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
     let mark = canary(&secret.commitment());
     let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
-    release.manifest.kind = Kind::Sealed;
+    release.manifest.kind = ReleaseKind::Sealed;
     release.manifest.commitment = Some(secret.commitment());
     release.manifest.recipe = json!({ "name": "2026-12", "commitment": secret.commitment() });
     let episode = won("2026-12", played.root_seed().child("search", 0).child("play", 3));

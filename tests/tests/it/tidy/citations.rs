@@ -18,7 +18,7 @@ fn citations_resolve() {
     let tree = Tree::of_the_workspace();
     let mut problems = Vec::new();
     for file in workspace_files() {
-        if let Some(kind) = Kind::of(&file) {
+        if let Some(kind) = CitationKind::of(&file) {
             let name = file.to_string_lossy();
             let own = tree.spec_page(&name);
             for block in blocks(&read(&file), kind) {
@@ -47,7 +47,8 @@ fn wrong_citations_are_found() {
     };
     let check = |comment: &str, expect: &[&str]| {
         let source = format!("fn f() {{}} // {comment}\n");
-        let found = blocks(&source, Kind::Slashes).into_iter().flat_map(|block| block.problems(&tree, None));
+        let found =
+            blocks(&source, CitationKind::Slashes).into_iter().flat_map(|block| block.problems(&tree, None));
         let found: Vec<String> = found.map(|(_, problem)| problem).collect();
         assert_eq!(found.len(), expect.len(), "{comment}: {found:?}");
         for (found, expect) in found.iter().zip(expect) {
@@ -80,8 +81,10 @@ fn citations_are_read_from_comments_only() {
         paths: BTreeSet::new(),
         decisions: BTreeSet::new(),
     };
-    let found: Vec<(usize, String)> =
-        blocks(source, Kind::Slashes).into_iter().flat_map(|block| block.problems(&tree, None)).collect();
+    let found: Vec<(usize, String)> = blocks(source, CitationKind::Slashes)
+        .into_iter()
+        .flat_map(|block| block.problems(&tree, None))
+        .collect();
     let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
     assert_eq!(lines, [3, 5], "{found:?}");
 }
@@ -93,7 +96,7 @@ fn paths_that_lead_nowhere_are_found() {
     let tree =
         Tree { pages: BTreeMap::new(), paths: paths.map(str::to_owned).into(), decisions: BTreeSet::new() };
     let source = "/// `engine/src/step.rs`, `engine/src/`, `cli/a.rs`, `a/b`, `engine::step/x`;\n/// not `engine/src/leap.rs`.\n";
-    let found = blocks(source, Kind::Slashes);
+    let found = blocks(source, CitationKind::Slashes);
     let found = found.iter().flat_map(|block| block.missing_files(&tree, Path::new("cli/src/main.rs")));
     let found: Vec<(usize, String)> = found.collect();
     assert_eq!(found.len(), 1, "{found:?}");
@@ -193,7 +196,7 @@ impl Page {
 
 /// How a file marks its comments.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum CitationKind {
     /// `//`.
     Slashes,
     /// `#`.
@@ -202,17 +205,17 @@ enum Kind {
     Prose,
 }
 
-impl Kind {
+impl CitationKind {
     /// The kind of a file that people write, by its name; scripts have no ending.
-    fn of(file: &Path) -> Option<Kind> {
+    fn of(file: &Path) -> Option<CitationKind> {
         let Some(extension) = file.extension() else {
             let script = file.starts_with("scripts") || file.starts_with(".ci");
-            return script.then_some(Kind::Hash);
+            return script.then_some(CitationKind::Hash);
         };
         match extension.to_str()? {
-            "rs" | "pest" => Some(Kind::Slashes),
-            "toml" | "vgdl" | "py" | "sh" => Some(Kind::Hash),
-            "md" => Some(Kind::Prose),
+            "rs" | "pest" => Some(CitationKind::Slashes),
+            "toml" | "vgdl" | "py" | "sh" => Some(CitationKind::Hash),
+            "md" => Some(CitationKind::Prose),
             _ => None,
         }
     }
@@ -220,9 +223,9 @@ impl Kind {
     /// The comment of a line, if it has one.
     fn comment(self, line: &str) -> Option<&str> {
         let mark = match self {
-            Kind::Slashes => "//",
-            Kind::Hash => "#",
-            Kind::Prose => return Some(line),
+            CitationKind::Slashes => "//",
+            CitationKind::Hash => "#",
+            CitationKind::Prose => return Some(line),
         };
         // A mark within a string does not begin a comment: before a comment, quotes come in pairs.
         let quotes = |before: &str| before.matches('"').count() - before.matches("\\\"").count();
@@ -239,13 +242,13 @@ struct Block {
     lines: Vec<(usize, usize)>,
 }
 
-fn blocks(source: &str, kind: Kind) -> Vec<Block> {
+fn blocks(source: &str, kind: CitationKind) -> Vec<Block> {
     let mut blocks: Vec<Block> = Vec::new();
     let mut last = 0;
     for (line, number) in source.lines().zip(1..) {
         let Some(comment) = kind.comment(line) else { continue };
         // Code before a comment parts it from the one above.
-        let alone = kind == Kind::Prose || line.trim_start().starts_with(['/', '#']);
+        let alone = kind == CitationKind::Prose || line.trim_start().starts_with(['/', '#']);
         if blocks.is_empty() || last + 1 != number || !alone {
             blocks.push(Block { text: String::new(), lines: Vec::new() });
         }
