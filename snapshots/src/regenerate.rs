@@ -3,7 +3,7 @@
 use crate::corpus::Corpus;
 use crate::folder::{self, Limits};
 use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
-use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
+use crate::mint::{JobStore, MintError, Minted, Plan, Sink, lay_out};
 use crate::papers;
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::{SECRET_FILE, Secret, read_revealed};
@@ -70,7 +70,7 @@ pub struct Regenerated {
     pub other_lockfile: bool,
 }
 
-/// A release to be minted again. Its jobs run like those of any other release ([`make_lots`](crate::mint::make_lots)).
+/// A release to be minted again. Its jobs run like those of any other release ([`make_jobs`](crate::mint::make_jobs)).
 #[derive(Debug)]
 pub struct Regeneration {
     root: PathBuf,
@@ -137,12 +137,12 @@ impl Regeneration {
     pub fn compare(
         &self,
         plan: &Plan<'_>,
-        shelf: &dyn Shelf,
+        store: &dyn JobStore,
         lockfile: Digest,
         also: &mut Sink<'_>,
     ) -> Result<Regenerated, MintError> {
         let mut comparison = Comparison::of(&self.root)?;
-        let minted = lay_out(plan, self.secret.as_ref(), shelf, lockfile, &mut |path, content| {
+        let minted = lay_out(plan, self.secret.as_ref(), store, lockfile, &mut |path, content| {
             comparison.file(path, content)?;
             also(path, content)
         })?;

@@ -50,6 +50,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if plan.is_sealed() {
         draft.keep_private().map_err(failure)?;
     }
-    let finished = FinishedMint { plan: &plan, secret: secret.as_ref(), shelf: &shards, out: &args.out };
+    let finished = FinishedMint { plan: &plan, secret: secret.as_ref(), store: &shards, out: &args.out };
     finished.publish(draft, None, args.jobs, console)
 }

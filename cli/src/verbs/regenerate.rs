@@ -10,7 +10,7 @@ use crate::shell;
 use crate::verbs::release::{ProgressBars, in_pool, mint_failure};
 use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::mint::{LotFolder, Memory, Shelf, make_lots};
+use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
 use snapshots::{Draft, MANIFEST_FILE, RegenerateError, Regeneration};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -54,10 +54,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let plan = release.plan(&corpus).map_err(mint_failure)?;
     let open = if args.resume { Draft::resume } else { Draft::create };
     let draft = args.out.as_deref().map(open).transpose().map_err(failure)?;
-    let shelf: Box<dyn Shelf> = match &draft {
+    let store: Box<dyn JobStore> = match &draft {
         Some(draft) => {
             let digest = plan.digest().map_err(failure)?;
-            Box::new(LotFolder::open(&draft.lots(), digest).map_err(failure)?)
+            Box::new(JobFolder::open(&draft.jobs(), digest).map_err(failure)?)
         }
         None => Box::new(Memory::default()),
     };
@@ -66,12 +66,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let bars = ProgressBars::new(console);
     let result = in_pool(args.jobs, || {
-        make_lots(&plan, plan.lots(), &*shelf, &bars)?;
+        make_jobs(&plan, plan.jobs(), &*store, &bars)?;
         let mut also = |path: &str, content: &[u8]| match &draft {
             Some(draft) => draft.write(path, content),
             None => Ok(()),
         };
-        release.compare(&plan, &*shelf, embedded::lockfile(), &mut also)
+        release.compare(&plan, &*store, embedded::lockfile(), &mut also)
     })?
     .map_err(mint_failure)?;
     bars.finish();

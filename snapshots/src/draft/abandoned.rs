@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use super::lock::{self, LOCK, LOTS, TREE};
+use super::lock::{self, JOBS, LOCK, TREE};
 use super::remove_tree;
 use crate::error::SnapshotError;
 
@@ -12,7 +12,7 @@ use crate::error::SnapshotError;
 #[derive(Debug)]
 pub struct Abandoned {
     partial: PathBuf,
-    lots: usize,
+    jobs: usize,
     /// Closing it releases the lock.
     _lock: File,
 }
@@ -39,13 +39,13 @@ impl Abandoned {
             Err(SnapshotError::Busy { .. } | SnapshotError::Foreign { .. }) => return Ok(None),
             Err(error) => return Err(error),
         };
-        let lots = finished(&partial.join(LOTS)).map_err(SnapshotError::io("list", partial))?;
-        Ok(Some(Abandoned { partial: partial.to_path_buf(), lots, _lock: lock }))
+        let jobs = finished(&partial.join(JOBS)).map_err(SnapshotError::io("list", partial))?;
+        Ok(Some(Abandoned { partial: partial.to_path_buf(), jobs, _lock: lock }))
     }
 
     /// The number of jobs that an interrupted mint has finished and `--resume` can reuse.
-    pub fn finished_lots(&self) -> usize {
-        self.lots
+    pub fn finished_jobs(&self) -> usize {
+        self.jobs
     }
 
     /// Removes the draft with all that it holds.
@@ -55,7 +55,7 @@ impl Abandoned {
     pub fn remove(self) -> Result<(), SnapshotError> {
         let remove = || {
             remove_tree(&self.partial.join(TREE))?;
-            remove_tree(&self.partial.join(LOTS))?;
+            remove_tree(&self.partial.join(JOBS))?;
             fs::remove_file(self.partial.join(LOCK))?;
             fs::remove_dir(&self.partial)
         };
@@ -69,12 +69,12 @@ fn holds_work(partial: &Path) -> io::Result<bool> {
         return Ok(false);
     }
     let is_folder = |name| fs::symlink_metadata(partial.join(name)).is_ok_and(|found| found.is_dir());
-    Ok((is_folder(TREE) || is_folder(LOTS)) && lock::is_ours(partial)?)
+    Ok((is_folder(TREE) || is_folder(JOBS)) && lock::is_ours(partial)?)
 }
 
 /// Counts the files of finished jobs in a folder.
-fn finished(lots: &Path) -> io::Result<usize> {
-    let listed = match fs::read_dir(lots) {
+fn finished(jobs: &Path) -> io::Result<usize> {
+    let listed = match fs::read_dir(jobs) {
         Err(source) if source.kind() == ErrorKind::NotFound => return Ok(0),
         listed => listed?,
     };
@@ -107,7 +107,7 @@ mod tests {
         let (home, out) = home();
         let partial = killed(&out);
         let abandoned = Abandoned::at(&partial).expect("examined").expect("abandoned");
-        assert_eq!(abandoned.finished_lots(), 0);
+        assert_eq!(abandoned.finished_jobs(), 0);
         // No other draft can take it over in between.
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy { .. })));
         abandoned.remove().expect("removed");
@@ -118,11 +118,11 @@ mod tests {
     fn finished_lots_are_counted() {
         let (_home, out) = home();
         let partial = killed(&out);
-        fs::create_dir(partial.join(LOTS)).expect("created");
+        fs::create_dir(partial.join(JOBS)).expect("created");
         for name in ["a.json", "b.json", "b.new", "plan.txt"] {
-            fs::write(partial.join(LOTS).join(name), "").expect("written");
+            fs::write(partial.join(JOBS).join(name), "").expect("written");
         }
-        assert_eq!(Abandoned::at(&partial).expect("examined").expect("abandoned").finished_lots(), 2);
+        assert_eq!(Abandoned::at(&partial).expect("examined").expect("abandoned").finished_jobs(), 2);
     }
 
     #[test]

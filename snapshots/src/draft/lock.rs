@@ -15,7 +15,7 @@ pub(super) const MARK: &str =
 /// The folder that holds the work.
 pub(super) const TREE: &str = "tree";
 /// The folder whose content is kept if the work is interrupted.
-pub(super) const LOTS: &str = "lots";
+pub(super) const JOBS: &str = "lots";
 
 /// Creates `partial` or takes it over, and locks it.
 pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
@@ -83,7 +83,7 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
         let kind = entry.file_type()?;
         if entry.file_name() == LOCK && kind.is_file() {
             lock = Some(content(&entry.path())?);
-        } else if (entry.file_name() == TREE || entry.file_name() == LOTS) && kind.is_dir() {
+        } else if (entry.file_name() == TREE || entry.file_name() == JOBS) && kind.is_dir() {
             work = true;
         } else {
             return Ok(false);

@@ -25,7 +25,7 @@ use crate::error::SnapshotError;
 use crate::folder::{self, Limits};
 use crate::path::check_path;
 use crate::sealed::HELD;
-use lock::{LOCK, LOTS, TREE};
+use lock::{JOBS, LOCK, TREE};
 use sync::{create_folder, sync_folder, sync_folders};
 
 /// The name of the file, in the tree, of a draft that is published as a file.
@@ -58,14 +58,14 @@ impl Draft {
     /// ([`Foreign`](SnapshotError::Foreign)), or the file system refuses.
     pub fn create(out: &Path) -> Result<Draft, SnapshotError> {
         let draft = Draft::resume(out)?;
-        match fs::read_dir(draft.lots()).is_ok_and(|mut lots| lots.next().is_some()) {
+        match fs::read_dir(draft.jobs()).is_ok_and(|mut jobs| jobs.next().is_some()) {
             true => Err(SnapshotError::Interrupted { path: draft.partial.clone() }),
             false => Ok(draft),
         }
     }
 
     /// Starts a draft like [`create`](Draft::create), but keeps what an interrupted one has put into
-    /// [`lots`](Draft::lots).
+    /// [`jobs`](Draft::jobs).
     ///
     /// # Errors
     /// See [`create`](Draft::create); interrupted work is no error.
@@ -137,7 +137,7 @@ impl Draft {
         fs::rename(&tree, &self.out).map_err(occupied)?;
         sync_folder(parent_of(&self.out))?;
         // Leftovers affect only the next draft, which reports them.
-        drop(remove_tree(&self.lots()));
+        drop(remove_tree(&self.jobs()));
         Ok(())
     }
 
@@ -199,15 +199,15 @@ impl Draft {
         Ok(())
     }
 
-    /// The path where a draft of the folder `out` keeps its [`lots`](Draft::lots), even if there is no draft.
-    pub fn lots_of(out: &Path) -> Option<PathBuf> {
-        Some(partial_of(out)?.join(LOTS))
+    /// The path where a draft of the folder `out` keeps its [`jobs`](Draft::jobs), even if there is no draft.
+    pub fn jobs_of(out: &Path) -> Option<PathBuf> {
+        Some(partial_of(out)?.join(JOBS))
     }
 
     /// The path of a folder beside the draft, not created yet. Its content outlives a draft that is dropped or killed,
     /// and is removed when the draft is committed.
-    pub fn lots(&self) -> PathBuf {
-        self.partial.join(LOTS)
+    pub fn jobs(&self) -> PathBuf {
+        self.partial.join(JOBS)
     }
 
     fn tree(&self) -> PathBuf {
@@ -220,7 +220,7 @@ impl Drop for Draft {
     fn drop(&mut self) {
         let removed = remove_tree(&self.tree());
         // An empty folder holds no work. A folder with content stays, and so does the lock, which marks it as ours.
-        if fs::remove_dir(self.lots()).is_err_and(|refused| refused.kind() != ErrorKind::NotFound) {
+        if fs::remove_dir(self.jobs()).is_err_and(|refused| refused.kind() != ErrorKind::NotFound) {
             return;
         }
         let removed = removed

@@ -1,7 +1,7 @@
 //! Turning the selected games into files and a manifest.
 
 use super::card::ReleaseCard;
-use super::lot::FrozenGame;
+use super::job::FrozenGame;
 use super::{MintError, Plan};
 use crate::manifest::{FORMAT, Item, Manifest, ReleaseKind};
 use crate::recipe::Recipe;

@@ -1,17 +1,17 @@
 //! Minting: candidates are made, judged and selected.
 //!
 //! A recipe is turned into a [`Plan`]: a list of independent jobs, each with its own seed. [`Plan::make`] runs a job,
-//! and its result is put into a [`Shelf`], the job store. After all jobs, games are selected from the results
+//! and its result is put into a [`JobStore`], the job store. After all jobs, games are selected from the results
 //! according to the recipe's quotas and difficulty histogram, and written as files. Both steps depend on the recipe
 //! alone: not on threads, order, machines, time or interruptions.
 
 mod card;
 mod folder;
-mod lot;
+mod job;
+mod job_store;
 mod plan;
 mod select;
 mod shard;
-mod shelf;
 
 use crate::manifest::Manifest;
 use crate::recipe::RecipeError;
@@ -21,13 +21,13 @@ pub use card::{Novelty, ReleaseCard, Rung};
 pub use folder::{RELEASE_CARD_FILE, Sink};
 use forge::Tally;
 use forge::card::Card;
-pub use lot::{FrozenGame, LotResult};
-pub use plan::{Lot, Plan};
+pub use job::{FrozenGame, JobResult};
+pub use job_store::{JobFolder, JobStore, Memory};
+pub use plan::{Job, Plan};
 use rayon::prelude::*;
 pub use select::Bin;
 use select::{Contender, select};
 pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
-pub use shelf::{LotFolder, Memory, Shelf};
 use validators::CriteriaError;
 
 /// A release whose files have been written to the sink.
@@ -68,10 +68,10 @@ pub enum MintError {
     #[error("`criteria.{}` {}", .0.key, .0.message)]
     Criteria(#[from] CriteriaError),
     /// A job's result is not in the store.
-    #[error("the lot `{0}` is missing: mint it again")]
+    #[error("the job `{0}` is missing: mint it again")]
     Missing(String),
     /// A job's result holds something that is no game, or not the one that its card describes.
-    #[error("the lot `{0}` holds a game that is not one: mint it again")]
+    #[error("the job `{0}` holds a game that is not one: mint it again")]
     Unsound(String),
     /// Too few candidates passed.
     #[error(
@@ -108,7 +108,7 @@ pub enum MintError {
 /// Receives the progress of minting, from several threads.
 pub trait Progress: Sync {
     /// Called at the start with the number of jobs, and the number of those that are already done.
-    fn begin(&self, _lots: usize, _made: usize) {}
+    fn begin(&self, _jobs: usize, _made: usize) {}
     /// Called when a job is done.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
 }
@@ -120,23 +120,23 @@ impl Progress for () {}
 ///
 /// # Errors
 /// The criteria are invalid, or a result cannot be stored.
-pub fn make_lots(
+pub fn make_jobs(
     plan: &Plan<'_>,
-    lots: &[Lot],
-    shelf: &dyn Shelf,
+    jobs: &[Job],
+    store: &dyn JobStore,
     progress: &dyn Progress,
 ) -> Result<(), MintError> {
     let mut open = Vec::new();
-    for &lot in lots {
-        if shelf.get(&plan.name(lot))?.is_none() {
-            open.push(lot);
+    for &job in jobs {
+        if store.get(&plan.name(job))?.is_none() {
+            open.push(job);
         }
     }
-    progress.begin(lots.len(), lots.len() - open.len());
-    let make = |&lot: &Lot| {
-        let result = plan.make(lot)?;
-        let name = plan.name(lot);
-        shelf.put(&name, &result)?;
+    progress.begin(jobs.len(), jobs.len() - open.len());
+    let make = |&job: &Job| {
+        let result = plan.make(job)?;
+        let name = plan.name(job);
+        store.put(&name, &result)?;
         progress.made(&name, &result.games);
         Ok(())
     };
@@ -152,24 +152,24 @@ pub fn make_lots(
 pub fn lay_out(
     plan: &Plan<'_>,
     secret: Option<&Secret>,
-    shelf: &dyn Shelf,
+    store: &dyn JobStore,
     lockfile: Digest,
     sink: &mut Sink<'_>,
 ) -> Result<Minted, MintError> {
-    let lot = |at: usize| {
-        let name = plan.name(plan.lots()[at]);
-        shelf.get(&name)?.ok_or(MintError::Missing(name))
+    let job = |at: usize| {
+        let name = plan.name(plan.jobs()[at]);
+        store.get(&name)?.ok_or(MintError::Missing(name))
     };
     let mut contenders = Vec::new();
     let (mut tally, mut of_corpus) = (Tally::default(), Tally::default());
     for at in plan.in_order() {
-        let LotResult { games, tally: spent } = lot(at)?;
+        let JobResult { games, tally: spent } = job(at)?;
         for (number, game) in games.iter().enumerate() {
-            let unsound = || MintError::Unsound(plan.name(plan.lots()[at]));
+            let unsound = || MintError::Unsound(plan.name(plan.jobs()[at]));
             contenders.push(Contender::of(at, number, game).ok_or_else(unsound)?);
         }
-        match plan.lots()[at] {
-            Lot::Corpus(_) => of_corpus.add(&spent),
+        match plan.jobs()[at] {
+            Job::Corpus(_) => of_corpus.add(&spent),
             _ => tally.add(&spent),
         }
     }
@@ -177,11 +177,11 @@ pub fn lay_out(
     tally.add(&of_corpus);
     let mut folder = folder::Folder::new(plan, sink);
     for &taken in &taken {
-        let Contender { lot: of, at, .. } = contenders[taken];
+        let Contender { job: of, at, .. } = contenders[taken];
         // Without the steps from the secret to its seed, no witness could be checked after the reveal.
         let is_traced = |game: &FrozenGame| !(plan.is_sealed() && game.paths.iter().any(Vec::is_empty));
-        let game = lot(of)?.games.into_iter().nth(at).filter(is_traced);
-        folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.lots()[of])))?)?;
+        let game = job(of)?.games.into_iter().nth(at).filter(is_traced);
+        folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.jobs()[of])))?)?;
     }
     let card = ReleaseCard::of(plan, &contenders, &taken, &folder.cards, tally);
     let (manifest, cards) = folder.finish(plan.recipe, secret, lockfile, &card)?;
@@ -248,9 +248,9 @@ mod tests {
 
     fn minted(recipe: &Recipe, corpus: &Corpus) -> Result<Minted, MintError> {
         let plan = Plan::new(recipe, None, corpus)?;
-        let shelf = Memory::default();
-        make_lots(&plan, plan.lots(), &shelf, &())?;
-        lay_out(&plan, None, &shelf, Digest::of(b""), &mut |_, _| Ok(()))
+        let store = Memory::default();
+        make_jobs(&plan, plan.jobs(), &store, &())?;
+        lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(()))
     }
 
     #[test]
@@ -263,12 +263,12 @@ mod tests {
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);
-            first.push(Plan::new(&recipe, None, &corpus).unwrap().lots()[0]);
+            first.push(Plan::new(&recipe, None, &corpus).unwrap().jobs()[0]);
             let minted = minted(&recipe, &corpus).unwrap();
             let origins: Vec<&Origin> = minted.cards.iter().map(|card| &card.origin).collect();
             assert_eq!(origins, [&Origin::Corpus { name: "fetch".to_owned() }]);
         }
-        assert!(first.contains(&Lot::Corpus(0)) && first.contains(&Lot::Corpus(1)), "{first:?}");
+        assert!(first.contains(&Job::Corpus(0)) && first.contains(&Job::Corpus(1)), "{first:?}");
     }
 
     /// Otherwise a sealed release could not show that its witnesses were played under its secret.
@@ -288,9 +288,9 @@ mod tests {
         let recipe = Recipe::from_toml(text).unwrap();
         let corpus = corpus(&[("fetch", FETCH)]);
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
-        for &lot in plan.lots() {
-            let games = plan.make(lot).unwrap().games;
-            assert_eq!(games.len(), 1, "{lot:?}");
+        for &job in plan.jobs() {
+            let games = plan.make(job).unwrap().games;
+            assert_eq!(games.len(), 1, "{job:?}");
             check(plan.seed, &games[0]);
         }
         for method in [Method::Search, Method::Evolutionary] {
@@ -327,7 +327,7 @@ mod tests {
         ] {
             let recipe = Recipe::from_toml(text).unwrap();
             let plan = Plan::new(&recipe, None, &corpus).unwrap();
-            let ratio = plan.seconds(plan.lots()) / measured(name);
+            let ratio = plan.seconds(plan.jobs()) / measured(name);
             assert!((0.75..=1.25).contains(&ratio), "{name}: {ratio} of what was measured");
         }
     }
@@ -363,12 +363,12 @@ mod tests {
         let corpus = corpus(&[("fetch", FETCH), ("gather", &FETCH.replace("limit=50", "limit=60"))]);
         let recipe = recipe("a");
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
-        let shelf = Memory::default();
-        make_lots(&plan, &plan.lots()[..1], &shelf, &()).unwrap();
+        let store = Memory::default();
+        make_jobs(&plan, &plan.jobs()[..1], &store, &()).unwrap();
         let count = Count(std::sync::Mutex::default());
-        make_lots(&plan, plan.lots(), &shelf, &count).unwrap();
-        assert_eq!(count.0.into_inner().unwrap(), [plan.name(plan.lots()[1])]);
-        let resumed = lay_out(&plan, None, &shelf, Digest::of(b""), &mut |_, _| Ok(())).unwrap();
+        make_jobs(&plan, plan.jobs(), &store, &count).unwrap();
+        assert_eq!(count.0.into_inner().unwrap(), [plan.name(plan.jobs()[1])]);
+        let resumed = lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(())).unwrap();
         assert_eq!(resumed.manifest.root, minted(&recipe, &corpus).unwrap().manifest.root);
     }
 }

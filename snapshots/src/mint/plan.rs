@@ -1,7 +1,7 @@
 //! The plan of a recipe: a list of independent jobs, each with its own seed.
 
 use super::MintError;
-use super::lot::{FrozenGame, LotResult};
+use super::job::{FrozenGame, JobResult};
 use super::select::word;
 use crate::corpus::Corpus;
 use crate::recipe::Recipe;
@@ -31,12 +31,12 @@ pub struct Plan<'a> {
     pub(super) forms: Vec<GameForm>,
     /// The new games of previous releases.
     pub(super) before: Vec<GameForm>,
-    lots: Vec<Lot>,
+    jobs: Vec<Job>,
 }
 
 /// A job: a part of the work that depends on no other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lot {
+pub enum Job {
     /// An archive of [`ISLAND`] new games, by its number.
     Archive(u32),
     /// A new game that is found by search.
@@ -78,8 +78,8 @@ impl<'a> Plan<'a> {
         let games: Vec<Game> = corpus.games.iter().map(compile).collect::<Result<_, _>>()?;
         let forms = games.iter().map(GameForm::of).collect();
         let before = recipe.known.forms()?;
-        let mut plan = Plan { recipe, seed, corpus, games, forms, before, lots: Vec::new() };
-        plan.lots = plan.generated().into_iter().chain(plan.of_corpus()?).collect();
+        let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs: Vec::new() };
+        plan.jobs = plan.generated().into_iter().chain(plan.of_corpus()?).collect();
         Ok(plan)
     }
 
@@ -94,8 +94,8 @@ impl<'a> Plan<'a> {
     }
 
     /// The jobs, the longest first.
-    pub fn lots(&self) -> &[Lot] {
-        &self.lots
+    pub fn jobs(&self) -> &[Job] {
+        &self.jobs
     }
 
     /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
@@ -107,7 +107,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The rough total cost of jobs, in seconds of one core of the machine that docs/recipes.md describes.
-    pub fn seconds(&self, lots: &[Lot]) -> f64 {
+    pub fn seconds(&self, jobs: &[Job]) -> f64 {
         let usual = Criteria::default();
         let of = |(plain, skill): (f64, f64), levels: u32, criteria: &Criteria| {
             // Decisions cost about a third of what the other judges cost.
@@ -119,29 +119,29 @@ impl<'a> Plan<'a> {
             f64::from(levels) * (plain * thought + (skill - plain) * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
-        let cost = |lot: &Lot| match *lot {
-            Lot::Archive(_) => of(ARCHIVE, ISLAND * new, &self.recipe.criteria),
-            Lot::Search(_) => of(SEARCH, new, &self.recipe.criteria),
-            Lot::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
-            Lot::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
+        let cost = |job: &Job| match *job {
+            Job::Archive(_) => of(ARCHIVE, ISLAND * new, &self.recipe.criteria),
+            Job::Search(_) => of(SEARCH, new, &self.recipe.criteria),
+            Job::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
+            Job::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
         };
-        lots.iter().map(cost).sum()
+        jobs.iter().map(cost).sum()
     }
 
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
     pub(super) fn in_order(&self) -> Vec<usize> {
-        let is_new = |at: &usize| !matches!(self.lots[*at], Lot::Corpus(_));
-        let (new, old): (Vec<usize>, Vec<usize>) = (0..self.lots.len()).partition(is_new);
+        let is_new = |at: &usize| !matches!(self.jobs[*at], Job::Corpus(_));
+        let (new, old): (Vec<usize>, Vec<usize>) = (0..self.jobs.len()).partition(is_new);
         old.into_iter().chain(new).collect()
     }
 
     /// The name of a job, suitable as a file name.
-    pub fn name(&self, lot: Lot) -> String {
-        match lot {
-            Lot::Archive(number) => format!("archive-{number}"),
-            Lot::Search(number) => format!("search-{number}"),
-            Lot::Constructive(number) => format!("constructive-{number}"),
-            Lot::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
+    pub fn name(&self, job: Job) -> String {
+        match job {
+            Job::Archive(number) => format!("archive-{number}"),
+            Job::Search(number) => format!("search-{number}"),
+            Job::Constructive(number) => format!("constructive-{number}"),
+            Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
         }
     }
 
@@ -181,17 +181,17 @@ impl<'a> Plan<'a> {
     }
 
     /// The candidates for new games, according to the weights of the mix.
-    fn generated(&self) -> Vec<Lot> {
+    fn generated(&self) -> Vec<Job> {
         let part = &self.recipe.generated;
         let all = candidates(part.games, part.candidates);
         let weights = [part.mix.evolutionary, part.mix.search, part.mix.constructive];
         let [bred, searched, drawn] = apportion(all, &weights)[..] else { unreachable!("three weights") };
-        let archives = (0..bred.div_ceil(ISLAND)).map(Lot::Archive);
-        archives.chain((0..searched).map(Lot::Search)).chain((0..drawn).map(Lot::Constructive)).collect()
+        let archives = (0..bred.div_ceil(ISLAND)).map(Job::Archive);
+        archives.chain((0..searched).map(Job::Search)).chain((0..drawn).map(Job::Constructive)).collect()
     }
 
     /// Draws the corpus games to use.
-    fn of_corpus(&self) -> Result<Vec<Lot>, MintError> {
+    fn of_corpus(&self) -> Result<Vec<Job>, MintError> {
         let (asked, known) = (self.recipe.corpus.games, self.corpus.games.len());
         if asked as usize > known {
             return Err(MintError::SmallCorpus { asked, known });
@@ -200,22 +200,22 @@ impl<'a> Plan<'a> {
         let mut sampler: Sampler = self.seed.child("corpus order", 0).sampler();
         sampler.shuffle(&mut order);
         order.truncate(candidates(asked, self.recipe.corpus.candidates) as usize);
-        Ok(order.into_iter().map(Lot::Corpus).collect())
+        Ok(order.into_iter().map(Job::Corpus).collect())
     }
 
     /// Runs a job. Cost: from a second to minutes of one core; uses all threads of the current rayon pool.
     ///
     /// # Errors
     /// The criteria are invalid.
-    pub fn make(&self, lot: Lot) -> Result<LotResult, MintError> {
+    pub fn make(&self, job: Job) -> Result<JobResult, MintError> {
         let part = &self.recipe.generated;
-        let steps = self.steps(lot);
+        let steps = self.steps(job);
         let seed = steps.iter().fold(self.seed, |seed, (purpose, index)| seed.child(purpose, *index));
-        let (games, tally) = match lot {
-            Lot::Corpus(at) => self.new_levels(at, seed),
-            Lot::Constructive(number) => self.one(Method::Constructive, number, seed),
-            Lot::Search(number) => self.one(Method::Search, number, seed),
-            Lot::Archive(_) => {
+        let (games, tally) = match job {
+            Job::Corpus(at) => self.new_levels(at, seed),
+            Job::Constructive(number) => self.one(Method::Constructive, number, seed),
+            Job::Search(number) => self.one(Method::Search, number, seed),
+            Job::Archive(_) => {
                 let order =
                     GameOrder { count: ISLAND, ..self.order(Method::Evolutionary, part.game_tries / 8) };
                 match make_games(&order, &self.forms, "", seed, &()) {
@@ -226,17 +226,17 @@ impl<'a> Plan<'a> {
             }
         };
         let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps));
-        Ok(LotResult { games: games.collect(), tally })
+        Ok(JobResult { games: games.collect(), tally })
     }
 
     /// The steps from the root seed to that of a job, or to that of its kind if jobs of the kind count their own.
-    fn steps(&self, lot: Lot) -> Vec<Step> {
+    fn steps(&self, job: Job) -> Vec<Step> {
         let step = |purpose: &str, index: u32| (purpose.to_owned(), u64::from(index));
-        match lot {
-            Lot::Corpus(at) => vec![step("corpus", 0), step(&self.corpus.games[at].name, 0)],
-            Lot::Constructive(_) => vec![step("constructive", 0)],
-            Lot::Search(_) => vec![step("search", 0)],
-            Lot::Archive(number) => vec![step("archive", number)],
+        match job {
+            Job::Corpus(at) => vec![step("corpus", 0), step(&self.corpus.games[at].name, 0)],
+            Job::Constructive(_) => vec![step("constructive", 0)],
+            Job::Search(_) => vec![step("search", 0)],
+            Job::Archive(number) => vec![step("archive", number)],
         }
     }
 

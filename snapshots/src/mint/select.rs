@@ -5,7 +5,7 @@
 //! integers and seeded draws only, so the same candidates give the same selection on any machine.
 
 use super::MintError;
-use super::lot::FrozenGame;
+use super::job::FrozenGame;
 use super::plan::{Plan, apportion};
 use crate::Digest;
 use crate::ancestry::item;
@@ -23,7 +23,7 @@ use validators::{Difficulty, GameForm};
 /// A game that can be selected.
 pub(super) struct Contender {
     /// The index of its job, and its place in the job's result.
-    pub(super) lot: usize,
+    pub(super) job: usize,
     pub(super) at: usize,
     is_new: bool,
     title: String,
@@ -39,7 +39,7 @@ pub(super) struct Contender {
 
 impl Contender {
     /// The contender for a game of a job's result; `None` if its rules or levels do not load.
-    pub(super) fn of(lot: usize, at: usize, frozen: &FrozenGame) -> Option<Contender> {
+    pub(super) fn of(job: usize, at: usize, frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
         let kind = GameKind::of(&analysis);
@@ -51,7 +51,7 @@ impl Contender {
         };
         let items = frozen.levels.iter().map(canonical).collect::<Option<Vec<_>>>()?;
         Some(Contender {
-            lot,
+            job,
             at,
             is_new: is_new(&frozen.card),
             title: frozen.card.title.clone(),

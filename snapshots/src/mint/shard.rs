@@ -8,9 +8,9 @@
 //! ```
 
 use super::MintError;
-use super::lot::{FrozenGame, LotResult};
-use super::plan::{Lot, Plan};
-use super::shelf::{LotFolder, Shelf};
+use super::job::{FrozenGame, JobResult};
+use super::job_store::{JobFolder, JobStore};
+use super::plan::{Job, Plan};
 use crate::folder::{self, Limits};
 use crate::manifest::{Item, MANIFEST_LIMIT};
 use crate::recipe::Recipe;
@@ -70,7 +70,8 @@ struct ShardFile {
     shard: Shard,
     plan: Digest,
     recipe: Recipe,
-    lots: Vec<Item>,
+    #[serde(rename = "lots")]
+    jobs: Vec<Item>,
 }
 
 /// The fields that every version of `SHARD.json` has.
@@ -81,8 +82,8 @@ struct Version {
 
 impl Shard {
     /// The jobs of a plan that belong to this shard.
-    pub fn lots(&self, plan: &Plan<'_>) -> Vec<Lot> {
-        plan.lots().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
+    pub fn jobs(&self, plan: &Plan<'_>) -> Vec<Job> {
+        plan.jobs().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
     }
 
     /// Returns the shard in a folder, of any generation, and the name of its recipe, if the folder holds exactly the
@@ -92,7 +93,7 @@ impl Shard {
         // Any generation is accepted: shards of an earlier one can no longer be merged here, but they are shards.
         let file: ShardFile = serde_json::from_slice(&bytes).ok()?;
         let listing = folder::list(folder, &Limits::SNAPSHOT).ok()?;
-        let mut listed: Vec<&str> = file.lots.iter().map(|item| item.path.as_str()).collect();
+        let mut listed: Vec<&str> = file.jobs.iter().map(|item| item.path.as_str()).collect();
         listed.push(SHARD_FILE);
         listed.sort_unstable();
         let is_whole = listing.problems.is_empty()
@@ -121,16 +122,16 @@ impl Shard {
     ///
     /// # Errors
     /// A job's result is missing, or the file system refuses.
-    pub fn write(&self, plan: &Plan<'_>, shelf: &dyn Shelf, draft: &Draft) -> Result<(), MintError> {
+    pub fn write(&self, plan: &Plan<'_>, store: &dyn JobStore, draft: &Draft) -> Result<(), MintError> {
         let digest = plan.digest()?;
-        let mut lots = Vec::new();
-        for lot in self.lots(plan) {
-            let name = plan.name(lot);
-            let Some(result) = shelf.get(&name)? else { return Err(MintError::Missing(name)) };
-            let text = LotFolder::text(digest, &result)?;
+        let mut jobs = Vec::new();
+        for job in self.jobs(plan) {
+            let name = plan.name(job);
+            let Some(result) = store.get(&name)? else { return Err(MintError::Missing(name)) };
+            let text = JobFolder::text(digest, &result)?;
             let path = path(&name);
             draft.write(&path, text.as_bytes())?;
-            lots.push(Item::of(path, text.as_bytes()));
+            jobs.push(Item::of(path, text.as_bytes()));
         }
         let file = ShardFile {
             format: SHARD_FORMAT,
@@ -139,7 +140,7 @@ impl Shard {
             shard: *self,
             plan: digest,
             recipe: plan.recipe.clone(),
-            lots,
+            jobs,
         };
         draft.write(SHARD_FILE, to_canonical_json(&file).map_err(SnapshotError::from)?.as_bytes())?;
         Ok(())
@@ -192,7 +193,7 @@ pub struct Shards {
     /// Each shard with its folder and the paths of its job files.
     shards: Vec<(PathBuf, Shard, BTreeSet<String>)>,
     /// The folder and the expected file of each job, by the file's path.
-    lots: BTreeMap<String, (PathBuf, Item)>,
+    jobs: BTreeMap<String, (PathBuf, Item)>,
 }
 
 impl Shards {
@@ -209,7 +210,7 @@ impl Shards {
             return Err(MergeError::Missing("none was given".to_owned()));
         };
         let mut numbers: BTreeMap<u32, &PathBuf> = BTreeMap::new();
-        let mut lots = BTreeMap::new();
+        let mut jobs = BTreeMap::new();
         for (folder, file) in &read {
             let apart = |two: &Path, what| MergeError::Apart {
                 one: two.to_path_buf(),
@@ -225,8 +226,8 @@ impl Shards {
             if let Some(other) = numbers.insert(file.shard.number, folder) {
                 return Err(apart(other, "they are the same shard"));
             }
-            for item in &file.lots {
-                lots.insert(item.path.clone(), (folder.to_path_buf(), item.clone()));
+            for item in &file.jobs {
+                jobs.insert(item.path.clone(), (folder.to_path_buf(), item.clone()));
             }
         }
         let missing: Vec<String> = (1..=head.shard.of)
@@ -237,9 +238,9 @@ impl Shards {
             return Err(MergeError::Missing(missing.join(", ")));
         }
         head.recipe.check().map_err(|error| unsound(first, format!("its recipe: {error}")))?;
-        let paths = |file: &ShardFile| file.lots.iter().map(|item| item.path.clone()).collect();
+        let paths = |file: &ShardFile| file.jobs.iter().map(|item| item.path.clone()).collect();
         let shards = read.iter().map(|(folder, file)| ((*folder).clone(), file.shard, paths(file))).collect();
-        Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, lots })
+        Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, jobs })
     }
 
     /// Runs the checks that are cheap compared with minting: each shard has exactly the jobs that the plan deals to
@@ -253,23 +254,23 @@ impl Shards {
     pub fn check(&self, plan: &Plan<'_>) -> Result<(), MergeError> {
         for (folder, shard, listed) in &self.shards {
             let dealt: BTreeSet<String> =
-                shard.lots(plan).into_iter().map(|lot| path(&plan.name(lot))).collect();
+                shard.jobs(plan).into_iter().map(|job| path(&plan.name(job))).collect();
             if let Some(other) = listed.symmetric_difference(&dealt).next() {
                 let what = if dealt.contains(other) { "lacks" } else { "lists" };
                 let why = format!("{what} `{}`, unlike shard {shard} of this plan", other.escape_debug());
                 return Err(unsound(folder, why));
             }
         }
-        let names: Vec<String> = plan.lots().iter().map(|lot| plan.name(*lot)).collect();
+        let names: Vec<String> = plan.jobs().iter().map(|job| plan.name(*job)).collect();
         names.par_iter().try_for_each(|name| {
             let place = |what: String| {
-                let place = self.lots.get(&path(name)).map(|(folder, item)| folder.join(&item.path));
+                let place = self.jobs.get(&path(name)).map(|(folder, item)| folder.join(&item.path));
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
-            let lot = self.get(name)?.ok_or_else(|| place("not a lot of this plan: mint it again".into()))?;
-            let wrong = lot.games.iter().find_map(|game| problem(game, plan.seed));
+            let job = self.get(name)?.ok_or_else(|| place("not a job of this plan: mint it again".into()))?;
+            let wrong = job.games.iter().find_map(|game| problem(game, plan.seed));
             wrong.map_or(Ok(()), |what| {
-                Err(place(format!("{what}; minting makes no such lot: mint it again")))
+                Err(place(format!("{what}; minting makes no such job: mint it again")))
             })
         })
     }
@@ -346,32 +347,32 @@ fn shard_file(folder: &Path) -> Result<ShardFile, MergeError> {
     if number == 0 || number > of {
         return Err(unsound(folder, format!("there is no shard {number}/{of}")));
     }
-    for item in &file.lots {
+    for item in &file.jobs {
         if let Err(problem) = crate::check_path(&item.path) {
-            return Err(unsound(folder, format!("`{}` is no path for a lot: {problem}", item.path)));
+            return Err(unsound(folder, format!("`{}` is no path for a job: {problem}", item.path)));
         }
     }
     Ok(file)
 }
 
-impl Shelf for Shards {
-    fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError> {
-        let Some((folder, item)) = self.lots.get(&path(name)) else { return Ok(None) };
+impl JobStore for Shards {
+    fn get(&self, name: &str) -> Result<Option<JobResult>, SnapshotError> {
+        let Some((folder, item)) = self.jobs.get(&path(name)) else { return Ok(None) };
         let bytes = folder::read(folder, &item.path, Limits::SNAPSHOT.file_bytes)?;
         if Digest::of(&bytes) != item.digest {
             return Err(SnapshotError::Altered { path: folder.join(&item.path) });
         }
-        LotFolder::parse(self.plan, &bytes)
+        JobFolder::parse(self.plan, &bytes)
     }
 
-    fn put(&self, _: &str, _: &LotResult) -> Result<(), SnapshotError> {
+    fn put(&self, _: &str, _: &JobResult) -> Result<(), SnapshotError> {
         unreachable!("shards are read only")
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Memory, make_lots, tests};
+    use super::super::{Memory, make_jobs, tests};
     use super::*;
     use std::fs;
 
@@ -390,22 +391,22 @@ mod tests {
     fn check(alter: impl Fn(&mut FrozenGame), list: impl Fn(&mut ShardFile), expect: Option<&str>) {
         let (corpus, recipe) = (tests::corpus(&[("fetch", tests::FETCH)]), tests::recipe("a"));
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
-        let shelf = Memory::default();
-        make_lots(&plan, plan.lots(), &shelf, &()).unwrap();
+        let store = Memory::default();
+        make_jobs(&plan, plan.jobs(), &store, &()).unwrap();
         let home = tempfile::tempdir().unwrap();
         let folder = home.path().join("shard");
         let draft = Draft::create(&folder).unwrap();
-        "1/1".parse::<Shard>().unwrap().write(&plan, &shelf, &draft).unwrap();
+        "1/1".parse::<Shard>().unwrap().write(&plan, &store, &draft).unwrap();
         draft.commit().unwrap();
 
         let mut file = shard_file(&folder).unwrap();
-        let place = folder.join(&file.lots[0].path);
+        let place = folder.join(&file.jobs[0].path);
         let digest = plan.digest().unwrap();
-        let mut lot = LotFolder::parse(digest, &fs::read(&place).unwrap()).unwrap().unwrap();
-        alter(&mut lot.games[0]);
-        let text = LotFolder::text(digest, &lot).unwrap();
+        let mut job = JobFolder::parse(digest, &fs::read(&place).unwrap()).unwrap().unwrap();
+        alter(&mut job.games[0]);
+        let text = JobFolder::text(digest, &job).unwrap();
         fs::write(&place, &text).unwrap();
-        file.lots[0] = Item::of(file.lots[0].path.clone(), text.as_bytes());
+        file.jobs[0] = Item::of(file.jobs[0].path.clone(), text.as_bytes());
         list(&mut file);
         fs::write(folder.join(SHARD_FILE), to_canonical_json(&file).unwrap()).unwrap();
 
@@ -440,8 +441,8 @@ mod tests {
         );
         let action = |game: &mut FrozenGame| game.witnesses[0].hashes.swap(0, 1);
         check(action, same, Some("level 0: the state after tick 0"));
-        check(|_| (), |file| drop(file.lots.pop()), Some("lacks `lots/corpus-fetch.json`"));
-        let other = |file: &mut ShardFile| file.lots.push(Item::of("lots/search-0.json", b""));
+        check(|_| (), |file| drop(file.jobs.pop()), Some("lacks `lots/corpus-fetch.json`"));
+        let other = |file: &mut ShardFile| file.jobs.push(Item::of("lots/search-0.json", b""));
         check(|_| (), other, Some("lists `lots/search-0.json`"));
     }
 }

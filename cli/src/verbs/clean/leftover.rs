@@ -51,7 +51,7 @@ impl Leftover {
         } else if !found.is_dir() {
             None
         } else if let Some(draft) = Abandoned::at(path).map_err(failure)? {
-            Some(if draft.finished_lots() == 0 {
+            Some(if draft.finished_jobs() == 0 {
                 LeftoverKind::Unfinished(draft)
             } else {
                 LeftoverKind::Interrupted(draft)
@@ -66,7 +66,7 @@ impl Leftover {
         match &self.kind {
             LeftoverKind::Unfinished(_) => "unfinished work".to_owned(),
             LeftoverKind::Interrupted(draft) => {
-                format!("an interrupted mint with {} finished jobs", draft.finished_lots())
+                format!("an interrupted mint with {} finished jobs", draft.finished_jobs())
             }
             LeftoverKind::Shard(shard) => shard.clone(),
             LeftoverKind::File(_) => "an unfinished file".to_owned(),

@@ -18,7 +18,7 @@ use crate::verbs::verify::failure;
 pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::read as read_secret_file;
 use serde_json::json;
-use snapshots::mint::{LotFolder, MintError, Plan, Shard, Shelf, lay_out, make_lots};
+use snapshots::mint::{JobFolder, JobStore, MintError, Plan, Shard, lay_out, make_jobs};
 use snapshots::version::CURRENT;
 use snapshots::{
     Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Secret, check_integrity, follow,
@@ -120,18 +120,18 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return outline::without_secret(&recipe, console);
     }
     let plan = Plan::new(&recipe, secret.as_ref(), &corpus).map_err(mint_failure)?;
-    let lots = args.shard.map_or_else(|| plan.lots().to_vec(), |shard| shard.lots(&plan));
+    let jobs = args.shard.map_or_else(|| plan.jobs().to_vec(), |shard| shard.jobs(&plan));
     if args.resume && complete(&plan, &recipe, args.shard, &out)? {
         let place = out.display().to_string();
         console.document(&json!({ "out": place, "complete": true }))?;
         console.say(format_args!("already complete: {place}"));
         return Ok(true);
     }
-    if lots.is_empty() {
+    if jobs.is_empty() {
         console.remark("note: there are more shards than jobs: this shard is empty");
     }
     if args.dry_run {
-        return outline::outline(&plan, &lots, &recipe, &out, args.resume, console);
+        return outline::outline(&plan, &jobs, &recipe, &out, args.resume, console);
     }
     // Check the place to write to before minutes of minting.
     let mut draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }.map_err(failure)?;
@@ -140,7 +140,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         (true, None) => draft.keep_private().map_err(failure)?,
         (false, _) => {}
     }
-    let minted = mint(args, &plan, &lots, secret.as_ref(), draft, &out, console);
+    let minted = mint(args, &plan, &jobs, secret.as_ref(), draft, &out, console);
     minted.map_err(|failure| match failure {
         // The finished jobs are kept.
         Failure::Environment(_) => Failure::Environment(anyhow::anyhow!(
@@ -172,35 +172,35 @@ fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) 
 fn mint(
     args: &Args,
     plan: &Plan<'_>,
-    lots: &[snapshots::mint::Lot],
+    jobs: &[snapshots::mint::Job],
     secret: Option<&Secret>,
     draft: Draft,
     out: &Path,
     console: &Console,
 ) -> Answer {
     let digest = plan.digest().map_err(failure)?;
-    let mut shelf = LotFolder::open(&draft.lots(), digest).map_err(failure)?;
+    let mut store = JobFolder::open(&draft.jobs(), digest).map_err(failure)?;
     if plan.is_sealed() {
-        shelf.keep_secret().map_err(failure)?;
+        store.keep_secret().map_err(failure)?;
     }
-    if plan.seconds(lots) >= LONG {
+    if plan.seconds(jobs) >= LONG {
         console.remark(format_args!("if interrupted, continue with: {}", args.resumed(out)));
     }
     interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     let bars = ProgressBars::new(console);
     let started = Stopwatch::start();
-    in_pool(args.jobs, || make_lots(plan, lots, &shelf, &bars))?.map_err(mint_failure)?;
+    in_pool(args.jobs, || make_jobs(plan, jobs, &store, &bars))?.map_err(mint_failure)?;
     bars.finish();
     interrupt::defer();
     if let Some(shard) = args.shard {
-        shard.write(plan, &shelf, &draft).map_err(mint_failure)?;
+        shard.write(plan, &store, &draft).map_err(mint_failure)?;
         draft.commit().map_err(failure)?;
         let place = out.display().to_string();
-        console.document(&json!({ "out": place, "shard": shard.to_string(), "lots": lots.len() }))?;
+        console.document(&json!({ "out": place, "shard": shard.to_string(), "lots": jobs.len() }))?;
         console.say(format_args!(
             "shard {shard} of `{}`: {} jobs, in {place}",
             plan.name_of_release(),
-            lots.len()
+            jobs.len()
         ));
         if plan.is_sealed() {
             console.say("keep it private: it contains winning episodes");
@@ -209,7 +209,7 @@ fn mint(
         console.say(format_args!("once all shards are made: arcade merge SHARD... --out DIR{secret}"));
         return Ok(true);
     }
-    let finished = FinishedMint { plan, secret, shelf: &shelf, out };
+    let finished = FinishedMint { plan, secret, store: &store, out };
     finished.publish(draft, Some(started.seconds()), args.jobs, console)
 }
 
@@ -217,7 +217,7 @@ fn mint(
 pub(crate) struct FinishedMint<'a> {
     pub(crate) plan: &'a Plan<'a>,
     pub(crate) secret: Option<&'a Secret>,
-    pub(crate) shelf: &'a dyn Shelf,
+    pub(crate) store: &'a dyn JobStore,
     pub(crate) out: &'a Path,
 }
 
@@ -237,7 +237,7 @@ impl FinishedMint<'_> {
         };
         let minted = in_pool(jobs, || {
             let mut write = |path: &str, content: &[u8]| draft.write(&place(path), content);
-            lay_out(self.plan, self.secret, self.shelf, embedded::lockfile(), &mut write)
+            lay_out(self.plan, self.secret, self.store, embedded::lockfile(), &mut write)
         })?
         .map_err(mint_failure)?;
         let manifest = minted.manifest.to_bytes().map_err(failure)?;

@@ -6,25 +6,25 @@ use crate::counted::count;
 use crate::failure::Answer;
 use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::mint::{Lot, LotFolder, MintError, Plan};
+use snapshots::mint::{Job, JobFolder, MintError, Plan};
 use snapshots::{Draft, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
 /// Prints the contents of a mint, or, with `resume`, the rest of it.
 pub(super) fn outline(
     plan: &Plan<'_>,
-    lots: &[Lot],
+    jobs: &[Job],
     recipe: &Recipe,
     out: &Path,
     resume: bool,
     console: &Console,
 ) -> Answer {
     let (old, new) = (&recipe.corpus, &recipe.generated);
-    let names: Vec<String> = lots.iter().map(|&lot| plan.name(lot)).collect();
+    let names: Vec<String> = jobs.iter().map(|&job| plan.name(job)).collect();
     let made = made(plan, &names, out)?;
-    let left: Vec<Lot> = match resume {
-        true => lots.iter().zip(&made).filter(|(_, made)| !**made).map(|(&lot, _)| lot).collect(),
-        false => lots.to_vec(),
+    let left: Vec<Job> = match resume {
+        true => jobs.iter().zip(&made).filter(|(_, made)| !**made).map(|(&job, _)| job).collect(),
+        false => jobs.to_vec(),
     };
     let seconds = plan.seconds(&left);
     let range = estimate_range(seconds);
@@ -63,7 +63,7 @@ pub(super) fn outline(
     if !quotas.is_empty() {
         console.say(format_args!("with games of each kind: {}", quotas.join(", ")));
     }
-    console.say(format_args!("selected from the candidates of {}", count(lots.len(), "job")));
+    console.say(format_args!("selected from the candidates of {}", count(jobs.len(), "job")));
     if resume {
         console.say(format_args!("of which {there} are finished and {} are left", left.len()));
     }
@@ -89,9 +89,9 @@ pub(super) fn outline(
 
 /// Returns, for each job, `true` if an interrupted mint has finished it.
 fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crate::failure::Failure> {
-    let Some(folder) = Draft::lots_of(out) else { return Ok(vec![false; names.len()]) };
+    let Some(folder) = Draft::jobs_of(out) else { return Ok(vec![false; names.len()]) };
     let digest = plan.digest().map_err(failure)?;
-    match LotFolder::there(&folder, digest, names) {
+    match JobFolder::there(&folder, digest, names) {
         // A mint into this place would fail; a plan is not a mint.
         Err(SnapshotError::OtherPlan { .. }) => Ok(vec![false; names.len()]),
         there => there.map_err(|error| mint_failure(MintError::Snapshot(error))),

@@ -16,7 +16,7 @@ pub(crate) struct ProgressBars<'a> {
 /// The progress last reported where there is no bar.
 #[derive(Default)]
 struct LastReport {
-    lots: u64,
+    jobs: u64,
     found: u64,
     made: u64,
     tenths: u64,
@@ -34,16 +34,16 @@ impl<'a> ProgressBars<'a> {
 }
 
 impl Progress for ProgressBars<'_> {
-    fn begin(&self, lots: usize, made: usize) {
-        self.bar.set_length(lots as u64);
+    fn begin(&self, jobs: usize, made: usize) {
+        self.bar.set_length(jobs as u64);
         self.bar.set_position(made as u64);
         // Jobs finished earlier say nothing about the time of the rest.
         self.bar.reset_eta();
         if let Ok(mut last_report) = self.last_report.lock() {
-            *last_report = LastReport { lots: lots as u64, found: made as u64, ..LastReport::default() };
+            *last_report = LastReport { jobs: jobs as u64, found: made as u64, ..LastReport::default() };
         }
         if made > 0 {
-            self.console.remark(format_args!("{made} of {lots} jobs were finished before"));
+            self.console.remark(format_args!("{made} of {jobs} jobs were finished before"));
         }
     }
 
@@ -54,7 +54,7 @@ impl Progress for ProgressBars<'_> {
         self.bar.inc(1);
         let Ok(mut last_report) = self.last_report.lock() else { return };
         last_report.made += 1;
-        let open = last_report.lots - last_report.found;
+        let open = last_report.jobs - last_report.found;
         let tenths = 10 * last_report.made / open.max(1);
         // A few jobs are soon done.
         if self.bar.is_hidden() && open >= 20 && tenths > last_report.tenths {
@@ -62,7 +62,7 @@ impl Progress for ProgressBars<'_> {
             let left = self.started.seconds() / last_report.made as f64 * (open - last_report.made) as f64;
             let done = last_report.found + last_report.made;
             self.console
-                .remark(format_args!("{done} of {} jobs; about {:.0} s left", last_report.lots, left));
+                .remark(format_args!("{done} of {} jobs; about {:.0} s left", last_report.jobs, left));
         }
     }
 }

@@ -12,8 +12,8 @@ const READERS: &[(&str, &str)] = &[
     ("evaluation/src/client/clock.rs", "waits between requests, and their latency"),
     ("evaluation/src/run/clock.rs", "times in logs, and the time limits of programs that play"),
     ("xtask/src/bench.rs", "benchmarks"),
-    ("xtask/src/course.rs", "benchmarks"),
-    ("xtask/src/survey/mod.rs", "the time that a generator takes"),
+    ("xtask/src/episode_run.rs", "benchmarks"),
+    ("xtask/src/survey/levels.rs", "the time that a generator takes"),
     ("xtask/src/sweep.rs", "fresh seeds of tests"),
 ];
 

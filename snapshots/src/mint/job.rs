@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// The games of a job; none if nothing passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct LotResult {
+pub struct JobResult {
     /// The games that passed.
     pub games: Vec<FrozenGame>,
     /// The candidates that were tried, and the reasons why the others failed.
@@ -36,9 +36,9 @@ pub struct FrozenGame {
 }
 
 impl FrozenGame {
-    /// The game of a job. `lot` holds the steps from the release's root to the job's seed.
-    pub(super) fn of(made: MadeGame, root: Seed, lot: &[Step]) -> FrozenGame {
-        let start: Vec<Step> = lot.iter().chain(&made.path).cloned().collect();
+    /// The game of a job. `job` holds the steps from the release's root to the job's seed.
+    pub(super) fn of(made: MadeGame, root: Seed, job: &[Step]) -> FrozenGame {
+        let start: Vec<Step> = job.iter().chain(&made.path).cloned().collect();
         let won = made.levels.iter().zip(&made.witnesses);
         let paths = won.map(|(found, witness)| path(root, &start, found, made.levels.len(), witness));
         let paths = paths.map(Option::unwrap_or_default).collect();

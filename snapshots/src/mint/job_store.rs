@@ -1,7 +1,7 @@
 //! Job stores: they keep the results of finished jobs until all are done, in memory or in a folder that survives the
 //! process.
 
-use super::lot::LotResult;
+use super::job::JobResult;
 use crate::draft::sync::{create_folder, sync_folder};
 use crate::folder;
 use crate::{Digest, SnapshotError};
@@ -14,40 +14,40 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// A job store: keeps the results of finished jobs by name, and can be used from several threads.
-pub trait Shelf: Sync {
+pub trait JobStore: Sync {
     /// Returns a result stored before; `None` if there is none or it is damaged.
     ///
     /// # Errors
     /// The file system refuses.
-    fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError>;
+    fn get(&self, name: &str) -> Result<Option<JobResult>, SnapshotError>;
 
     /// Stores a result. After it returns, the result persists even after a crash.
     ///
     /// # Errors
     /// The file system refuses.
-    fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError>;
+    fn put(&self, name: &str, job: &JobResult) -> Result<(), SnapshotError>;
 }
 
 /// A job store in memory.
 #[derive(Debug, Default)]
-pub struct Memory(Mutex<BTreeMap<String, LotResult>>);
+pub struct Memory(Mutex<BTreeMap<String, JobResult>>);
 
-impl Shelf for Memory {
-    fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError> {
-        let lots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        Ok(lots.get(name).cloned())
+impl JobStore for Memory {
+    fn get(&self, name: &str) -> Result<Option<JobResult>, SnapshotError> {
+        let jobs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(jobs.get(name).cloned())
     }
 
-    fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError> {
-        let mut lots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        lots.insert(name.to_owned(), lot.clone());
+    fn put(&self, name: &str, job: &JobResult) -> Result<(), SnapshotError> {
+        let mut jobs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        jobs.insert(name.to_owned(), job.clone());
         Ok(())
     }
 }
 
 /// A job store in a folder, with one file per result, each complete or absent.
 #[derive(Debug)]
-pub struct LotFolder {
+pub struct JobFolder {
     folder: PathBuf,
     /// The digest of the plan. Results of other plans are ignored.
     plan: Digest,
@@ -61,24 +61,24 @@ pub struct LotFolder {
 const WHOSE: &str = "plan.txt";
 
 /// The maximum size of a result's file, in bytes: 64 MiB.
-const LOT_LIMIT: u64 = 64 << 20;
+const JOB_LIMIT: u64 = 64 << 20;
 
 /// The content of a result's file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct LotFile {
+struct JobFile {
     plan: Digest,
     /// The digest of the result's canonical JSON: a file that was truncated or changed is ignored.
     digest: Digest,
-    result: LotResult,
+    result: JobResult,
 }
 
-impl LotFolder {
+impl JobFolder {
     /// Opens the results of this plan in a folder, which is created if missing.
     ///
     /// # Errors
     /// The folder has results of another plan, or the file system refuses.
-    pub fn open(folder: &Path, plan: Digest) -> Result<LotFolder, SnapshotError> {
+    pub fn open(folder: &Path, plan: Digest) -> Result<JobFolder, SnapshotError> {
         create_folder(folder)?;
         let whose = folder.join(WHOSE);
         let is_marked = match fs::read_to_string(&whose) {
@@ -88,7 +88,7 @@ impl LotFolder {
             Err(error) => return Err(SnapshotError::io("read", &whose)(error)),
         };
         let is_marked = Mutex::new(is_marked);
-        Ok(LotFolder { folder: folder.to_path_buf(), plan, is_marked, is_secret: false })
+        Ok(JobFolder { folder: folder.to_path_buf(), plan, is_marked, is_secret: false })
     }
 
     /// Restricts the results to their owner: for sealed releases.
@@ -113,8 +113,8 @@ impl LotFolder {
         if !folder.exists() {
             return Ok(vec![false; names.len()]);
         }
-        let shelf = LotFolder::open(folder, plan)?;
-        names.iter().map(|name| Ok(shelf.get(name)?.is_some())).collect()
+        let store = JobFolder::open(folder, plan)?;
+        names.iter().map(|name| Ok(store.get(name)?.is_some())).collect()
     }
 
     /// Writes the name of the plan, before the first result.
@@ -147,14 +147,14 @@ impl LotFolder {
     }
 
     /// The text of a result's file.
-    pub(super) fn text(plan: Digest, lot: &LotResult) -> Result<String, SnapshotError> {
-        let digest = Digest::of(to_canonical_json(lot)?.as_bytes());
-        Ok(to_canonical_json(&LotFile { plan, digest, result: lot.clone() })?)
+    pub(super) fn text(plan: Digest, job: &JobResult) -> Result<String, SnapshotError> {
+        let digest = Digest::of(to_canonical_json(job)?.as_bytes());
+        Ok(to_canonical_json(&JobFile { plan, digest, result: job.clone() })?)
     }
 
     /// Reads the text of a result's file; `None` if it is truncated, changed, or of another plan.
-    pub(super) fn parse(plan: Digest, bytes: &[u8]) -> Result<Option<LotResult>, SnapshotError> {
-        let Ok(file) = serde_json::from_slice::<LotFile>(bytes) else { return Ok(None) };
+    pub(super) fn parse(plan: Digest, bytes: &[u8]) -> Result<Option<JobResult>, SnapshotError> {
+        let Ok(file) = serde_json::from_slice::<JobFile>(bytes) else { return Ok(None) };
         let sound =
             file.plan == plan && Digest::of(to_canonical_json(&file.result)?.as_bytes()) == file.digest;
         Ok(sound.then_some(file.result))
@@ -165,20 +165,20 @@ impl LotFolder {
     }
 }
 
-impl Shelf for LotFolder {
-    fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError> {
-        let bytes = match folder::read(&self.folder, &LotFolder::file(name), LOT_LIMIT) {
+impl JobStore for JobFolder {
+    fn get(&self, name: &str) -> Result<Option<JobResult>, SnapshotError> {
+        let bytes = match folder::read(&self.folder, &JobFolder::file(name), JOB_LIMIT) {
             Ok(bytes) => bytes,
             Err(SnapshotError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(error),
         };
-        LotFolder::parse(self.plan, &bytes)
+        JobFolder::parse(self.plan, &bytes)
     }
 
-    fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError> {
+    fn put(&self, name: &str, job: &JobResult) -> Result<(), SnapshotError> {
         self.mark()?;
-        let text = LotFolder::text(self.plan, lot)?;
-        self.write(&self.folder.join(LotFolder::file(name)), &text)
+        let text = JobFolder::text(self.plan, job)?;
+        self.write(&self.folder.join(JobFolder::file(name)), &text)
     }
 }
 
@@ -191,36 +191,36 @@ mod tests {
     #[test]
     fn a_lot_that_is_put_away_stays() {
         let home = tempfile::tempdir().unwrap();
-        let lots = home.path().join("lots");
+        let jobs = home.path().join("lots");
         crate::draft::sync::record::synced();
-        let shelf = LotFolder::open(&lots, Digest::of(b"plan")).unwrap();
-        shelf.put("a", &LotResult { games: Vec::new(), tally: Tally::default() }).unwrap();
+        let store = JobFolder::open(&jobs, Digest::of(b"plan")).unwrap();
+        store.put("a", &JobResult { games: Vec::new(), tally: Tally::default() }).unwrap();
         let synced = crate::draft::sync::record::synced();
-        assert_eq!(synced, [home.path().to_path_buf(), lots.clone(), lots]);
+        assert_eq!(synced, [home.path().to_path_buf(), jobs.clone(), jobs]);
     }
 
     #[test]
     fn a_lot_that_is_cut_changed_or_of_another_plan_does_not_count() {
         let home = tempfile::tempdir().unwrap();
         let plan = Digest::of(b"plan");
-        let shelf = LotFolder::open(home.path(), plan).unwrap();
+        let store = JobFolder::open(home.path(), plan).unwrap();
         let tally = Tally { games_tried: 3, ..Tally::default() };
-        let lot = LotResult { games: Vec::new(), tally };
-        assert_eq!(shelf.get("a").unwrap(), None);
-        shelf.put("a", &lot).unwrap();
-        assert_eq!(shelf.get("a").unwrap(), Some(lot.clone()));
-        let other = LotFolder::open(home.path(), Digest::of(b"other"));
+        let job = JobResult { games: Vec::new(), tally };
+        assert_eq!(store.get("a").unwrap(), None);
+        store.put("a", &job).unwrap();
+        assert_eq!(store.get("a").unwrap(), Some(job.clone()));
+        let other = JobFolder::open(home.path(), Digest::of(b"other"));
         assert!(matches!(other, Err(SnapshotError::OtherPlan { .. })), "{other:?}");
         let (folder, is_marked) = (home.path().to_path_buf(), Mutex::new(true));
-        let other = LotFolder { folder, plan: Digest::of(b"other"), is_marked, is_secret: false };
+        let other = JobFolder { folder, plan: Digest::of(b"other"), is_marked, is_secret: false };
         assert_eq!(other.get("a").unwrap(), None);
         let path = home.path().join("a.json");
         let text = fs::read_to_string(&path).unwrap();
         for damaged in [&text[..text.len() / 2], "", &text.replace(": 3", ": 4")] {
             fs::write(&path, damaged).unwrap();
-            assert_eq!(shelf.get("a").unwrap(), None, "{damaged}");
+            assert_eq!(store.get("a").unwrap(), None, "{damaged}");
         }
-        shelf.put("a", &lot).unwrap();
-        assert_eq!(shelf.get("a").unwrap(), Some(lot));
+        store.put("a", &job).unwrap();
+        assert_eq!(store.get("a").unwrap(), Some(job));
     }
 }
