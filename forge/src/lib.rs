@@ -3,6 +3,7 @@
 //! `generators` proposes, `validators` judges; here a search asks the one and is told by the other, until an order is filled:
 //! [`levels::make_levels`] for one game, [`games::make_games`] for whole games. A release is minted of the same parts. The
 //! reports say what a set of either is like, and a [`survey`] judges levels and games from anywhere.
+#![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 pub mod card;
 pub mod games;

@@ -30,7 +30,7 @@ impl Axis {
         Axis { name: name.to_owned(), range, bins: bins.max(1) }
     }
 
-    /// How many bins there are, at least one.
+    /// The number of bins, at least one.
     fn len(&self) -> usize {
         self.bins.max(1)
     }

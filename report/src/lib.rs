@@ -2,6 +2,7 @@
 //!
 //! A report on levels, on games or on evaluations is a pure function that ends in these types; [`canonical`] writes it as JSON,
 //! [`Table`] as Markdown, CSV and LaTeX. Pages are put together by the binary.
+#![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 pub mod canonical;
 mod figures;

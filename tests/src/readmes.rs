@@ -24,6 +24,12 @@ struct Statistics;
 #[doc = include_str!("../../render/README.md")]
 struct Render;
 
+#[doc = include_str!("../../report/README.md")]
+struct Report;
+
+#[doc = include_str!("../../forge/README.md")]
+struct Forge;
+
 #[doc = include_str!("../../snapshots/README.md")]
 struct Snapshots;
 

@@ -182,7 +182,7 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     let apart = apart / cells.len() as f64;
     println!("mean absolute difference of win rates: {:.1} points", 100.0 * apart);
     if apart > MEAN_DIFFERENCE {
-        faults.push(format!("win rates differ by {:.1} points in the mean", 100.0 * apart));
+        faults.push(format!("win rates differ by {:.1} points on average", 100.0 * apart));
     }
     for fault in faults {
         println!("{fault}");

@@ -12,9 +12,10 @@ use std::{env, fs};
 /// Counts the instructions per tick for the games of a folder, and compares them with a file.
 ///
 /// Needs valgrind; without it, or if the expected counts are for another compiler, reports that and passes: another
-/// compiler emits other instructions. After an update of the toolchain, rewrite the file with --bless.
+/// compiler emits other instructions. The recorded counts are those of the development profile, as CI tests it: build with
+/// CARGO_INCREMENTAL=0, and after an update of the toolchain rewrite the file with --bless.
 ///
-/// Example: cargo xtask instructions
+/// Example: CARGO_INCREMENTAL=0 cargo run --locked --package xtask -- instructions
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Folder of game folders

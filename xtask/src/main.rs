@@ -4,12 +4,10 @@
 
 mod bench;
 mod episode_run;
-#[cfg(feature = "content")]
 mod fidelity;
 mod instructions;
 mod levels;
 mod solve;
-#[cfg(feature = "content")]
 mod survey;
 mod sweep;
 
@@ -26,13 +24,10 @@ struct Args {
 #[derive(Subcommand)]
 enum Task {
     Bench(bench::Args),
-    #[cfg(feature = "content")]
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
-    #[cfg(feature = "content")]
     SideBySide(survey::side_by_side::Args),
     Solve(solve::Args),
-    #[cfg(feature = "content")]
     Survey(survey::levels::Args),
     Sweep(sweep::Args),
 }
@@ -40,13 +35,10 @@ enum Task {
 fn main() -> anyhow::Result<()> {
     match Args::parse().task {
         Task::Bench(args) => bench::run(&args),
-        #[cfg(feature = "content")]
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),
-        #[cfg(feature = "content")]
         Task::SideBySide(args) => survey::side_by_side::run(&args),
         Task::Solve(args) => solve::run(&args),
-        #[cfg(feature = "content")]
         Task::Survey(args) => survey::levels::run(&args),
         Task::Sweep(args) => sweep::run(&args),
     }

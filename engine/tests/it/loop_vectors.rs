@@ -362,7 +362,7 @@ fn rows_and_characters() {
     assert_eq!(load("Axz\nb\tA\n"), (3, 2, 3, 2 + 1));
     assert_eq!(load("A\r\nw\ra"), (1, 3, 3, 0));
     let problems = game.level("Ay\n").unwrap_err();
-    assert_eq!(problems.0[0].code, "unknown-sprite", "the reference dies of it");
+    assert_eq!(problems.0[0].code, "unknown-sprite", "the reference crashes on it");
     let mut board = Board { state: game.start_with(&game.level("A").unwrap(), Chance::from_java(1)), game };
     assert_eq!(board.game.step(&mut board.state, Action::Nil), Outcome::Ongoing);
 }

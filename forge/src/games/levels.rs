@@ -58,7 +58,7 @@ impl Levels<'_> {
         Some(self.told(game, levels, together, tally))
     }
 
-    /// Levels that were let in, with what else is told of them.
+    /// Accepted levels with their further data.
     pub(crate) fn told(
         &self,
         game: &Game,
@@ -160,7 +160,7 @@ impl Levels<'_> {
     }
 
     /// A level that was found for another game, in which all that was played ends as in this one: judged again, but for the
-    /// ladder, whose plays are carried over. The dice are the same, so that what is played again ends as it did.
+    /// ladder, whose plays are carried over. The dice are the same, so that a replay ends as before.
     pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let ask = self.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
@@ -237,7 +237,7 @@ const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
 /// The criteria whose plays are dear, and the one that counts them.
 const PLAYED: [&str; 2] = ["skill", "skill-overall"];
 
-/// An episode played again, as one of another game.
+/// An episode replayed as one of another game.
 fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
     let (mut episode, mut state) = Episode::begin(game, level, played.seed);
     for &action in &played.actions {

@@ -1,4 +1,4 @@
-//! A quick look at a game: what a search is told of it.
+//! A quick look at a game, and the evaluation for a search.
 
 use super::order::GameOrder;
 use crate::games::Candidate;

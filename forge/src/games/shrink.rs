@@ -16,7 +16,7 @@ const USES: usize = 8;
 /// levels have played ends as it did: after the same keys, with the same outcome and score. None if nothing can go.
 ///
 /// Cost: some tens of builds for each thing. What is missed is missed in the first episodes that show it; for each thing that
-/// can go all episodes are played again.
+/// can go all episodes are replayed.
 pub(super) fn shrunk(
     genome: &GameGenome,
     first: &Candidate,

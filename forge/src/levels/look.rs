@@ -1,4 +1,4 @@
-//! A quick look at a candidate: what a search is told of it.
+//! A quick look at a candidate, and the evaluation for a search.
 
 use super::aim::{Aim, Told};
 use super::order::LevelOrder;
@@ -15,7 +15,7 @@ const RANDOM_PLAYS: u32 = 24;
 const MORE_RANDOM_PLAYS: u32 = 48;
 /// The greatest share of them that may be won: one of the first. The panel, with other dice, is stricter.
 const RANDOM_WINS: f64 = 0.05;
-/// Games of chance in which the first ticks are lived through.
+/// Stochastic games in which the first ticks are survived.
 const CHANCES: u32 = 4;
 /// The share of a look's calls that each of those may take.
 const EARLY: u64 = 50;

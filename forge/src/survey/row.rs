@@ -67,7 +67,7 @@ impl GameRow {
         "order",
     ];
 
-    /// The row of a game whose judges were asked for `winnable` and `skill`. Cost: the recorded episodes are played again three
+    /// The row of a game whose judges were asked for `winnable` and `skill`. Cost: the recorded episodes are replayed three
     /// times, and that of [`PlayMeasures::of`].
     pub(crate) fn of(surveyed: &SurveyedGame, criteria: &Criteria, digest: Digest, seed: Seed) -> GameRow {
         let SurveyedGame { name, game, levels, report: GameReport { levels: reports, .. }, .. } = surveyed;

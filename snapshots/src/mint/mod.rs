@@ -76,7 +76,7 @@ pub enum MintError {
     /// Too few candidates passed.
     #[error(
         "`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); raise `{part}.candidates` and go on with \
-         --resume, which keeps what is made; or raise the tries or relax the criteria, and begin anew"
+         --resume, which keeps finished jobs; or raise the tries or relax the criteria, and start over"
     )]
     TooFew {
         /// The part of the recipe.

@@ -23,3 +23,4 @@ mod search;
 mod shortcuts;
 mod tidy;
 mod verdicts;
+mod words;

@@ -103,7 +103,7 @@ fn paths_that_lead_nowhere_are_found() {
     assert!(found[0].0 == 2 && found[0].1.contains("`engine/src/leap.rs`"), "{found:?}");
 }
 
-/// What citations can lead to.
+/// The targets of citations.
 struct Tree {
     /// Pages of the specification by their two digits.
     pages: BTreeMap<String, Page>,
@@ -138,12 +138,12 @@ impl Tree {
         self.pages.contains_key(digits).then_some(digits)
     }
 
-    /// Whether a path of the repository is a file or a folder.
+    /// Tests whether a path of the repository is a file or a folder.
     fn has(&self, path: &str) -> bool {
         self.paths.contains(path.trim_end_matches('/'))
     }
 
-    /// Whether a path leads to a file or folder from the root, from the file that cites it, or from any crate.
+    /// Tests whether a path leads to a file or folder from the root, from the file that cites it, or from any crate.
     fn finds(&self, path: &str, cited_in: &Path) -> bool {
         let from = |folder: &str| self.has(&format!("{folder}/{path}"));
         let own = cited_in.parent().map(|folder| folder.to_string_lossy().into_owned());
@@ -184,7 +184,7 @@ impl Page {
         Page { sections }
     }
 
-    /// Whether a section has a row, a vector or a numbered step.
+    /// Tests whether a section has a row, a vector or a numbered step.
     fn has(&self, section: &str, mark: &str) -> bool {
         let Some(text) = self.sections.get(section) else { return false };
         match mark.strip_prefix("step ") {
@@ -194,7 +194,7 @@ impl Page {
     }
 }
 
-/// How a file marks its comments.
+/// The marks of comments in a file.
 #[derive(Clone, Copy, PartialEq)]
 enum CitationKind {
     /// `//`.
@@ -238,7 +238,7 @@ impl CitationKind {
 /// Comment lines without code between them, as one text.
 struct Block {
     text: String,
-    /// Where each line begins in the text, and its number in the file.
+    /// The offset of each line in the text, and its number in the file.
     lines: Vec<(usize, usize)>,
 }
 
@@ -267,7 +267,7 @@ impl Block {
         self.lines.iter().rev().find(|(start, _)| *start <= at).map_or(1, |(_, line)| *line)
     }
 
-    /// What is wrong with the citations, each with its line; `own` is the page of the specification that the block is part of.
+    /// The problems of the citations, each with its line; `own` is the page of the specification that the block is part of.
     fn problems(&self, tree: &Tree, own: Option<&str>) -> Vec<(usize, String)> {
         let mut problems = Vec::new();
         for (at, _) in self.text.match_indices("spec/") {

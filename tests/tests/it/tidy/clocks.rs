@@ -1,4 +1,4 @@
-//! Where clocks are read: in few files, none of which makes a game, a level, a verdict or a move.
+//! The readers of clocks: few files, none of which makes a game, a level, a verdict or a move.
 
 use tests::rust_files;
 

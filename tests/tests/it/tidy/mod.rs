@@ -415,7 +415,7 @@ struct Dependency {
     package: String,
     /// `true` for a dependency of tests, examples and benches only.
     development: bool,
-    /// Whether its version is that of `[workspace.dependencies]`.
+    /// `true` if its version is that of `[workspace.dependencies]`.
     inherited: bool,
     line: usize,
 }
@@ -468,7 +468,7 @@ fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
     dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
 }
 
-/// Whether a dependency says `workspace = true`.
+/// Tests whether a dependency says `workspace = true`.
 fn inherits(dependency: &DeValue<'_>) -> bool {
     let workspace = dependency.as_table().and_then(|table| get(table, "workspace"));
     workspace.and_then(DeValue::as_bool).unwrap_or(false)

@@ -318,5 +318,5 @@ fn too_much_gets_a_coarse_answer() {
     let reach = analysis.reach(&level);
     assert!(reach.is_coarse() && reach.impossible_goals().is_empty());
     assert_eq!(picture(&analysis, &reach, "t7"), "####\n####");
-    assert_eq!(picture(&analysis, &reach, "wall"), "....\n....", "what cannot come about is nowhere");
+    assert_eq!(picture(&analysis, &reach, "wall"), "....\n....", "impossible types are nowhere");
 }
