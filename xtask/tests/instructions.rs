@@ -20,7 +20,8 @@ fn no_tick_costs_more_instructions_than_recorded() {
         .current_dir(root)
         .output()
         .expect("the binary starts");
-    let text = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
+    let text =
+        [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
     assert!(output.status.success(), "{text}");
     eprintln!("{text}");
 }

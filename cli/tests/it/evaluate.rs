@@ -189,7 +189,7 @@ fn failing_servers_leave_episodes_open() {
             Server::start(move |number, asked| if number < 5 { answer(number, asked) } else { act() });
         let once = ["--tries", "1", "--concurrency", "1"];
         let output = run(home.path(), &asking(&failing.base_url(), &once), 3);
-        assert!(text(&output.stderr).contains("--resume goes on"), "{kind}: {}", text(&output.stderr));
+        assert!(text(&output.stderr).contains("with --resume"), "{kind}: {}", text(&output.stderr));
         let open = logs(&home.path().join("results"));
         let halts = open
             .values()
@@ -294,7 +294,7 @@ fn malformed_requests_are_reported() {
         (&["hailglass", "--player", "random", "--timeout", "0"], "0 is not in 1.."),
         (&["hailglass", "--player", "random", "--max-cost", "5"], "--max-cost applies to language models"),
         (&["hailglass", "--player", "random", "--temperature", "1"], "remove it for the player `random`"),
-        (&["hailglass", "--player", "random", "--with", "image"], "`random` reads none"),
+        (&["hailglass", "--player", "random", "--with", "image"], "remove them for the player `random`"),
         (
             &["hailglass", "--player", "random", "--resume", "--out", "nothere"],
             "nothing to resume in nothere",
@@ -475,7 +475,7 @@ fn a_full_disk_stops_and_loses_nothing() {
     let full = limited("20");
     let told = text(&full.stderr);
     assert_eq!(full.status.code(), Some(3), "{told}");
-    assert!(told.contains("cannot write") && told.contains("--resume goes on"), "{told}");
+    assert!(told.contains("cannot write") && told.contains("continue with --resume"), "{told}");
     let log = home.path().join("results/episodes/hailglass-lvl0-run0.jsonl");
     assert!(!matches!(read(&log).unwrap().last(), Some(Event::End { .. })));
     run(home.path(), &asking(&url, &[&more[..], &["--resume"]].concat()), 0);

@@ -268,7 +268,7 @@ fn nothing_is_written_into_a_release() {
     let said = text(
         &run(folder.path(), &["export", "tiny", "--format", "games", "--solutions", "--out", "x"], 2).stderr,
     );
-    assert!(said.contains("hold no solutions"), "{said}");
+    assert!(said.contains("contain no solutions"), "{said}");
 }
 
 /// No version minted it, so none can be installed to mint it again.

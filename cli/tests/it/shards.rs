@@ -109,7 +109,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
         assert!(minutes(&left) < minutes(&whole), "{left} {whole}");
         assert_eq!(left["lots_made"], lots());
         let said = text(&run(folder, &[mint, &["--out", "out", "--dry-run", "--resume"]].concat(), 0).stdout);
-        assert!(said.contains(&format!("of which {} are made", lots())), "{said}");
+        assert!(said.contains(&format!("of which {} are finished", lots())), "{said}");
     }
     for milliseconds in [1, 30, 300] {
         let mut child = start(&["--resume"]);

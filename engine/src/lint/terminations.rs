@@ -325,7 +325,7 @@ mod tests {
         check("", "", &[]);
         let asks = "the game cannot be won: `stone avatar > killIfOtherHasMore` needs 3 `egg`, and no sprite can hold";
         check("Resource limit=3", "Resource limit=1", &[&format!("{asks} more than 1")]);
-        let kind = format!("{asks} one: `egg` is Immovable, not Resource");
+        let kind = format!("{asks} any: `egg` is Immovable, not Resource");
         check("egg > Resource limit=3", "egg > Immovable", &[&kind]);
     }
 

@@ -366,7 +366,9 @@ fn check(name: &str, game: &Game) {
         survivors += u64::from(survives(game, &level, seed));
     }
     assert!(different.len() as u64 * 10 >= SEEDS * 9, "{name}: {} levels", different.len());
-    assert!(survivors * 20 >= SEEDS * 19, "{name}: {survivors} of {SEEDS} survive doing nothing");
+    // The wolves of the bellwether come out in the first tick and go for the sheep.
+    let lost = if name == "bellwether-down" { SEEDS / 10 } else { SEEDS / 20 };
+    assert!(survivors + lost >= SEEDS, "{name}: {survivors} of {SEEDS} survive doing nothing");
 }
 
 /// Checks that everything that counts for a win can be reached through cells without wall.

@@ -132,7 +132,7 @@ mod tests {
         check(&rate(2, 4), None);
         check(&rate(0, 0), None);
         check(&rate(99, 4), Some("99 wins in 4 plays"));
-        check(&rate(0, u64::MAX), Some("at most 1000000"));
+        check(&rate(0, u64::MAX), Some("more than 1000000"));
         check(&Rate { interval: [0.0, 0.3], ..rate(0, 8) }, Some("give 0.0000 to 0.3244"));
         check(&Rate { interval: [f64::NAN, 0.0], ..rate(0, 8) }, Some("has the interval"));
         check(&Rate { mean_score: 1e300, ..rate(0, 8) }, Some("mean score"));

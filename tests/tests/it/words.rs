@@ -4,8 +4,10 @@
 use tests::{read, rust_files, workspace_files};
 
 /// Words that a doc comment does not open with: they begin a relative clause or a subordinate one.
-const OPENERS: &[&str] =
-    &["What", "Whatever", "Whether", "Who", "Whoever", "Whose", "Whom", "How", "Where", "Wherever", "Which", "Why", "So"];
+const OPENERS: &[&str] = &[
+    "What", "Whatever", "Whether", "Who", "Whoever", "Whose", "Whom", "How", "Where", "Wherever", "Which",
+    "Why", "So",
+];
 
 /// At most one doc comment in this many may open with a word of [`OPENERS`].
 const TOLERATED: usize = 100;

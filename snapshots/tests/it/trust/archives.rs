@@ -293,7 +293,7 @@ fn ends() {
         "mole.tar.zst: not as packed",
         "do not match its seal",
     );
-    check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "does not begin as");
+    check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "does not start like");
     check_bytes(
         &file,
         &compress(&[&tar[..], &[0; 512]].concat()),

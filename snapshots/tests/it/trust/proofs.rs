@@ -140,7 +140,7 @@ fn the_header_is_not_a_file_of_a_release() {
             files: vec![FileProof { path: name.into(), digest: header.digest, proof: path.clone() }],
         };
         let error = ItemProof::parse(&crafted.to_bytes().expect("small")).expect_err("no file").to_string();
-        assert!(error.contains(&format!("`{name}` is no file of a release")), "{error}");
+        assert!(error.contains(&format!("`{name}` is the reserved name of the manifest")), "{error}");
     }
 }
 

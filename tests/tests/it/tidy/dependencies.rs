@@ -24,7 +24,10 @@ fn versions_are_stated_once() {
     let mut problems = Vec::new();
     let members = manifests();
     for member in &members {
-        for dependency in member.dependencies.iter().filter(|dependency| !dependency.inherited) {
+        // Our own crates may be named by their paths: `tests` uses them under the names of their packages.
+        let is_ours = |package: &str| package.starts_with("infinite-arcade");
+        let stated = member.dependencies.iter().filter(|dependency| !dependency.inherited);
+        for dependency in stated.filter(|dependency| !is_ours(&dependency.package)) {
             problems.push(format!(
                 "{}:{}: `{}` has a version of its own; state it in [workspace.dependencies] and write \
                  `{}.workspace = true`",
