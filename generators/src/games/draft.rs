@@ -12,6 +12,9 @@ pub(crate) use super::tree::{
 };
 use engine::{Sampler, Seed, SpriteClass};
 
+/// Names and values of parameters.
+type Params<'a> = &'a [(&'static str, Value)];
+
 /// A game under construction.
 pub(crate) struct Draft {
     pub(crate) sprites: Vec<Sprite>,
@@ -52,8 +55,8 @@ impl Draft {
             naming: Naming::new(theme, names.sampler()),
         };
         let floor = draft.place(Role::Floor, SpriteClass::Immovable, Body::Floor, &[]);
-        let wall = draft.group("wall", Role::Wall, Some(SpriteClass::Immovable), Body::Wall);
-        let avatar = draft.group("avatar", Role::Hero, None, Body::Hero);
+        let wall = draft.add("wall".into(), Role::Wall, Some(SpriteClass::Immovable), Body::Wall, &[]);
+        let avatar = draft.add("avatar".into(), Role::Hero, None, Body::Hero, &[]);
         let hero = draft.child(avatar, Role::Hero);
         draft.child(wall, Role::Wall);
         assert!((floor, wall, avatar, hero) == (FLOOR, WALL, AVATAR, HERO), "the constants say so");
@@ -61,38 +64,16 @@ impl Draft {
     }
 
     /// Adds a sprite type that levels place.
-    pub(crate) fn place(
-        &mut self,
-        role: Role,
-        class: SpriteClass,
-        body: Body,
-        params: &[(&'static str, Value)],
-    ) -> Part {
-        let name = self.naming.word(role);
-        self.add(Sprite {
-            name,
-            role,
-            class: Some(class),
-            params: params.to_vec(),
-            parent: None,
-            body,
-            placed: true,
-            gene: self.gene,
-            removed: false,
-        })
+    pub(crate) fn place(&mut self, role: Role, class: SpriteClass, body: Body, params: Params<'_>) -> Part {
+        let part = self.spawn(role, class, body, params);
+        self.show(part);
+        part
     }
 
     /// Adds a sprite type that is created only during play.
-    pub(crate) fn spawn(
-        &mut self,
-        role: Role,
-        class: SpriteClass,
-        body: Body,
-        params: &[(&'static str, Value)],
-    ) -> Part {
-        let part = self.place(role, class, body, params);
-        self.sprites[part.0].placed = false;
-        part
+    pub(crate) fn spawn(&mut self, role: Role, class: SpriteClass, body: Body, params: Params<'_>) -> Part {
+        let name = self.naming.word(role);
+        self.add(name, role, Some(class), body, params)
     }
 
     /// Adds another state of a sprite type, created only during play: `lit` and a lamp make a `litLamp`.
@@ -102,77 +83,53 @@ impl Draft {
         adjective: &str,
         class: SpriteClass,
         body: Body,
-        params: &[(&'static str, Value)],
+        params: Params<'_>,
     ) -> Part {
         let name = format!("{adjective}{}", english::capital(self.name(of)));
-        let role = self.sprites[of.0].role;
-        self.add(Sprite {
-            name,
-            role,
-            class: Some(class),
-            params: params.to_vec(),
-            parent: None,
-            body,
-            placed: false,
-            gene: self.gene,
-            removed: false,
-        })
+        self.add(name, self.sprites[of.0].role, Some(class), body, params)
     }
 
     /// Adds another state of the hero.
     pub(crate) fn hero_state(&mut self, adjective: &str) -> Part {
         let name = format!("{adjective}{}", english::capital(self.name(HERO)));
-        self.add(Sprite {
-            name,
-            role: Role::Hero,
-            class: None,
-            params: Vec::new(),
-            parent: Some(AVATAR),
-            body: Body::Hero,
-            placed: false,
-            gene: self.gene,
-            removed: false,
-        })
-    }
-
-    fn group(&mut self, name: &str, role: Role, class: Option<SpriteClass>, body: Body) -> Part {
-        let name = name.to_owned();
-        self.add(Sprite {
-            name,
-            role,
-            class,
-            params: Vec::new(),
-            parent: None,
-            body,
-            placed: false,
-            gene: self.gene,
-            removed: false,
-        })
+        let state = self.add(name, Role::Hero, None, Body::Hero, &[]);
+        self.sprites[state.0].parent = Some(AVATAR);
+        state
     }
 
     fn child(&mut self, parent: Part, role: Role) -> Part {
-        let (name, body) = (self.naming.word(role), self.sprites[parent.0].body);
-        let parent = Some(parent);
-        self.add(Sprite {
-            name,
-            role,
-            class: None,
-            params: Vec::new(),
-            parent,
-            body,
-            placed: true,
-            gene: self.gene,
-            removed: false,
-        })
+        let name = self.naming.word(role);
+        let child = self.add(name, role, None, self.sprites[parent.0].body, &[]);
+        self.sprites[child.0].parent = Some(parent);
+        self.show(child);
+        child
     }
 
-    fn add(&mut self, sprite: Sprite) -> Part {
-        self.sprites.push(sprite);
+    fn add(
+        &mut self,
+        name: String,
+        role: Role,
+        class: Option<SpriteClass>,
+        body: Body,
+        params: Params<'_>,
+    ) -> Part {
+        let (params, gene) = (params.to_vec(), self.gene);
+        self.sprites.push(Sprite {
+            name,
+            role,
+            class,
+            params,
+            parent: None,
+            body,
+            placed: false,
+            gene,
+            removed: false,
+        });
         Part(self.sprites.len() - 1)
     }
 
     /// Sets the class and adds parameters of the hero, for all its states.
-    pub(crate) fn set_hero(&mut self, class: SpriteClass, params: &[(&'static str, Value)]) {
+    pub(crate) fn set_hero(&mut self, class: SpriteClass, params: Params<'_>) {
         let avatar = &mut self.sprites[AVATAR.0];
         avatar.class = Some(class);
         avatar.params.extend_from_slice(params);
@@ -230,6 +187,13 @@ impl Draft {
     pub(crate) fn scored(&mut self, phase: Phase, first: Part, second: &[Part], effect: Effect, score: i32) {
         let rule = Rule { phase, first, second: second.to_vec(), effect, score, gene: self.gene };
         self.rules.push(rule);
+    }
+
+    /// Gives the hero this many health points, and a limit to them.
+    pub(crate) fn hearts(&mut self, health: u32, limit: u32) {
+        self.stamina = Stamina::Hearts(health);
+        self.give(AVATAR, "healthPoints", Value::Count(health));
+        self.give(AVATAR, "limitHealthPoints", Value::Count(limit));
     }
 
     /// Makes touching the part harm the hero.
@@ -298,23 +262,37 @@ impl Draft {
         english::one(&self.spaced_name(part))
     }
 
-    /// Adds a fact to the summary.
-    pub(crate) fn add_fact(&mut self, text: String) {
-        self.claim(Claim::Fact, text);
+    /// Fills the names of the parts into a text, in their order: `<name>`, `<a name>` with its article, `<names>` in the
+    /// plural.
+    pub(crate) fn phrase(&self, text: &str, parts: &[Part]) -> String {
+        let mut parts = parts.iter();
+        let mut next = || *parts.next().expect("a part for every name");
+        let pieces = text.split(['<', '>']).map(|piece| match piece {
+            "name" => self.spaced_name(next()),
+            "a name" => self.with_article(next()),
+            "names" => self.plural(next()),
+            words => words.to_owned(),
+        });
+        pieces.collect()
+    }
+
+    /// Adds a fact to the summary, a [phrase](Draft::phrase) about these parts.
+    pub(crate) fn add_fact(&mut self, text: &str, parts: &[Part]) {
+        self.claim(Claim::Fact, text, parts);
     }
 
     /// Adds a clause about the movement of a sprite type.
-    pub(crate) fn add_motion_clause(&mut self, part: Part, text: String) {
-        self.claim(Claim::Way(part), text);
+    pub(crate) fn add_motion_clause(&mut self, part: Part, text: &str, parts: &[Part]) {
+        self.claim(Claim::Way(part), text, parts);
     }
 
     /// Adds a clause about the points that something is worth.
-    pub(crate) fn add_points_clause(&mut self, text: String) {
-        self.claim(Claim::Points, text);
+    pub(crate) fn add_points_clause(&mut self, text: &str, parts: &[Part]) {
+        self.claim(Claim::Points, text, parts);
     }
 
-    fn claim(&mut self, claim: Claim, text: String) {
-        self.clauses.push(Clause { text, gene: self.gene, claim });
+    fn claim(&mut self, claim: Claim, text: &str, parts: &[Part]) {
+        self.clauses.push(Clause { text: self.phrase(text, parts), gene: self.gene, claim });
     }
 
     /// Makes the title. Called after all other names of the theme are drawn, since it continues the same draws.

@@ -111,10 +111,12 @@ impl Edit {
                 let rule = rule.find(draft)?;
                 let effect = effect.map(|site| draft.at(site))?;
                 draft.forget(rule, |claim| !matches!(claim, Claim::Way(_)));
-                let text = ways::changed(draft, &draft.rules[rule], effect);
                 draft.rules[rule].effect = effect;
                 draft.gene = None;
-                text.into_iter().for_each(|text| draft.add_fact(text));
+                if let Effect::TransformTo { stype, .. } = effect {
+                    let parts = [draft.rules[rule].first, stype];
+                    draft.add_fact("<a name> that is hit turns into <a name>", &parts);
+                }
             }
             Edit::Drop { rule } => {
                 let rule = rule.find(draft)?;

@@ -48,6 +48,11 @@ pub(crate) enum Effect<P = Part> {
 }
 
 impl<P: Copy> Effect<P> {
+    /// Turns the first into another type, and spares the second.
+    pub(crate) fn becomes(stype: P) -> Effect<P> {
+        Effect::TransformTo { stype, kill_second: false }
+    }
+
     /// The keyword.
     pub(crate) fn keyword(self) -> &'static str {
         match self {

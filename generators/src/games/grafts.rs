@@ -33,8 +33,24 @@ pub(crate) struct Graft {
     passes: bool,
     score: i32,
     effect: fn([Part; 3]) -> Effect,
-    clause: fn(&Draft, [Part; 3]) -> String,
+    /// The text about it, and which of the three parts it names.
+    clause: (&'static str, &'static [usize]),
 }
+
+/// What most grafts have in common.
+const GRAFT: Graft = Graft {
+    name: "",
+    weight: 3,
+    first: FOES,
+    second: STRAYS,
+    third: &[],
+    phase: Phase::Meet,
+    spares: false,
+    passes: false,
+    score: 0,
+    effect: |_| Effect::KillSprite,
+    clause: ("", &[]),
+};
 
 /// All grafts.
 pub(crate) const GRAFTS: &[Graft] = &[
@@ -43,60 +59,38 @@ pub(crate) const GRAFTS: &[Graft] = &[
         weight: 5,
         first: FOES,
         second: HAZARDS,
-        third: &[],
         phase: Phase::Strike,
-        spares: false,
-        passes: false,
         score: 2,
-        effect: |_| Effect::KillSprite,
-        clause: |draft, [foe, hazard, _]| {
-            format!("{} harms {} as well", draft.with_article(hazard), draft.plural(foe))
-        },
+        clause: ("<a name> harms <names> as well", &[1, 0]),
+        ..GRAFT
     },
     Graft {
         name: "graft/crush",
         weight: 4,
         first: FOES,
         second: &[Role::Crate],
-        third: &[],
         phase: Phase::Push,
-        spares: false,
         passes: true,
         score: 2,
-        effect: |_| Effect::KillSprite,
-        clause: |draft, [foe, pushed, _]| {
-            format!("{} do not survive {}", draft.plural(foe), draft.with_article(pushed))
-        },
+        clause: ("<names> do not survive <a name>", &[0, 1]),
+        ..GRAFT
     },
     Graft {
         name: "graft/eat",
         weight: 3,
         first: TREATS,
         second: STRAYS,
-        third: &[],
-        phase: Phase::Meet,
-        spares: false,
-        passes: false,
-        score: 0,
-        effect: |_| Effect::KillSprite,
-        clause: |draft, [treat, foe, _]| {
-            format!("{} make off with {}", draft.plural(foe), draft.plural(treat))
-        },
+        clause: ("<names> make off with <names>", &[1, 0]),
+        ..GRAFT
     },
     Graft {
         name: "graft/breed",
         weight: 3,
         first: TREATS,
         second: STRAYS,
-        third: &[],
-        phase: Phase::Meet,
-        spares: false,
-        passes: false,
-        score: 0,
         effect: |[_, foe, _]| Effect::TransformTo { stype: foe, kill_second: false },
-        clause: |draft, [treat, foe, _]| {
-            format!("{} that comes upon {} becomes two", draft.with_article(foe), draft.with_article(treat))
-        },
+        clause: ("<a name> that comes upon <a name> becomes two", &[1, 0]),
+        ..GRAFT
     },
     Graft {
         name: "graft/enrage",
@@ -104,29 +98,19 @@ pub(crate) const GRAFTS: &[Graft] = &[
         first: &[Role::Wanderer, Role::Slug, Role::Pest],
         second: &[Role::Trap, Role::Steam, Role::Creep, Role::Slime, Role::Coin, Role::Berry],
         third: &[Role::Chaser],
-        phase: Phase::Meet,
-        spares: false,
-        passes: false,
-        score: 0,
         effect: |[_, _, fury]| Effect::TransformTo { stype: fury, kill_second: false },
-        clause: |draft, [foe, cause, fury]| {
-            format!("{} turns {} into {}", draft.with_article(cause), draft.plural(foe), draft.plural(fury))
-        },
+        clause: ("<a name> turns <names> into <names>", &[1, 0, 2]),
+        ..GRAFT
     },
     Graft {
         name: "graft/brawl",
         weight: 3,
         first: FOES,
         second: FOES,
-        third: &[],
-        phase: Phase::Meet,
-        spares: false,
-        passes: false,
         score: 1,
         effect: |_| Effect::KillBoth,
-        clause: |draft, [one, two, _]| {
-            format!("{} and {} are the end of each other", draft.plural(one), draft.plural(two))
-        },
+        clause: ("<names> and <names> are the end of each other", &[0, 1]),
+        ..GRAFT
     },
     Graft {
         name: "graft/portal",
@@ -134,42 +118,32 @@ pub(crate) const GRAFTS: &[Graft] = &[
         first: FOES,
         second: &[Role::PortalIn],
         third: &[Role::PortalOut],
-        phase: Phase::Meet,
         spares: true,
-        passes: false,
-        score: 0,
         effect: |_| Effect::TeleportToExit,
-        clause: |draft, [foe, entry, _]| {
-            format!("{} take the {} too", draft.plural(foe), draft.spaced_name(entry))
-        },
+        clause: ("<names> take the <name> too", &[0, 1]),
+        ..GRAFT
     },
     Graft {
         name: "graft/ride",
         weight: 2,
         first: STRAYS,
         second: &[Role::Cart],
-        third: &[],
         phase: Phase::Carry,
         spares: true,
-        passes: false,
-        score: 0,
         effect: |_| Effect::PullWithIt,
-        clause: |draft, [foe, cart, _]| format!("{} ride on {} too", draft.plural(foe), draft.plural(cart)),
+        clause: ("<names> ride on <names> too", &[0, 1]),
+        ..GRAFT
     },
     Graft {
         name: "graft/shatter",
         weight: 3,
         first: &[Role::Soil, Role::Crate, Role::Rubble, Role::Dark],
         second: &[Role::Dart, Role::Drop, Role::Blast, Role::Steam],
-        third: &[],
         phase: Phase::Push,
-        spares: false,
         passes: true,
-        score: 0,
         effect: |_| Effect::KillBoth,
-        clause: |draft, [barrier, hit, _]| {
-            format!("{} breaks {}", draft.with_article(hit), draft.spaced_name(barrier))
-        },
+        clause: ("<a name> breaks <name>", &[1, 0]),
+        ..GRAFT
     },
 ];
 
@@ -225,8 +199,8 @@ impl Graft {
         let at = draft.rules.partition_point(|other| other.phase <= self.phase);
         draft.rules.insert(at, rule);
         draft.gene = None;
-        let text = (self.clause)(draft, place);
-        draft.add_fact(text);
+        let (text, named) = self.clause;
+        draft.add_fact(text, &named.iter().map(|&part| place[part]).collect::<Vec<_>>());
         Some(())
     }
 }

@@ -3,111 +3,46 @@
 use super::body::Body;
 use super::draft::{AVATAR, Draft, HERO, Harm, Phase, Value, Weapon, draw};
 use super::effect::Effect;
-use super::pattern::{Feature, Pattern};
+use super::pattern::{Feature, Pattern, pattern};
 use super::role::Role;
 use engine::{Sampler, SpriteClass};
 
 /// All ways of moving.
 pub(crate) const MOVEMENTS: &[Pattern] = &[
-    Pattern {
-        name: "movement/walk",
-        weight: 12,
-        roles: &[],
-        gives: &[Feature::Four],
-        needs: &[],
-        bars: &[],
-        build: walk,
-    },
-    Pattern {
-        name: "movement/turn",
-        weight: 2,
-        roles: &[],
-        gives: &[Feature::Four],
-        needs: &[],
-        bars: &[Feature::Crates],
-        build: turn,
-    },
-    Pattern {
-        name: "movement/blade",
-        weight: 5,
-        roles: &[Role::Blade],
-        gives: &[Feature::Four, Feature::Armed, Feature::Strikes],
-        needs: &[],
-        bars: &[],
-        build: blade,
-    },
-    Pattern {
-        name: "movement/shoot",
-        weight: 4,
-        roles: &[Role::Bolt],
-        gives: &[Feature::Four, Feature::Armed, Feature::Strikes],
-        needs: &[],
-        bars: &[],
-        build: shoot,
-    },
-    Pattern {
-        name: "movement/shoot-scarce",
-        weight: 2,
-        roles: &[Role::Bolt, Role::Ammo],
-        gives: &[Feature::Four, Feature::Armed, Feature::Strikes, Feature::Scarce],
-        needs: &[],
-        bars: &[],
-        build: shoot_scarce,
-    },
-    Pattern {
-        name: "movement/shoot-rack",
-        weight: 2,
-        roles: &[Role::Bolt, Role::Ammo, Role::Rack],
-        gives: &[Feature::Four, Feature::Armed, Feature::Strikes, Feature::Errands],
-        needs: &[],
-        bars: &[],
-        build: shoot_rack,
-    },
-    Pattern {
-        name: "movement/blast",
-        weight: 4,
-        roles: &[Role::Charge, Role::Blast],
-        gives: &[Feature::Four, Feature::Armed, Feature::Blasts, Feature::Harm],
-        needs: &[Feature::Ruins],
-        bars: &[],
-        build: blast,
-    },
-    Pattern {
-        name: "movement/flak",
-        weight: 4,
-        roles: &[Role::Bolt],
-        gives: &[Feature::Row, Feature::Armed, Feature::Strikes],
-        needs: &[],
-        bars: &[],
-        build: flak,
-    },
-    Pattern {
-        name: "movement/slide",
-        weight: 4,
-        roles: &[],
-        gives: &[Feature::Row],
-        needs: &[],
-        bars: &[],
-        build: slide,
-    },
-    Pattern {
-        name: "movement/climb",
-        weight: 4,
-        roles: &[],
-        gives: &[Feature::Column],
-        needs: &[],
-        bars: &[],
-        build: climb,
-    },
-    Pattern {
-        name: "movement/drive",
-        weight: 3,
-        roles: &[],
-        gives: &[Feature::Four, Feature::Movers],
-        needs: &[],
-        bars: &[Feature::Crates, Feature::Followers, Feature::Errands],
-        build: drive,
-    },
+    pattern("movement/walk", 12, &[], &[Feature::Four], walk),
+    pattern("movement/turn", 2, &[], &[Feature::Four], turn).bars(&[Feature::Crates]),
+    pattern("movement/blade", 5, &[Role::Blade], &[Feature::Four, Feature::Armed, Feature::Strikes], blade),
+    pattern("movement/shoot", 4, &[Role::Bolt], &[Feature::Four, Feature::Armed, Feature::Strikes], shoot),
+    pattern(
+        "movement/shoot-scarce",
+        2,
+        &[Role::Bolt, Role::Ammo],
+        &[Feature::Four, Feature::Armed, Feature::Strikes, Feature::Scarce],
+        shoot_scarce,
+    ),
+    pattern(
+        "movement/shoot-rack",
+        2,
+        &[Role::Bolt, Role::Ammo, Role::Rack],
+        &[Feature::Four, Feature::Armed, Feature::Strikes, Feature::Errands],
+        shoot_rack,
+    ),
+    pattern(
+        "movement/blast",
+        4,
+        &[Role::Charge, Role::Blast],
+        &[Feature::Four, Feature::Armed, Feature::Blasts, Feature::Harm],
+        blast,
+    )
+    .needs(&[Feature::Ruins]),
+    pattern("movement/flak", 4, &[Role::Bolt], &[Feature::Row, Feature::Armed, Feature::Strikes], flak),
+    pattern("movement/slide", 4, &[], &[Feature::Row], slide),
+    pattern("movement/climb", 4, &[], &[Feature::Column], climb),
+    pattern("movement/drive", 3, &[], &[Feature::Four, Feature::Movers], drive).bars(&[
+        Feature::Crates,
+        Feature::Followers,
+        Feature::Errands,
+    ]),
 ];
 
 fn walk(draft: &mut Draft, _: &mut Sampler) {
@@ -130,7 +65,7 @@ fn blade(draft: &mut Draft, sampler: &mut Sampler) {
         &[("stype", Value::Part(blade)), ("rotateInPlace", Value::Flag(turns))],
     );
     draft.weapon = Some(Weapon::Blade(blade));
-    draft.outfit = format!("armed with {}", draft.with_article(blade));
+    draft.outfit = draft.phrase("armed with <a name>", &[blade]);
 }
 
 /// Adds a shot, and makes the hero shoot it.
@@ -146,7 +81,7 @@ fn shooter(draft: &mut Draft, sampler: &mut Sampler, ammo: Option<Value>) {
     let params: Vec<_> = stype.into_iter().chain(ammo).collect();
     draft.set_hero(SpriteClass::ShootAvatar, &params);
     draft.weapon = Some(Weapon::Bolt(bolt));
-    draft.outfit = format!("shooting {}", draft.plural(bolt));
+    draft.outfit = draft.phrase("shooting <names>", &[bolt]);
 }
 
 fn shoot(draft: &mut Draft, sampler: &mut Sampler) {
@@ -159,8 +94,7 @@ fn shoot_scarce(draft: &mut Draft, sampler: &mut Sampler) {
     let ammo = draft.place(Role::Ammo, SpriteClass::Resource, Body::Item, &params);
     shooter(draft, sampler, Some(Value::Part(ammo)));
     draft.scored(Phase::Take, ammo, &[AVATAR], Effect::CollectResource { stays: false }, 1);
-    let clause = format!("{} give {} shots each", draft.plural(ammo), super::english::number(value));
-    draft.add_fact(clause);
+    draft.add_fact(&format!("<names> give {} shots each", super::english::number(value)), &[ammo]);
 }
 
 fn shoot_rack(draft: &mut Draft, sampler: &mut Sampler) {
@@ -175,9 +109,7 @@ fn shoot_rack(draft: &mut Draft, sampler: &mut Sampler) {
     let rack = draft.place(Role::Rack, SpriteClass::SpawnPoint, Body::Spot, &params);
     shooter(draft, sampler, Some(Value::Part(ammo)));
     draft.rule(Phase::Take, ammo, &[AVATAR], Effect::CollectResource { stays: false });
-    let clause =
-        format!("every shot costs {}, to be had at {}", draft.with_article(ammo), draft.with_article(rack));
-    draft.add_fact(clause);
+    draft.add_fact("every shot costs <a name>, to be had at <a name>", &[ammo, rack]);
 }
 
 /// A charge explodes a few ticks after it is laid, in all four directions.
@@ -199,9 +131,8 @@ fn blast(draft: &mut Draft, sampler: &mut Sampler) {
     );
     draft.weapon = Some(Weapon::Blast(blast));
     draft.harm(blast, Harm::Lasting);
-    draft.outfit = format!("laying {}", draft.plural(charge));
-    let clause = format!("every {} goes off to all four sides", draft.spaced_name(charge));
-    draft.add_fact(clause);
+    draft.outfit = draft.phrase("laying <names>", &[charge]);
+    draft.add_fact("every <name> goes off to all four sides", &[charge]);
 }
 
 fn flak(draft: &mut Draft, sampler: &mut Sampler) {
@@ -210,19 +141,17 @@ fn flak(draft: &mut Draft, sampler: &mut Sampler) {
     let bolt = draft.spawn(Role::Bolt, SpriteClass::Missile, Body::Shot, &params);
     draft.set_hero(SpriteClass::FlakAvatar, &[("stype", Value::Part(bolt))]);
     draft.weapon = Some(Weapon::Bolt(bolt));
-    draft.outfit = format!("shooting {} upwards", draft.plural(bolt));
+    draft.outfit = draft.phrase("shooting <names> upwards", &[bolt]);
 }
 
 fn slide(draft: &mut Draft, _: &mut Sampler) {
     draft.set_hero(SpriteClass::HorizontalAvatar, &[]);
-    let clause = format!("the {} only moves left and right", draft.spaced_name(HERO));
-    draft.add_fact(clause);
+    draft.add_fact("the <name> only moves left and right", &[HERO]);
 }
 
 fn climb(draft: &mut Draft, _: &mut Sampler) {
     draft.set_hero(SpriteClass::VerticalAvatar, &[]);
-    let clause = format!("the {} only moves up and down", draft.spaced_name(HERO));
-    draft.add_fact(clause);
+    draft.add_fact("the <name> only moves up and down", &[HERO]);
 }
 
 /// A vehicle: it can be turned, but not stopped.

@@ -4,52 +4,36 @@ use super::body::Body;
 use super::draft::{AVATAR, Draft, Part, Phase, Value, draw};
 use super::effect::Effect;
 use super::english;
-use super::pattern::{Feature, Pattern};
+use super::pattern::{Build, Feature, Pattern, Roles, pattern};
 use super::role::Role;
 use engine::{Sampler, SpriteClass};
 
-const fn obstacle(
-    name: &'static str,
-    weight: u32,
-    roles: &'static [Role],
-    build: fn(&mut Draft, &mut Sampler),
-) -> Pattern {
-    Pattern { name, weight, roles, gives: &[], needs: &[Feature::Four], bars: &[], build }
+const fn obstacle(name: &'static str, weight: u32, roles: Roles, build: Build) -> Pattern {
+    pattern(name, weight, roles, &[], build).needs(&[Feature::Four])
 }
 
 /// An obstacle that shuts off a part of the level.
-const fn shut(
-    name: &'static str,
-    weight: u32,
-    roles: &'static [Role],
-    build: fn(&mut Draft, &mut Sampler),
-) -> Pattern {
-    Pattern { bars: &[Feature::Lanes], ..obstacle(name, weight, roles, build) }
+const fn shut(name: &'static str, weight: u32, roles: Roles, build: Build) -> Pattern {
+    obstacle(name, weight, roles, build).bars(&[Feature::Lanes])
 }
 
 /// All obstacles.
 pub(crate) const OBSTACLES: &[Pattern] = &[
     shut("obstacle/lock", 4, &[Role::Key, Role::Door], lock),
     obstacle("obstacle/dig", 3, &[Role::Soil], dig),
-    Pattern {
-        needs: &[Feature::Four, Feature::Strikes],
-        ..obstacle("obstacle/break", 4, &[Role::Soil], break_through)
-    },
+    obstacle("obstacle/break", 4, &[Role::Soil], break_through).needs(&[Feature::Four, Feature::Strikes]),
     shut("obstacle/lever", 3, &[Role::Lever, Role::Gate], lever),
     shut("obstacle/dark", 3, &[Role::Torch, Role::Dark], dark),
     obstacle("obstacle/portal", 3, &[Role::PortalIn, Role::PortalOut], portal),
-    Pattern {
-        bars: &[Feature::Errands, Feature::Crates, Feature::Followers],
-        ..obstacle("obstacle/collapse", 3, &[Role::Archway, Role::Rubble], collapse)
-    },
-    Pattern {
-        gives: &[Feature::Movers],
-        bars: &[Feature::Crates],
-        ..obstacle("obstacle/cart", 2, &[Role::Cart], cart)
-    },
-    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/crates", 1, &[Role::Crate], crates) },
+    obstacle("obstacle/collapse", 3, &[Role::Archway, Role::Rubble], collapse).bars(&[
+        Feature::Errands,
+        Feature::Crates,
+        Feature::Followers,
+    ]),
+    obstacle("obstacle/cart", 2, &[Role::Cart], cart).gives(&[Feature::Movers]).bars(&[Feature::Crates]),
+    obstacle("obstacle/crates", 1, &[Role::Crate], crates).gives(&[Feature::Crates]),
     shut("obstacle/toll", 4, &[Role::Coin, Role::Gate], toll),
-    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/ford", 2, &[Role::Crate, Role::Pool], ford) },
+    obstacle("obstacle/ford", 2, &[Role::Crate, Role::Pool], ford).gives(&[Feature::Crates]),
 ];
 
 /// Doors that open to a key: each uses up one, or one key opens them all.
@@ -60,26 +44,23 @@ fn lock(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Take, key, &[AVATAR], Effect::CollectResource { stays: false }, 1);
     let open = Effect::KillIfOtherHasMore { resource: key, limit: 1, subtract };
     draft.scored(Phase::Open, door, &[AVATAR], open, 2);
-    let clause = if subtract {
-        format!("every {} takes {} to open", draft.spaced_name(door), draft.with_article(key))
+    if subtract {
+        draft.add_fact("every <name> takes <a name> to open", &[door, key]);
     } else {
-        format!("whoever has {} can open every {}", draft.with_article(key), draft.spaced_name(door))
-    };
-    draft.add_fact(clause);
+        draft.add_fact("whoever has <a name> can open every <name>", &[key, door]);
+    }
 }
 
 fn dig(draft: &mut Draft, _: &mut Sampler) {
     let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Soft, &[]);
     draft.rule(Phase::Meet, soil, &[AVATAR], Effect::KillSprite);
-    let clause = format!("{} can be dug away", draft.spaced_name(soil));
-    draft.add_fact(clause);
+    draft.add_fact("<name> can be dug away", &[soil]);
 }
 
 fn break_through(draft: &mut Draft, _: &mut Sampler) {
     let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Solid, &[]);
     draft.prey(soil, 0);
-    let clause = format!("{} can be broken", draft.spaced_name(soil));
-    draft.add_fact(clause);
+    draft.add_fact("<name> can be broken", &[soil]);
 }
 
 fn lever(draft: &mut Draft, _: &mut Sampler) {
@@ -87,8 +68,7 @@ fn lever(draft: &mut Draft, _: &mut Sampler) {
     let gate = draft.place(Role::Gate, SpriteClass::Door, Body::Solid, &[]);
     draft.rule(Phase::Take, lever, &[AVATAR], Effect::KillAll { stype: gate });
     draft.scored(Phase::Take, lever, &[AVATAR], Effect::KillSprite, 2);
-    let clause = format!("{} opens every {}", draft.with_article(lever), draft.spaced_name(gate));
-    draft.add_fact(clause);
+    draft.add_fact("<a name> opens every <name>", &[lever, gate]);
 }
 
 fn dark(draft: &mut Draft, _: &mut Sampler) {
@@ -97,25 +77,21 @@ fn dark(draft: &mut Draft, _: &mut Sampler) {
     draft.scored(Phase::Take, torch, &[AVATAR], Effect::CollectResource { stays: false }, 1);
     let open = Effect::KillIfOtherHasMore { resource: torch, limit: 1, subtract: true };
     draft.scored(Phase::Open, dark, &[AVATAR], open, 1);
-    let clause = format!("each patch of {} uses up {}", draft.spaced_name(dark), draft.with_article(torch));
-    draft.add_fact(clause);
+    draft.add_fact("each patch of <name> uses up <a name>", &[dark, torch]);
 }
 
 fn portal(draft: &mut Draft, _: &mut Sampler) {
     let exit = draft.place(Role::PortalOut, SpriteClass::Immovable, Body::Spot, &[]);
     let entry = draft.place(Role::PortalIn, SpriteClass::Portal, Body::Spot, &[("stype", Value::Part(exit))]);
     draft.rule(Phase::Meet, AVATAR, &[entry], Effect::TeleportToExit);
-    let clause = format!("{} leads to {}", draft.with_article(entry), draft.with_article(exit));
-    draft.add_fact(clause);
+    draft.add_fact("<a name> leads to <a name>", &[entry, exit]);
 }
 
 fn collapse(draft: &mut Draft, _: &mut Sampler) {
     let arch = draft.place(Role::Archway, SpriteClass::Immovable, Body::Spot, &[]);
     let rubble = draft.spawn(Role::Rubble, SpriteClass::Immovable, Body::Solid, &[]);
     draft.rule(Phase::Meet, arch, &[AVATAR], Effect::SpawnBehind { stype: rubble });
-    let clause =
-        format!("the way back from {} is closed by {}", draft.with_article(arch), draft.spaced_name(rubble));
-    draft.add_fact(clause);
+    draft.add_fact("the way back from <a name> is closed by <name>", &[arch, rubble]);
 }
 
 fn cart(draft: &mut Draft, sampler: &mut Sampler) {
@@ -123,18 +99,17 @@ fn cart(draft: &mut Draft, sampler: &mut Sampler) {
     let params = [("orientation", Value::Word(orientation)), ("cooldown", Value::Count(draw(sampler, 1, 2)))];
     let cart = draft.place(Role::Cart, SpriteClass::Missile, Body::Carrier, &params);
     draft.rule(Phase::Carry, AVATAR, &[cart], Effect::PullWithIt);
-    let clause = format!("{} carries whoever boards it", draft.with_article(cart));
-    draft.add_fact(clause);
+    draft.add_fact("<a name> carries whoever boards it", &[cart]);
 }
 
 /// Crates that the hero can push, and that nothing else can pass.
 fn crates(draft: &mut Draft, _: &mut Sampler) {
     let block = pushable(draft);
-    let clause = format!("{} can be pushed", draft.plural(block));
-    draft.add_fact(clause);
+    draft.add_fact("<names> can be pushed", &[block]);
 }
 
-fn pushable(draft: &mut Draft) -> Part {
+/// Adds a crate to push.
+pub(crate) fn pushable(draft: &mut Draft) -> Part {
     let block = draft.place(Role::Crate, SpriteClass::Passive, Body::Crate, &[]);
     draft.rule(Phase::Push, block, &[AVATAR], Effect::BounceForward);
     block
@@ -154,8 +129,7 @@ fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     } else {
         format!("{} {}", english::number(price), draft.plural(coin))
     };
-    let clause = format!("every {} takes {toll} to pass", draft.spaced_name(gate));
-    draft.add_fact(clause);
+    draft.add_fact(&format!("every <name> takes {toll} to pass"), &[gate]);
 }
 
 /// A crate pushed into the pool fills it and clears the way.
@@ -164,7 +138,5 @@ fn ford(draft: &mut Draft, _: &mut Sampler) {
     let pool = draft.place(Role::Pool, SpriteClass::Immovable, Body::Solid, &[]);
     draft.mark_handled(block, pool);
     draft.scored(Phase::Push, pool, &[block], Effect::KillBoth, 2);
-    let clause =
-        format!("{} pushed into the {} fills it", draft.with_article(block), draft.spaced_name(pool));
-    draft.add_fact(clause);
+    draft.add_fact("<a name> pushed into the <name> fills it", &[block, pool]);
 }

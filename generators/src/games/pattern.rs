@@ -50,6 +50,13 @@ pub(crate) enum Feature {
     Stains,
 }
 
+/// Features, for the tables of patterns.
+pub(crate) type Features = &'static [Feature];
+/// Roles, for the tables of patterns.
+pub(crate) type Roles = &'static [Role];
+/// Adds a pattern to a draft.
+pub(crate) type Build = fn(&mut Draft, &mut Sampler);
+
 /// A fragment of a game.
 pub(crate) struct Pattern {
     /// Its name, with its family: `threat/patrol`.
@@ -57,15 +64,40 @@ pub(crate) struct Pattern {
     /// The relative weight in the draw.
     pub(crate) weight: u32,
     /// The roles of the sprite types it may introduce; no two patterns of a game share one.
-    pub(crate) roles: &'static [Role],
+    pub(crate) roles: Roles,
     /// The features it gives.
-    pub(crate) gives: &'static [Feature],
+    pub(crate) gives: Features,
     /// The features that other patterns must give.
-    pub(crate) needs: &'static [Feature],
+    pub(crate) needs: Features,
     /// The features that no other pattern may give.
-    pub(crate) bars: &'static [Feature],
+    pub(crate) bars: Features,
     /// Adds it to a draft.
-    pub(crate) build: fn(&mut Draft, &mut Sampler),
+    pub(crate) build: Build,
+}
+
+/// A pattern that goes with all others.
+pub(crate) const fn pattern(
+    name: &'static str,
+    weight: u32,
+    roles: Roles,
+    gives: Features,
+    build: Build,
+) -> Pattern {
+    Pattern { name, weight, roles, gives, needs: &[], bars: &[], build }
+}
+
+impl Pattern {
+    pub(crate) const fn gives(self, gives: Features) -> Pattern {
+        Pattern { gives, ..self }
+    }
+
+    pub(crate) const fn needs(self, needs: Features) -> Pattern {
+        Pattern { needs, ..self }
+    }
+
+    pub(crate) const fn bars(self, bars: Features) -> Pattern {
+        Pattern { bars, ..self }
+    }
 }
 
 /// A pattern that defines how the game is won, with its requirements on the other patterns.
@@ -75,11 +107,33 @@ pub(crate) struct Goal {
     /// The kind of game that it makes.
     pub(crate) kind: Kind,
     /// The features that the way of moving must give.
-    pub(crate) hero: &'static [Feature],
+    pub(crate) hero: Features,
     /// Threats besides its own: minimum and maximum.
     pub(crate) threats: (usize, usize),
     /// Obstacles: minimum and maximum.
     pub(crate) obstacles: (usize, usize),
     /// Units of time until the game ends: minimum and maximum.
     pub(crate) ticks: (u32, u32),
+}
+
+impl Goal {
+    pub(crate) const fn bars(self, bars: Features) -> Goal {
+        Goal { pattern: self.pattern.bars(bars), ..self }
+    }
+
+    pub(crate) const fn hero(self, hero: Features) -> Goal {
+        Goal { hero, ..self }
+    }
+
+    pub(crate) const fn threats(self, least: usize, most: usize) -> Goal {
+        Goal { threats: (least, most), ..self }
+    }
+
+    pub(crate) const fn obstacles(self, least: usize, most: usize) -> Goal {
+        Goal { obstacles: (least, most), ..self }
+    }
+
+    pub(crate) const fn ticks(self, least: u32, most: u32) -> Goal {
+        Goal { ticks: (least, most), ..self }
+    }
 }

@@ -53,21 +53,18 @@ pub(crate) fn set_class(
         sprite.params.push(("stype", Value::Part(after.unwrap_or(AVATAR))));
     }
     draft.clauses.retain(|clause| clause.claim != Claim::Way(part));
-    let whom = match after {
-        Some(other) if other != AVATAR => format!(" {}", draft.plural(other)),
-        _ => String::new(),
-    };
-    let many = draft.plural(part);
+    let after = after.filter(|&other| other != AVATAR);
     let text = match class {
-        SpriteClass::Chaser if whom.is_empty() => format!("{many} give chase"),
-        SpriteClass::Chaser => format!("{many} go after{whom}"),
-        SpriteClass::Fleeing if whom.is_empty() => format!("{many} run from you"),
-        SpriteClass::Fleeing => format!("{many} run from{whom}"),
-        SpriteClass::RandomMissile => format!("{many} fly every which way"),
-        _ => format!("{many} stray about"),
+        SpriteClass::Chaser if after.is_none() => "<names> give chase",
+        SpriteClass::Chaser => "<names> go after <names>",
+        SpriteClass::Fleeing if after.is_none() => "<names> run from you",
+        SpriteClass::Fleeing => "<names> run from <names>",
+        SpriteClass::RandomMissile => "<names> fly every which way",
+        _ => "<names> stray about",
     };
     draft.gene = draft.sprite(part).gene;
-    draft.add_motion_clause(part, text);
+    let parts: Vec<Part> = [part].into_iter().chain(after).collect();
+    draft.add_motion_clause(part, text, &parts);
     Some(())
 }
 
@@ -107,17 +104,5 @@ pub(crate) fn effects(draft: &Draft, rule: &Rule) -> Vec<Effect> {
             others.map(|stype| Effect::TransformTo { stype, kill_second }).collect()
         }
         _ => Vec::new(),
-    }
-}
-
-/// The clause about a rule with a new effect.
-pub(crate) fn changed(draft: &Draft, rule: &Rule, effect: Effect) -> Option<String> {
-    match effect {
-        Effect::TransformTo { stype, .. } => Some(format!(
-            "{} that is hit turns into {}",
-            draft.with_article(rule.first),
-            draft.with_article(stype)
-        )),
-        _ => None,
     }
 }

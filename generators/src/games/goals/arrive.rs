@@ -11,39 +11,31 @@ use crate::games::threats;
 use engine::{Sampler, SpriteClass};
 
 pub(super) const GOALS: &[Goal] = &[
-    Goal {
-        threats: (1, 2),
-        obstacles: (1, 2),
-        ..goal("goal/reach", Kind::Escape, &[Role::Exit], &[], reach)
-    },
+    goal("goal/reach", Kind::Escape, &[Role::Exit], &[], reach).obstacles(1, 2),
     goal("goal/unseal", Kind::Escape, &[Role::Exit, Role::Lever], &[], unseal),
-    Goal {
-        threats: (0, 1),
-        ..goal(
-            "goal/heist",
-            Kind::Escape,
-            &[Role::Relic, Role::Statue, Role::Exit],
-            &[Feature::States, Feature::Movers, Feature::Harm, Feature::Prey],
-            heist,
-        )
-    },
-    Goal {
-        threats: (0, 1),
-        ..goal(
-            "goal/cross",
-            Kind::Crossing,
-            &[Role::Exit, Role::Patroller, Role::Rover],
-            &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Lanes],
-            cross,
-        )
-    },
+    goal(
+        "goal/heist",
+        Kind::Escape,
+        &[Role::Relic, Role::Statue, Role::Exit],
+        &[Feature::States, Feature::Movers, Feature::Harm, Feature::Prey],
+        heist,
+    )
+    .threats(0, 1),
+    goal(
+        "goal/cross",
+        Kind::Crossing,
+        &[Role::Exit, Role::Patroller, Role::Rover],
+        &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Lanes],
+        cross,
+    )
+    .threats(0, 1),
 ];
 
 fn reach(draft: &mut Draft, _: &mut Sampler) {
     let exit = exit(draft, Body::Spot);
     draft.scored(Phase::Arrive, exit, &[AVATAR], Effect::KillSprite, 10);
     draft.win_without(&[exit]);
-    draft.goal = format!("reach the {}", draft.spaced_name(exit));
+    draft.goal = draft.phrase("reach the <name>", &[exit]);
 }
 
 fn unseal(draft: &mut Draft, _: &mut Sampler) {
@@ -53,19 +45,15 @@ fn unseal(draft: &mut Draft, _: &mut Sampler) {
     draft.scored(Phase::Take, lever, &[AVATAR], Effect::KillSprite, 3);
     draft.scored(Phase::Arrive, open, &[AVATAR], Effect::KillSprite, 10);
     draft.win_without(&[shut, open]);
-    draft.goal = format!(
-        "throw the {} that unseals the {}, then leave by it",
-        draft.spaced_name(lever),
-        draft.spaced_name(open)
-    );
+    draft.goal = draft.phrase("throw the <name> that unseals the <name>, then leave by it", &[lever, open]);
 }
 
 /// Taking the relic wakes its guards.
 fn heist(draft: &mut Draft, sampler: &mut Sampler) {
     let relic = draft.place(Role::Relic, SpriteClass::Immovable, Body::Item, &[]);
     let statue = draft.place(Role::Statue, SpriteClass::Immovable, Body::Solid, &[]);
-    let params = threats::pursuing(AVATAR, sampler);
-    let woken = draft.state(statue, "woken", SpriteClass::Chaser, Body::Walker, &params);
+    let woken =
+        draft.state(statue, "woken", SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     let exit = exit(draft, Body::Spot);
     let laden = draft.hero_state("laden");
     draft.rule(Phase::Take, relic, &[HERO], Effect::TransformToAll { stype: statue, into: woken });
@@ -75,14 +63,8 @@ fn heist(draft: &mut Draft, sampler: &mut Sampler) {
     draft.harm(woken, Harm::Spent);
     draft.prey(woken, 2);
     draft.win_without(&[exit]);
-    draft.goal = format!(
-        "take the {} and carry it out through the {}",
-        draft.spaced_name(relic),
-        draft.spaced_name(exit)
-    );
-    let clause =
-        format!("every {} wakes when the {} is taken", draft.spaced_name(statue), draft.spaced_name(relic));
-    draft.add_fact(clause);
+    draft.goal = draft.phrase("take the <name> and carry it out through the <name>", &[relic, exit]);
+    draft.add_fact("every <name> wakes when the <name> is taken", &[statue, relic]);
 }
 
 fn cross(draft: &mut Draft, sampler: &mut Sampler) {
@@ -90,7 +72,7 @@ fn cross(draft: &mut Draft, sampler: &mut Sampler) {
     let exit = exit(draft, Body::Spot);
     draft.scored(Phase::Arrive, exit, &[AVATAR], Effect::KillSprite, 10);
     draft.win_without(&[exit]);
-    draft.goal = format!("cross the lanes to the {}", draft.spaced_name(exit));
+    draft.goal = draft.phrase("cross the lanes to the <name>", &[exit]);
 }
 
 /// Adds two types of traffic in opposite directions, one faster than the other.
@@ -104,6 +86,5 @@ pub(super) fn lanes(draft: &mut Draft, sampler: &mut Sampler) {
         draft.harm(foe, Harm::Spent);
         draft.prey(foe, 1);
     }
-    let clause = format!("{} and {} rush to and fro", draft.plural(one), draft.plural(two));
-    draft.add_fact(clause);
+    draft.add_fact("<names> and <names> rush to and fro", &[one, two]);
 }

@@ -15,25 +15,16 @@ const LADEN: &[Feature] = &[Feature::States, Feature::Errands];
 pub(super) const GOALS: &[Goal] = &[
     goal("goal/deliver-all", Kind::Resource, &[Role::Parcel, Role::Address], LADEN, deliver_all),
     goal("goal/deliver-each", Kind::Resource, &[Role::Parcel, Role::Address], LADEN, deliver_each),
-    Goal {
-        ticks: (8, 14),
-        ..goal("goal/craft", Kind::Resource, &[Role::Ore, Role::Forge, Role::Address], LADEN, craft)
-    },
-    Goal {
-        ticks: (8, 14),
-        ..goal(
-            "goal/smelt",
-            Kind::Resource,
-            &[Role::Ore, Role::Forge, Role::Ingot, Role::Exit],
-            &[Feature::Errands],
-            smelt,
-        )
-    },
+    goal("goal/craft", Kind::Resource, &[Role::Ore, Role::Forge, Role::Address], LADEN, craft).ticks(8, 14),
+    goal(
+        "goal/smelt",
+        Kind::Resource,
+        &[Role::Ore, Role::Forge, Role::Ingot, Role::Exit],
+        &[Feature::Errands],
+        smelt,
+    )
+    .ticks(8, 14),
 ];
-
-fn becomes(stype: Part) -> Effect {
-    Effect::TransformTo { stype, kill_second: false }
-}
 
 /// Every parcel goes to any address.
 fn deliver_all(draft: &mut Draft, _: &mut Sampler) {
@@ -41,13 +32,9 @@ fn deliver_all(draft: &mut Draft, _: &mut Sampler) {
     let address = draft.place(Role::Address, SpriteClass::Immovable, Body::Spot, &[]);
     let laden = draft.hero_state("laden");
     draft.scored(Phase::Take, HERO, &[parcel], Effect::TransformTo { stype: laden, kill_second: true }, 1);
-    draft.scored(Phase::Take, laden, &[address], becomes(HERO), 4);
+    draft.scored(Phase::Take, laden, &[address], Effect::becomes(HERO), 4);
     draft.win_without(&[parcel, laden]);
-    draft.goal = format!(
-        "bring every {} to the {}, one at a time",
-        draft.spaced_name(parcel),
-        draft.spaced_name(address)
-    );
+    draft.goal = draft.phrase("bring every <name> to the <name>, one at a time", &[parcel, address]);
 }
 
 /// Every address needs a parcel, from an unlimited stock.
@@ -55,17 +42,16 @@ fn deliver_each(draft: &mut Draft, _: &mut Sampler) {
     let stock = draft.place(Role::Parcel, SpriteClass::Immovable, Body::Spot, &[]);
     let address = draft.place(Role::Address, SpriteClass::Immovable, Body::Spot, &[]);
     let laden = draft.hero_state("laden");
-    draft.rule(Phase::Take, HERO, &[stock], becomes(laden));
+    draft.rule(Phase::Take, HERO, &[stock], Effect::becomes(laden));
     delivered(draft, laden, address);
     draft.win_without(&[address]);
-    draft.goal =
-        format!("bring {} to every {}, one at a time", draft.with_article(stock), draft.spaced_name(address));
+    draft.goal = draft.phrase("bring <a name> to every <name>, one at a time", &[stock, address]);
 }
 
 /// Delivering uses up both the load and the address.
 fn delivered(draft: &mut Draft, laden: Part, address: Part) {
     draft.scored(Phase::Take, address, &[laden], Effect::KillSprite, 5);
-    draft.rule(Phase::Take, laden, &[address], becomes(HERO));
+    draft.rule(Phase::Take, laden, &[address], Effect::becomes(HERO));
 }
 
 /// Raw material is picked up, processed and delivered to an address.
@@ -75,15 +61,13 @@ fn craft(draft: &mut Draft, _: &mut Sampler) {
     let address = draft.place(Role::Address, SpriteClass::Immovable, Body::Spot, &[]);
     let laden = draft.hero_state("laden");
     let ready = draft.hero_state("ready");
-    draft.rule(Phase::Take, HERO, &[ore], becomes(laden));
-    draft.scored(Phase::Take, laden, &[forge], becomes(ready), 2);
+    draft.rule(Phase::Take, HERO, &[ore], Effect::becomes(laden));
+    draft.scored(Phase::Take, laden, &[forge], Effect::becomes(ready), 2);
     delivered(draft, ready, address);
     draft.win_without(&[address]);
-    draft.goal = format!(
-        "load up at the {}, work it at the {} and serve every {}",
-        draft.spaced_name(ore),
-        draft.spaced_name(forge),
-        draft.spaced_name(address)
+    draft.goal = draft.phrase(
+        "load up at the <name>, work it at the <name> and serve every <name>",
+        &[ore, forge, address],
     );
 }
 
@@ -104,18 +88,16 @@ fn smelt(draft: &mut Draft, sampler: &mut Sampler) {
     let open = Effect::KillIfOtherHasMore { resource: ingot, limit: price, subtract: false };
     draft.scored(Phase::Open, exit, &[AVATAR], open, 10);
     draft.win_without(&[exit]);
-    draft.goal = format!(
-        "make {} {} at the {} and hand them in at the {}",
-        english::number(price),
-        draft.plural(ingot),
-        draft.spaced_name(forge),
-        draft.spaced_name(exit)
+    draft.goal = draft.phrase(
+        &format!("make {} <names> at the <name> and hand them in at the <name>", english::number(price)),
+        &[ingot, forge, exit],
     );
-    let clause = format!(
-        "each takes {} from the {}, and you can carry {}",
-        if cost == 1 { "one load".to_owned() } else { format!("{} loads", english::number(cost)) },
-        draft.spaced_name(ore),
-        english::number(carry)
+    draft.add_fact(
+        &format!(
+            "each takes {} from the <name>, and you can carry {}",
+            if cost == 1 { "one load".to_owned() } else { format!("{} loads", english::number(cost)) },
+            english::number(carry)
+        ),
+        &[ore],
     );
-    draft.add_fact(clause);
 }

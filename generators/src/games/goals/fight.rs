@@ -6,7 +6,7 @@ use crate::games::draft::{AVATAR, Draft, HERO, Harm, Part, Phase, Value, Weapon,
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::kind::Kind;
-use crate::games::pattern::{Feature, Goal, Pattern};
+use crate::games::pattern::{Build, Feature, Goal, Roles};
 use crate::games::role::Role;
 use crate::games::threats;
 use engine::{Sampler, SpriteClass};
@@ -21,57 +21,36 @@ pub(super) const GOALS: &[Goal] = &[
     hunt("goal/hunt-chasers", &[Role::Chaser], hunt_chasers),
     hunt("goal/raze-strays", &[Role::Nest, Role::Wanderer], raze_strays),
     hunt("goal/raze-chasers", &[Role::Nest, Role::Chaser], raze_chasers),
-    Goal {
-        kind: Kind::Shooter,
-        ..hunt("goal/trophies", &[Role::Nest, Role::Wanderer, Role::Trophy, Role::Exit], trophies)
-    },
-    Goal {
-        hero: &[Feature::Row, Feature::Armed],
-        threats: (0, 0),
-        obstacles: (0, 0),
-        ..goal(
-            "goal/gallery",
-            Kind::Shooter,
-            &[Role::Bomber, Role::Drop, Role::Patroller, Role::Cover],
-            HUNT,
-            gallery,
-        )
-    },
-    Goal {
-        hero: &[Feature::Four, Feature::Blasts],
-        threats: (1, 2),
-        obstacles: (0, 0),
-        ..goal("goal/demolish", Kind::Demolition, &[Role::Idol, Role::Soil], &[Feature::Ruins], demolish)
-    },
-    Goal {
-        threats: (0, 1),
-        pattern: Pattern {
-            bars: &[Feature::Armed, Feature::Wards, Feature::Health],
-            ..goal("goal/feast", Kind::Lure, &[Role::Chaser, Role::Bush, Role::Berry], FEAST, feast).pattern
-        },
-        ..goal("goal/feast", Kind::Lure, &[], &[], feast)
-    },
+    hunt("goal/trophies", &[Role::Nest, Role::Wanderer, Role::Trophy, Role::Exit], trophies),
+    goal(
+        "goal/gallery",
+        Kind::Shooter,
+        &[Role::Bomber, Role::Drop, Role::Patroller, Role::Cover],
+        HUNT,
+        gallery,
+    )
+    .hero(&[Feature::Row, Feature::Armed])
+    .threats(0, 0)
+    .obstacles(0, 0),
+    goal("goal/demolish", Kind::Demolition, &[Role::Idol, Role::Soil], &[Feature::Ruins], demolish)
+        .hero(&[Feature::Four, Feature::Blasts])
+        .obstacles(0, 0),
+    goal("goal/feast", Kind::Lure, &[Role::Chaser, Role::Bush, Role::Berry], FEAST, feast)
+        .threats(0, 1)
+        .bars(&[Feature::Armed, Feature::Wards, Feature::Health]),
     lure("goal/lure", &[Role::Chaser, Role::Trap], lure_placed),
     lure("goal/lure-all", &[Role::Nest, Role::Chaser, Role::Trap], lure_spawned),
 ];
 
-const fn hunt(name: &'static str, roles: &'static [Role], build: fn(&mut Draft, &mut Sampler)) -> Goal {
-    let goal = goal(name, Kind::Shooter, roles, HUNT, build);
-    Goal {
-        hero: &[Feature::Four, Feature::Strikes],
-        threats: (0, 1),
-        pattern: Pattern { bars: &[Feature::Scarce], ..goal.pattern },
-        ..goal
-    }
+const fn hunt(name: &'static str, roles: Roles, build: Build) -> Goal {
+    goal(name, Kind::Shooter, roles, HUNT, build)
+        .hero(&[Feature::Four, Feature::Strikes])
+        .threats(0, 1)
+        .bars(&[Feature::Scarce])
 }
 
-const fn lure(name: &'static str, roles: &'static [Role], build: fn(&mut Draft, &mut Sampler)) -> Goal {
-    let goal = goal(name, Kind::Lure, roles, HUNT, build);
-    Goal {
-        threats: (0, 1),
-        pattern: Pattern { bars: &[Feature::Armed, Feature::Wards], ..goal.pattern },
-        ..goal
-    }
+const fn lure(name: &'static str, roles: Roles, build: Build) -> Goal {
+    goal(name, Kind::Lure, roles, HUNT, build).threats(0, 1).bars(&[Feature::Armed, Feature::Wards])
 }
 
 /// Foes to be hunted: they harm the hero by touch, and survive it.
@@ -84,7 +63,7 @@ fn hunt_strays(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
     quarry(draft, foe, 3);
     draft.win_without(&[foe]);
-    draft.goal = format!("strike down every {}", draft.spaced_name(foe));
+    draft.goal = draft.phrase("strike down every <name>", &[foe]);
 }
 
 fn hunt_both(draft: &mut Draft, sampler: &mut Sampler) {
@@ -95,16 +74,15 @@ fn hunt_both(draft: &mut Draft, sampler: &mut Sampler) {
     quarry(draft, stray, 2);
     quarry(draft, guard, 4);
     draft.win_without(&[stray, guard]);
-    draft.goal =
-        format!("strike down every {} and every {}", draft.spaced_name(stray), draft.spaced_name(guard));
+    draft.goal = draft.phrase("strike down every <name> and every <name>", &[stray, guard]);
 }
 
 fn hunt_chasers(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::pursuing(AVATAR, sampler);
-    let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let foe =
+        draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     quarry(draft, foe, 3);
     draft.win_without(&[foe]);
-    draft.goal = format!("strike down every {} that is after you", draft.spaced_name(foe));
+    draft.goal = draft.phrase("strike down every <name> that is after you", &[foe]);
 }
 
 fn raze_strays(draft: &mut Draft, sampler: &mut Sampler) {
@@ -113,8 +91,8 @@ fn raze_strays(draft: &mut Draft, sampler: &mut Sampler) {
 }
 
 fn raze_chasers(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::pursuing(AVATAR, sampler);
-    let foe = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let foe =
+        draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     raze(draft, sampler, foe);
 }
 
@@ -125,9 +103,8 @@ fn raze(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
     draft.prey(foe, 1);
     draft.prey(nest, 5);
     draft.win_without(&[nest]);
-    draft.goal = format!("destroy every {}", draft.spaced_name(nest));
-    let clause = format!("{} keep coming out of them", draft.plural(foe));
-    draft.add_fact(clause);
+    draft.goal = draft.phrase("destroy every <name>", &[nest]);
+    draft.add_fact("<names> keep coming out of them", &[foe]);
 }
 
 fn trophies(draft: &mut Draft, sampler: &mut Sampler) {
@@ -143,15 +120,11 @@ fn trophies(draft: &mut Draft, sampler: &mut Sampler) {
     let open = Effect::KillIfOtherHasMore { resource: trophy, limit: price, subtract: false };
     draft.scored(Phase::Open, exit, &[AVATAR], open, 10);
     draft.win_without(&[exit]);
-    draft.goal = format!(
-        "win {} {} from {} and show them at the {}",
-        english::number(price),
-        draft.plural(trophy),
-        draft.plural(foe),
-        draft.spaced_name(exit)
+    draft.goal = draft.phrase(
+        &format!("win {} <names> from <names> and show them at the <name>", english::number(price)),
+        &[trophy, foe, exit],
     );
-    let clause = format!("{} come out of every {}", draft.plural(foe), draft.spaced_name(nest));
-    draft.add_fact(clause);
+    draft.add_fact("<names> come out of every <name>", &[foe, nest]);
 }
 
 /// Targets above, some of which drop things; sometimes with cover below.
@@ -165,8 +138,7 @@ fn gallery(draft: &mut Draft, sampler: &mut Sampler) {
         draft.prey(scout, 4);
         targets.push(scout);
     }
-    let clause = format!("{} drop {}", draft.plural(bomber), draft.plural(drop));
-    draft.add_fact(clause);
+    draft.add_fact("<names> drop <names>", &[bomber, drop]);
     if sampler.ratio(1, 2) {
         let cover = draft.place(Role::Cover, SpriteClass::Immovable, Body::Solid, &[]);
         draft.mark_handled(drop, cover);
@@ -174,13 +146,12 @@ fn gallery(draft: &mut Draft, sampler: &mut Sampler) {
         if let Some(Weapon::Bolt(_)) = draft.weapon {
             draft.prey(cover, 0);
         }
-        let clause = format!("every {} stops one", draft.spaced_name(cover));
-        draft.add_fact(clause);
+        draft.add_fact("every <name> stops one", &[cover]);
     }
     draft.win_without(&targets);
     let names: Vec<String> =
         targets.iter().map(|&target| format!("every {}", draft.spaced_name(target))).collect();
-    draft.goal = format!("bring down {}", english::series(&names));
+    draft.goal = draft.phrase(&format!("bring down {}", english::series(&names)), &[]);
 }
 
 fn demolish(draft: &mut Draft, sampler: &mut Sampler) {
@@ -189,28 +160,26 @@ fn demolish(draft: &mut Draft, sampler: &mut Sampler) {
     if sampler.ratio(2, 3) {
         let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Solid, &[]);
         draft.prey(soil, 0);
-        let clause = format!("{} is blown away too", draft.spaced_name(soil));
-        draft.add_fact(clause);
+        draft.add_fact("<name> is blown away too", &[soil]);
     }
     draft.win_without(&[idol]);
-    draft.goal = format!("blow up every {}", draft.spaced_name(idol));
+    draft.goal = draft.phrase("blow up every <name>", &[idol]);
 }
 
 fn lure_placed(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::pursuing(AVATAR, sampler);
-    let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let foe =
+        draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     lure_into(draft, foe, &[foe]);
 }
 
 /// Nests spawn a few more.
 fn lure_spawned(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::pursuing(AVATAR, sampler);
-    let foe = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let foe =
+        draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     let total = draw(sampler, 2, 3);
     let nest = threats::nest(draft, sampler, foe, total);
     lure_into(draft, foe, &[nest, foe]);
-    let clause = format!("{} of them come out of every {}", english::number(total), draft.spaced_name(nest));
-    draft.add_fact(clause);
+    draft.add_fact(&format!("{} of them come out of every <name>", english::number(total)), &[nest]);
 }
 
 /// The hero is unarmed and can only lure them.
@@ -220,15 +189,14 @@ fn lure_into(draft: &mut Draft, foe: Part, all: &[Part]) {
     draft.harm(foe, Harm::Lasting);
     draft.harm(trap, Harm::Lasting);
     draft.win_without(all);
-    draft.goal = format!("lead every {} into {}", draft.spaced_name(foe), draft.with_article(trap));
-    let clause = format!("{} give chase, and {} harm all alike", draft.plural(foe), draft.plural(trap));
-    draft.add_fact(clause);
+    draft.goal = draft.phrase("lead every <name> into <a name>", &[foe, trap]);
+    draft.add_fact("<names> give chase, and <names> harm all alike", &[foe, trap]);
 }
 
 /// One berry gives strength for one catch: until then the hero is the prey.
 fn feast(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::pursuing(AVATAR, sampler);
-    let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let foe =
+        draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     let berry =
         draft.spawn(Role::Berry, SpriteClass::Immovable, Body::Item, &[("singleton", Value::Flag(true))]);
     let params = [("stype", Value::Part(berry)), ("cooldown", Value::Count(draw(sampler, 6, 12)))];
@@ -239,15 +207,12 @@ fn feast(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Strike, foe, &[bold], Effect::KillSprite, 4);
     // In this order: a hero that has just made a catch is not harmed by it.
     draft.scored(Phase::Harm, HERO, &[foe], Effect::KillSprite, -2);
-    draft.rule(Phase::Harm, bold, &[foe], Effect::TransformTo { stype: HERO, kill_second: false });
+    draft.rule(Phase::Harm, bold, &[foe], Effect::becomes(HERO));
     draft.lose_without(AVATAR);
     draft.win_without(&[foe]);
-    draft.goal = format!(
-        "eat {} from the {} and catch one {} with each, until none is left",
-        draft.plural(berry),
-        draft.spaced_name(bush),
-        draft.spaced_name(foe)
+    draft.goal = draft.phrase(
+        "eat <names> from the <name> and catch one <name> with each, until none is left",
+        &[berry, bush, foe],
     );
-    let clause = format!("{} give chase, and whoever has not eaten is their prey", draft.plural(foe));
-    draft.add_fact(clause);
+    draft.add_fact("<names> give chase, and whoever has not eaten is their prey", &[foe]);
 }

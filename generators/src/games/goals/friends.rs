@@ -6,7 +6,7 @@ use crate::games::draft::{AVATAR, Draft, Part, Phase, Value, draw};
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::kind::Kind;
-use crate::games::pattern::{Feature, Goal, Pattern};
+use crate::games::pattern::{Build, Feature, Features, Goal, Pattern, Roles};
 use crate::games::role::Role;
 use crate::games::threats;
 use engine::{Sampler, SpriteClass};
@@ -15,39 +15,33 @@ const FOLLOWED: &[Feature] = &[Feature::Movers, Feature::Followers];
 const HUNTED: &[Feature] = &[Feature::Movers, Feature::Followers, Feature::Prey];
 
 pub(super) const GOALS: &[Goal] = &[
-    friends("goal/catch", Kind::Rescue, &[Role::Friend], FOLLOWED, (1, 2), catch),
-    friends("goal/catch-first", Kind::Rescue, &[Role::Friend, Role::Chaser], HUNTED, (0, 1), catch_first),
-    friends("goal/escort", Kind::Rescue, &[Role::Friend, Role::Haven], FOLLOWED, (1, 2), escort),
+    friends("goal/catch", Kind::Rescue, &[Role::Friend], FOLLOWED, catch),
+    friends("goal/catch-first", Kind::Rescue, &[Role::Friend, Role::Chaser], HUNTED, catch_first)
+        .threats(0, 1),
+    friends("goal/escort", Kind::Rescue, &[Role::Friend, Role::Haven], FOLLOWED, escort),
     friends(
         "goal/escort-hunted",
         Kind::Rescue,
         &[Role::Friend, Role::Haven, Role::Chaser],
         HUNTED,
-        (0, 1),
         escort_hunted,
-    ),
-    friends("goal/herd", Kind::Herding, &[Role::Friend, Role::Haven], FOLLOWED, (0, 1), herd),
+    )
+    .threats(0, 1),
+    friends("goal/herd", Kind::Herding, &[Role::Friend, Role::Haven], FOLLOWED, herd).threats(0, 1),
     friends(
         "goal/herd-hunted",
         Kind::Herding,
         &[Role::Friend, Role::Haven, Role::Chaser],
         HUNTED,
-        (0, 1),
         herd_hunted,
-    ),
-    friends("goal/wake", Kind::Rescue, &[Role::Friend, Role::Snuffer], FOLLOWED, (0, 1), wake),
+    )
+    .threats(0, 1),
+    friends("goal/wake", Kind::Rescue, &[Role::Friend, Role::Snuffer], FOLLOWED, wake).threats(0, 1),
 ];
 
-const fn friends(
-    name: &'static str,
-    kind: Kind,
-    roles: &'static [Role],
-    gives: &'static [Feature],
-    threats: (usize, usize),
-    build: fn(&mut Draft, &mut Sampler),
-) -> Goal {
-    let goal = goal(name, kind, roles, gives, build);
-    Goal { threats, pattern: Pattern { weight: 3, bars: &[Feature::Crates], ..goal.pattern }, ..goal }
+const fn friends(name: &'static str, kind: Kind, roles: Roles, gives: Features, build: Build) -> Goal {
+    let goal = goal(name, kind, roles, gives, build).bars(&[Feature::Crates]);
+    Goal { pattern: Pattern { weight: 3, ..goal.pattern }, ..goal }
 }
 
 /// A friend that moves randomly or flees from the hero.
@@ -69,8 +63,7 @@ fn driven(draft: &mut Draft, sampler: &mut Sampler) -> Part {
         [("cooldown", Value::Count(draw(sampler, 10, 16))), ("cons", Value::Count(draw(sampler, 0, 2)))];
     let friend = draft.place(Role::Friend, SpriteClass::RandomNPC, Body::Walker, &params);
     draft.rule(Phase::Push, friend, &[AVATAR], Effect::BounceForward);
-    let clause = format!("{} stray about, and go where you nudge them", draft.plural(friend));
-    draft.add_fact(clause);
+    draft.add_fact("<names> stray about, and go where you nudge them", &[friend]);
     friend
 }
 
@@ -86,23 +79,19 @@ fn hunter(draft: &mut Draft, sampler: &mut Sampler, friend: Part) {
     let hunter = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
     let lost = draft.state(friend, "lost", SpriteClass::Immovable, Body::Flat, &[]);
     let limit = draw(sampler, 1, 2);
-    let lose = Effect::TransformTo { stype: lost, kill_second: false };
-    draft.scored(Phase::Meet, friend, &[hunter], lose, -3);
+    draft.scored(Phase::Meet, friend, &[hunter], Effect::becomes(lost), -3);
     draft.prey(hunter, 2);
     draft.lose_with(lost, limit);
-    let clause = format!(
-        "{} are after every {}, and {} lost is too many",
-        draft.plural(hunter),
-        draft.spaced_name(friend),
-        english::number(limit)
+    draft.add_fact(
+        &format!("<names> are after every <name>, and {} lost is too many", english::number(limit)),
+        &[hunter, friend],
     );
-    draft.add_fact(clause);
 }
 
 fn caught(draft: &mut Draft, friend: Part) {
     draft.scored(Phase::Take, friend, &[AVATAR], Effect::KillSprite, 3);
     draft.win_without(&[friend]);
-    draft.goal = format!("catch every {} to save it", draft.spaced_name(friend));
+    draft.goal = draft.phrase("catch every <name> to save it", &[friend]);
 }
 
 fn catch(draft: &mut Draft, sampler: &mut Sampler) {
@@ -127,28 +116,27 @@ fn housed(draft: &mut Draft, friend: Part) -> Part {
 fn escort(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = follower(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("lead every {} to the {}", draft.spaced_name(friend), draft.spaced_name(haven));
-    let clause = format!("{} follow you wherever you go", draft.plural(friend));
-    draft.add_fact(clause);
+    draft.goal = draft.phrase("lead every <name> to the <name>", &[friend, haven]);
+    draft.add_fact("<names> follow you wherever you go", &[friend]);
 }
 
 fn escort_hunted(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = follower(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("lead every {} to the {}", draft.spaced_name(friend), draft.spaced_name(haven));
+    draft.goal = draft.phrase("lead every <name> to the <name>", &[friend, haven]);
     hunter(draft, sampler, friend);
 }
 
 fn herd(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = driven(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("drive every {} into the {}", draft.spaced_name(friend), draft.spaced_name(haven));
+    draft.goal = draft.phrase("drive every <name> into the <name>", &[friend, haven]);
 }
 
 fn herd_hunted(draft: &mut Draft, sampler: &mut Sampler) {
     let friend = driven(draft, sampler);
     let haven = housed(draft, friend);
-    draft.goal = format!("drive every {} into the {}", draft.spaced_name(friend), draft.spaced_name(haven));
+    draft.goal = draft.phrase("drive every <name> into the <name>", &[friend, haven]);
     hunter(draft, sampler, friend);
 }
 
@@ -157,14 +145,11 @@ fn wake(draft: &mut Draft, sampler: &mut Sampler) {
     let asleep = draft.place(Role::Friend, SpriteClass::Immovable, Body::Spot, &[]);
     let params = [("stype", Value::Part(AVATAR)), ("cooldown", Value::Count(draw(sampler, 2, 3)))];
     let awake = draft.state(asleep, "woken", SpriteClass::Chaser, Body::Walker, &params);
-    let params = threats::straying(sampler);
-    let lulling = draft.place(Role::Snuffer, SpriteClass::RandomNPC, Body::Walker, &params);
-    let turn = |stype| Effect::TransformTo { stype, kill_second: false };
-    draft.scored(Phase::Meet, awake, &[lulling], turn(asleep), -2);
-    draft.scored(Phase::Take, asleep, &[AVATAR], turn(awake), 2);
+    let lulling =
+        draft.place(Role::Snuffer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
+    draft.scored(Phase::Meet, awake, &[lulling], Effect::becomes(asleep), -2);
+    draft.scored(Phase::Take, asleep, &[AVATAR], Effect::becomes(awake), 2);
     draft.win_without(&[asleep]);
-    draft.goal = format!("have every {} awake at once", draft.spaced_name(asleep));
-    let clause =
-        format!("those that you wake follow you, and {} send them to sleep again", draft.plural(lulling));
-    draft.add_fact(clause);
+    draft.goal = draft.phrase("have every <name> awake at once", &[asleep]);
+    draft.add_fact("those that you wake follow you, and <names> send them to sleep again", &[lulling]);
 }

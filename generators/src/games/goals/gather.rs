@@ -16,26 +16,22 @@ pub(super) const GOALS: &[Goal] = &[
     goal("goal/gather", Kind::CollectAndAvoid, &[Role::Gem], &[], gather),
     goal("goal/gather-both", Kind::CollectAndAvoid, &[Role::Gem, Role::Charm], &[], gather_both),
     goal("goal/toll", Kind::CollectAndAvoid, &[Role::Gem, Role::Exit], &[], toll),
-    Goal {
-        threats: (0, 1),
-        ..goal(
-            "goal/forage",
-            Kind::Crossing,
-            &[Role::Gem, Role::Patroller, Role::Rover],
-            &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Lanes],
-            forage,
-        )
-    },
-    Goal {
-        threats: (0, 1),
-        ..goal(
-            "goal/rivals",
-            Kind::CollectAndAvoid,
-            &[Role::Gem, Role::Pest],
-            &[Feature::Movers, Feature::Prey],
-            rivals,
-        )
-    },
+    goal(
+        "goal/forage",
+        Kind::Crossing,
+        &[Role::Gem, Role::Patroller, Role::Rover],
+        &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Lanes],
+        forage,
+    )
+    .threats(0, 1),
+    goal(
+        "goal/rivals",
+        Kind::CollectAndAvoid,
+        &[Role::Gem, Role::Pest],
+        &[Feature::Movers, Feature::Prey],
+        rivals,
+    )
+    .threats(0, 1),
 ];
 
 /// Something to pick up by touching it.
@@ -48,14 +44,14 @@ fn pickings(draft: &mut Draft, role: Role, score: i32) -> Part {
 fn gather(draft: &mut Draft, _: &mut Sampler) {
     let gem = pickings(draft, Role::Gem, 2);
     draft.win_without(&[gem]);
-    draft.goal = format!("gather every {}", draft.spaced_name(gem));
+    draft.goal = draft.phrase("gather every <name>", &[gem]);
 }
 
 fn gather_both(draft: &mut Draft, _: &mut Sampler) {
     let gem = pickings(draft, Role::Gem, 1);
     let charm = pickings(draft, Role::Charm, 3);
     draft.win_without(&[gem, charm]);
-    draft.goal = format!("gather every {} and every {}", draft.spaced_name(gem), draft.spaced_name(charm));
+    draft.goal = draft.phrase("gather every <name> and every <name>", &[gem, charm]);
 }
 
 fn toll(draft: &mut Draft, sampler: &mut Sampler) {
@@ -67,11 +63,9 @@ fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     let open = Effect::KillIfOtherHasMore { resource: gem, limit: price, subtract: false };
     draft.scored(Phase::Open, exit, &[AVATAR], open, 10);
     draft.win_without(&[exit]);
-    draft.goal = format!(
-        "gather {} {}, the price of leaving through the {}",
-        english::number(price),
-        draft.plural(gem),
-        draft.spaced_name(exit)
+    draft.goal = draft.phrase(
+        &format!("gather {} <names>, the price of leaving through the <name>", english::number(price)),
+        &[gem, exit],
     );
 }
 
@@ -79,26 +73,22 @@ fn forage(draft: &mut Draft, sampler: &mut Sampler) {
     lanes(draft, sampler);
     let gem = pickings(draft, Role::Gem, 2);
     draft.win_without(&[gem]);
-    draft.goal = format!("gather every {} between the lanes", draft.spaced_name(gem));
+    draft.goal = draft.phrase("gather every <name> between the lanes", &[gem]);
 }
 
 /// Rivals want the same things: the game is lost when they have spoiled too many.
 fn rivals(draft: &mut Draft, sampler: &mut Sampler) {
     let gem = pickings(draft, Role::Gem, 2);
-    let params = threats::pursuing(gem, sampler);
-    let rival = draft.place(Role::Pest, SpriteClass::Chaser, Body::Walker, &params);
+    let rival = draft.place(Role::Pest, SpriteClass::Chaser, Body::Walker, &threats::pursuing(gem, sampler));
     let taken = draft.state(gem, "gnawed", SpriteClass::Immovable, Body::Flat, &[]);
-    let spoil = Effect::TransformTo { stype: taken, kill_second: false };
-    draft.scored(Phase::Meet, gem, &[rival], spoil, -2);
+    draft.scored(Phase::Meet, gem, &[rival], Effect::becomes(taken), -2);
     draft.prey(rival, 2);
     let limit = draw(sampler, 2, 4);
     draft.lose_with(taken, limit);
     draft.win_without(&[gem]);
-    draft.goal = format!(
-        "gather every {} before {} of them are spoiled",
-        draft.spaced_name(gem),
-        english::number(limit)
+    draft.goal = draft.phrase(
+        &format!("gather every <name> before {} of them are spoiled", english::number(limit)),
+        &[gem],
     );
-    let clause = format!("{} spoil every {} that they reach", draft.plural(rival), draft.spaced_name(gem));
-    draft.add_fact(clause);
+    draft.add_fact("<names> spoil every <name> that they reach", &[rival, gem]);
 }

@@ -3,11 +3,11 @@
 use super::goal;
 use crate::games::body::Body;
 use crate::games::boons;
-use crate::games::draft::{AVATAR, Draft, Ending, Harm, Part, Phase, Stamina, Value, WALL, draw};
+use crate::games::draft::{AVATAR, Draft, Ending, Harm, Part, Phase, Value, WALL, draw};
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::kind::Kind;
-use crate::games::pattern::{Feature, Goal, Pattern};
+use crate::games::pattern::{Feature, Goal};
 use crate::games::role::Role;
 use crate::games::threats;
 use engine::{Sampler, SpriteClass};
@@ -17,101 +17,61 @@ const SIEGE: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey];
 const STORM: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Health];
 
 pub(super) const GOALS: &[Goal] = &[
-    Goal {
-        ticks: (6, 10),
-        obstacles: (0, 1),
-        ..goal(
-            "goal/survive",
-            Kind::Survival,
-            &[Role::Nest, Role::Chaser, Role::Bush, Role::Berry],
-            SIEGE,
-            survive,
-        )
-    },
-    Goal {
-        hero: &[Feature::Row],
-        ticks: (8, 12),
-        threats: (0, 0),
-        obstacles: (0, 0),
-        pattern: Pattern {
-            bars: &[Feature::Armed],
-            ..goal(
-                "goal/dodge",
-                Kind::Survival,
-                &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit],
-                STORM,
-                dodge,
-            )
-            .pattern
-        },
-        ..goal("goal/dodge", Kind::Survival, &[], &[], dodge)
-    },
-    Goal {
-        hero: &[Feature::Four, Feature::Strikes],
-        threats: (0, 1),
-        ..goal(
-            "goal/defend",
-            Kind::Defence,
-            &[Role::Crop, Role::Pest, Role::Nest],
-            &[Feature::Movers, Feature::Prey],
-            defend,
-        )
-    },
-    Goal {
-        hero: &[Feature::Row],
-        threats: (0, 1),
-        obstacles: (0, 0),
-        pattern: Pattern {
-            bars: &[Feature::Armed],
-            ..goal(
-                "goal/catch-falling",
-                Kind::Catching,
-                &[Role::Tree, Role::Fruit],
-                &[Feature::Movers],
-                catch,
-            )
-            .pattern
-        },
-        ..goal("goal/catch-falling", Kind::Catching, &[], &[], catch)
-    },
-    Goal {
-        hero: &[Feature::Column],
-        ticks: (8, 12),
-        threats: (0, 0),
-        obstacles: (0, 0),
-        ..goal(
-            "goal/headwind",
-            Kind::Survival,
-            &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit],
-            STORM,
-            headwind,
-        )
-    },
-    Goal {
-        hero: &[Feature::Row, Feature::Armed],
-        threats: (0, 1),
-        obstacles: (0, 0),
-        ..goal(
-            "goal/waves",
-            Kind::Defence,
-            &[Role::Tree, Role::Pest],
-            &[Feature::Movers, Feature::Prey],
-            waves,
-        )
-    },
+    goal(
+        "goal/survive",
+        Kind::Survival,
+        &[Role::Nest, Role::Chaser, Role::Bush, Role::Berry],
+        SIEGE,
+        survive,
+    )
+    .ticks(6, 10)
+    .obstacles(0, 1),
+    goal("goal/dodge", Kind::Survival, &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit], STORM, dodge)
+        .hero(&[Feature::Row])
+        .ticks(8, 12)
+        .threats(0, 0)
+        .obstacles(0, 0)
+        .bars(&[Feature::Armed]),
+    goal(
+        "goal/defend",
+        Kind::Defence,
+        &[Role::Crop, Role::Pest, Role::Nest],
+        &[Feature::Movers, Feature::Prey],
+        defend,
+    )
+    .hero(&[Feature::Four, Feature::Strikes])
+    .threats(0, 1),
+    goal("goal/catch-falling", Kind::Catching, &[Role::Tree, Role::Fruit], &[Feature::Movers], catch)
+        .hero(&[Feature::Row])
+        .threats(0, 1)
+        .obstacles(0, 0)
+        .bars(&[Feature::Armed]),
+    goal(
+        "goal/headwind",
+        Kind::Survival,
+        &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit],
+        STORM,
+        headwind,
+    )
+    .hero(&[Feature::Column])
+    .ticks(8, 12)
+    .threats(0, 0)
+    .obstacles(0, 0),
+    goal("goal/waves", Kind::Defence, &[Role::Tree, Role::Pest], &[Feature::Movers, Feature::Prey], waves)
+        .hero(&[Feature::Row, Feature::Armed])
+        .threats(0, 1)
+        .obstacles(0, 0),
 ];
 
 fn survive(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::pursuing(AVATAR, sampler);
-    let foe = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let foe =
+        draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     let nest = threats::nest(draft, sampler, foe, 0);
     draft.harm(foe, Harm::Spent);
     draft.prey(foe, 2);
     boons::bush(draft, sampler);
     outlast(draft);
-    let clause =
-        format!("{} come out of every {} and give chase", draft.plural(foe), draft.spaced_name(nest));
-    draft.add_fact(clause);
+    draft.add_fact("<names> come out of every <name> and give chase", &[foe, nest]);
 }
 
 /// Makes reaching the time limit a win: the limit itself is set later.
@@ -143,22 +103,16 @@ fn windfalls(draft: &mut Draft, sampler: &mut Sampler, (bomber, drop): (Part, Pa
     ];
     let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
     let health = draw(sampler, 1, 2);
-    draft.stamina = Stamina::Hearts(health);
-    draft.give(AVATAR, "healthPoints", Value::Count(health));
-    draft.give(AVATAR, "limitHealthPoints", Value::Count(health + 1));
+    draft.hearts(health, health + 1);
     draft.scored(Phase::Take, AVATAR, &[fruit], Effect::AddHealthPointsToMax { value: 1 }, 2);
     outlast(draft);
     let verb = if way == "DOWN" { "drop" } else { "throw" };
     let wounds =
         if health == 1 { "one wound is".into() } else { format!("{} wounds are", english::number(health)) };
-    let clause = format!(
-        "{} {verb} {}, and {wounds} the end, but {} from the {} heal",
-        draft.plural(bomber),
-        draft.plural(drop),
-        draft.plural(fruit),
-        draft.spaced_name(tree)
+    draft.add_fact(
+        &format!("<names> {verb} <names>, and {wounds} the end, but <names> from the <name> heal"),
+        &[bomber, drop, fruit, tree],
     );
-    draft.add_fact(clause);
 }
 
 /// Pests must be shot before they land.
@@ -177,18 +131,17 @@ fn waves(draft: &mut Draft, sampler: &mut Sampler) {
     let limit = draw(sampler, 2, 4);
     draft.prey(pest, 2);
     draft.mark_handled(pest, WALL);
-    let land = Effect::TransformTo { stype: landed, kill_second: false };
-    draft.scored(Phase::Strike, pest, &[WALL], land, -1);
+    draft.scored(Phase::Strike, pest, &[WALL], Effect::becomes(landed), -1);
     draft.lose_with(landed, limit);
     draft.win_without(&[tree, pest]);
-    draft.goal = format!(
-        "shoot down the {} that come from every {}: {} that land are too many",
-        draft.plural(pest),
-        draft.spaced_name(tree),
-        english::number(limit)
+    draft.goal = draft.phrase(
+        &format!(
+            "shoot down the <names> that come from every <name>: {} that land are too many",
+            english::number(limit)
+        ),
+        &[pest, tree],
     );
-    let clause = format!("{} of them come from each", english::number(total));
-    draft.add_fact(clause);
+    draft.add_fact(&format!("{} of them come from each", english::number(total)), &[]);
 }
 
 fn defend(draft: &mut Draft, sampler: &mut Sampler) {
@@ -201,12 +154,12 @@ fn defend(draft: &mut Draft, sampler: &mut Sampler) {
     draft.prey(pest, 2);
     draft.lose_without(crop);
     draft.win_without(&[nest, pest]);
-    draft.goal = format!(
-        "beat off all {} {} that come out of every {} before the last {} is gone",
-        english::number(total),
-        draft.plural(pest),
-        draft.spaced_name(nest),
-        draft.spaced_name(crop)
+    draft.goal = draft.phrase(
+        &format!(
+            "beat off all {} <names> that come out of every <name> before the last <name> is gone",
+            english::number(total)
+        ),
+        &[pest, nest, crop],
     );
 }
 
@@ -225,14 +178,14 @@ fn catch(draft: &mut Draft, sampler: &mut Sampler) {
     let limit = draw(sampler, 2, 4);
     draft.mark_handled(fruit, WALL);
     draft.scored(Phase::Take, fruit, &[AVATAR], Effect::KillSprite, 2);
-    let break_it = Effect::TransformTo { stype: fallen, kill_second: false };
-    draft.scored(Phase::Strike, fruit, &[WALL], break_it, -1);
+    draft.scored(Phase::Strike, fruit, &[WALL], Effect::becomes(fallen), -1);
     draft.lose_with(fallen, limit);
     draft.win_without(&[tree, fruit]);
-    draft.goal = format!(
-        "catch what falls from every {}: {} {} on the ground are too many",
-        draft.spaced_name(tree),
-        english::number(limit),
-        draft.plural(fallen)
+    draft.goal = draft.phrase(
+        &format!(
+            "catch what falls from every <name>: {} <names> on the ground are too many",
+            english::number(limit)
+        ),
+        &[tree, fallen],
     );
 }

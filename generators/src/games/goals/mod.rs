@@ -13,9 +13,9 @@ mod unlock;
 use super::body::Body;
 use super::draft::{Draft, Part};
 use super::kind::Kind;
-use super::pattern::{Feature, Goal, Pattern};
+use super::pattern::{Build, Feature, Features, Goal, Roles, pattern};
 use super::role::Role;
-use engine::{Sampler, SpriteClass};
+use engine::SpriteClass;
 
 /// All goals.
 pub(crate) fn all() -> Vec<&'static Goal> {
@@ -34,15 +34,9 @@ pub(crate) fn all() -> Vec<&'static Goal> {
 }
 
 /// A goal for a hero that moves in four directions, with the usual numbers of other patterns; callers override the rest.
-const fn goal(
-    name: &'static str,
-    kind: Kind,
-    roles: &'static [Role],
-    gives: &'static [Feature],
-    build: fn(&mut Draft, &mut Sampler),
-) -> Goal {
+const fn goal(name: &'static str, kind: Kind, roles: Roles, gives: Features, build: Build) -> Goal {
     Goal {
-        pattern: Pattern { name, weight: 4, roles, gives, needs: &[], bars: &[], build },
+        pattern: pattern(name, 4, roles, gives, build),
         kind,
         hero: &[Feature::Four],
         threats: (1, 2),

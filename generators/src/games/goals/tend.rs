@@ -5,7 +5,7 @@ use crate::games::body::Body;
 use crate::games::draft::{AVATAR, Draft, HERO, Phase, Value, draw};
 use crate::games::effect::Effect;
 use crate::games::kind::Kind;
-use crate::games::pattern::{Feature, Goal, Pattern};
+use crate::games::pattern::{Build, Feature, Features, Goal, Roles};
 use crate::games::role::Role;
 use crate::games::threats;
 use engine::{Sampler, SpriteClass};
@@ -21,33 +21,20 @@ pub(super) const GOALS: &[Goal] = &[
     tending("goal/overrun", &[Role::Plot, Role::Pest], &[Feature::Movers, Feature::Errands], overrun),
 ];
 
-const fn tending(
-    name: &'static str,
-    roles: &'static [Role],
-    gives: &'static [Feature],
-    build: fn(&mut Draft, &mut Sampler),
-) -> Goal {
-    let goal = goal(name, Kind::Tending, roles, gives, build);
-    Goal {
-        pattern: Pattern { bars: &[Feature::Armed], ..goal.pattern },
-        threats: (0, 1),
-        ticks: (6, 14),
-        ..goal
-    }
+const fn tending(name: &'static str, roles: Roles, gives: Features, build: Build) -> Goal {
+    goal(name, Kind::Tending, roles, gives, build).bars(&[Feature::Armed]).threats(0, 1).ticks(6, 14)
 }
 
 fn light(draft: &mut Draft, sampler: &mut Sampler) {
     let lamp = draft.place(Role::Lamp, SpriteClass::Immovable, Body::Spot, &[]);
     let lit = draft.state(lamp, "lit", SpriteClass::Immovable, Body::Spot, &[]);
-    let params = threats::straying(sampler);
-    let snuffer = draft.place(Role::Snuffer, SpriteClass::RandomNPC, Body::Walker, &params);
-    let turn = |stype| Effect::TransformTo { stype, kill_second: false };
-    draft.scored(Phase::Meet, lit, &[snuffer], turn(lamp), -1);
-    draft.scored(Phase::Take, lamp, &[AVATAR], turn(lit), 1);
+    let snuffer =
+        draft.place(Role::Snuffer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
+    draft.scored(Phase::Meet, lit, &[snuffer], Effect::becomes(lamp), -1);
+    draft.scored(Phase::Take, lamp, &[AVATAR], Effect::becomes(lit), 1);
     draft.win_without(&[lamp]);
-    draft.goal = format!("have every {} lit at once", draft.spaced_name(lamp));
-    let clause = format!("{} put them out again", draft.plural(snuffer));
-    draft.add_fact(clause);
+    draft.goal = draft.phrase("have every <name> lit at once", &[lamp]);
+    draft.add_fact("<names> put them out again", &[snuffer]);
 }
 
 fn sow(draft: &mut Draft, sampler: &mut Sampler) {
@@ -62,20 +49,14 @@ fn sow(draft: &mut Draft, sampler: &mut Sampler) {
         draft.place(Role::Pest, SpriteClass::Chaser, Body::Walker, &params)
     };
     let laden = draft.hero_state("laden");
-    let turn = |stype| Effect::TransformTo { stype, kill_second: false };
-    draft.scored(Phase::Meet, sprout, &[pest], turn(plot), -2);
-    draft.rule(Phase::Take, HERO, &[seed], turn(laden));
-    draft.scored(Phase::Take, plot, &[laden], turn(sprout), 2);
-    draft.rule(Phase::Take, laden, &[plot], turn(HERO));
+    draft.scored(Phase::Meet, sprout, &[pest], Effect::becomes(plot), -2);
+    draft.rule(Phase::Take, HERO, &[seed], Effect::becomes(laden));
+    draft.scored(Phase::Take, plot, &[laden], Effect::becomes(sprout), 2);
+    draft.rule(Phase::Take, laden, &[plot], Effect::becomes(HERO));
     draft.win_without(&[plot]);
-    draft.goal = format!(
-        "fetch from the {} until every {} bears {}",
-        draft.spaced_name(seed),
-        draft.spaced_name(plot),
-        draft.with_article(sprout)
-    );
-    let clause = format!("{} undo your work", draft.plural(pest));
-    draft.add_fact(clause);
+    draft.goal =
+        draft.phrase("fetch from the <name> until every <name> bears <a name>", &[seed, plot, sprout]);
+    draft.add_fact("<names> undo your work", &[pest]);
 }
 
 /// The pests spread and must be cleared faster than they spread.
@@ -92,17 +73,12 @@ fn overrun(draft: &mut Draft, sampler: &mut Sampler) {
     let mark_handled = Effect::TransformTo { stype: overrun, kill_second: true };
     draft.scored(Phase::Meet, plot, &[pest], mark_handled, -1);
     draft.scored(Phase::Take, pest, &[AVATAR], Effect::KillSprite, 1);
-    let clear = Effect::TransformTo { stype: plot, kill_second: false };
-    draft.scored(Phase::Take, overrun, &[AVATAR], clear, 3);
+    draft.scored(Phase::Take, overrun, &[AVATAR], Effect::becomes(plot), 3);
     draft.lose_without(plot);
     draft.win_without(&[overrun, pest]);
-    draft.goal = format!(
-        "clear every {} and catch every {} before the last free {} is lost",
-        draft.spaced_name(overrun),
-        draft.spaced_name(pest),
-        draft.spaced_name(plot)
+    draft.goal = draft.phrase(
+        "clear every <name> and catch every <name> before the last free <name> is lost",
+        &[overrun, pest, plot],
     );
-    let clause =
-        format!("{} come out of every {} and overrun others", draft.plural(pest), draft.spaced_name(overrun));
-    draft.add_fact(clause);
+    draft.add_fact("<names> come out of every <name> and overrun others", &[pest, overrun]);
 }

@@ -6,7 +6,7 @@ use crate::games::draft::{AVATAR, Draft, HERO, Harm, Part, Phase, Value, draw};
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::kind::Kind;
-use crate::games::pattern::{Feature, Goal, Pattern};
+use crate::games::pattern::{Build, Feature, Goal, Pattern, Roles};
 use crate::games::role::Role;
 use crate::games::threats;
 use engine::{Sampler, SpriteClass};
@@ -15,23 +15,18 @@ const WARDEN: &[Feature] =
     &[Feature::States, Feature::Movers, Feature::Harm, Feature::Prey, Feature::Precious];
 
 pub(super) const GOALS: &[Goal] = &[
-    Goal {
-        obstacles: (0, 2),
-        ..goal("goal/key", Kind::KeyAndDoor, &[Role::Key, Role::Exit], &[Feature::States], key)
-    },
+    goal("goal/key", Kind::KeyAndDoor, &[Role::Key, Role::Exit], &[Feature::States], key),
     warden("goal/stray-warden", &[Role::Key, Role::Exit, Role::Wanderer], stray_warden),
     warden("goal/keen-warden", &[Role::Key, Role::Exit, Role::Chaser], keen_warden),
     goal("goal/chests", Kind::KeyAndDoor, &[Role::Key, Role::Chest], &[], chests),
 ];
 
-const fn warden(name: &'static str, roles: &'static [Role], build: fn(&mut Draft, &mut Sampler)) -> Goal {
-    let goal = goal(name, Kind::KeyAndDoor, roles, WARDEN, build);
-    Goal {
-        hero: &[Feature::Four, Feature::Strikes],
-        threats: (0, 1),
-        pattern: Pattern { bars: &[Feature::Scarce], weight: 2, ..goal.pattern },
-        ..goal
-    }
+const fn warden(name: &'static str, roles: Roles, build: Build) -> Goal {
+    let goal = goal(name, Kind::KeyAndDoor, roles, WARDEN, build)
+        .hero(&[Feature::Four, Feature::Strikes])
+        .threats(0, 1)
+        .bars(&[Feature::Scarce]);
+    Goal { pattern: Pattern { weight: 2, ..goal.pattern }, ..goal }
 }
 
 /// Adds an exit that only the hero with the key can take.
@@ -48,19 +43,18 @@ fn locked_exit(draft: &mut Draft, key: Part) -> Part {
 fn key(draft: &mut Draft, _: &mut Sampler) {
     let key = draft.place(Role::Key, SpriteClass::Immovable, Body::Item, &[]);
     let exit = locked_exit(draft, key);
-    draft.goal =
-        format!("find the {} and bring it to the {}", draft.spaced_name(key), draft.spaced_name(exit));
+    draft.goal = draft.phrase("find the <name> and bring it to the <name>", &[key, exit]);
 }
 
 fn stray_warden(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::straying(sampler);
-    let warden = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &params);
+    let warden =
+        draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
     robbed(draft, warden);
 }
 
 fn keen_warden(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::pursuing(AVATAR, sampler);
-    let warden = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let warden =
+        draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &threats::pursuing(AVATAR, sampler));
     robbed(draft, warden);
 }
 
@@ -70,12 +64,8 @@ fn robbed(draft: &mut Draft, warden: Part) {
     draft.prey_leaves(warden, key, 3);
     draft.harm(warden, Harm::Lasting);
     let exit = locked_exit(draft, key);
-    draft.goal = format!(
-        "strike down {} for its {}, which opens the {}",
-        draft.with_article(warden),
-        draft.spaced_name(key),
-        draft.spaced_name(exit)
-    );
+    draft.goal =
+        draft.phrase("strike down <a name> for its <name>, which opens the <name>", &[warden, key, exit]);
 }
 
 /// One key opens all chests, or each chest requires several.
@@ -88,14 +78,10 @@ fn chests(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Open, chest, &[AVATAR], open, 4);
     draft.win_without(&[chest]);
     draft.goal = match keys {
-        1 => format!("open every {} with {}", draft.spaced_name(chest), draft.with_article(key)),
+        1 => draft.phrase("open every <name> with <a name>", &[chest, key]),
         _ => {
-            format!(
-                "find {} {} and open every {}",
-                english::number(keys),
-                draft.plural(key),
-                draft.spaced_name(chest)
-            )
+            let text = format!("find {} <names> and open every <name>", english::number(keys));
+            draft.phrase(&text, &[key, chest])
         }
     };
 }

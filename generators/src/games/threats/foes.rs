@@ -2,7 +2,7 @@
 
 use super::{foe_of, patroller, pursuing, straying};
 use crate::games::body::Body;
-use crate::games::draft::{AVATAR, Draft, Harm, Part, Phase, Stamina, Value, draw};
+use crate::games::draft::{AVATAR, Draft, Harm, Part, Phase, Value, draw};
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::role::Role;
@@ -13,8 +13,7 @@ pub(super) fn patrol(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = patroller(draft, Role::Patroller, orientation, draw(sampler, 2, 3));
     foe_of(draft, foe, 2);
     let way = if orientation == "RIGHT" { "to and fro" } else { "up and down" };
-    let clause = format!("{} go {way}", draft.plural(foe));
-    draft.add_motion_clause(foe, clause);
+    draft.add_motion_clause(foe, &format!("<names> go {way}"), &[foe]);
 }
 
 pub(super) fn cross_patrols(draft: &mut Draft, sampler: &mut Sampler) {
@@ -22,30 +21,26 @@ pub(super) fn cross_patrols(draft: &mut Draft, sampler: &mut Sampler) {
     let along = patroller(draft, Role::Rover, "DOWN", draw(sampler, 2, 3));
     foe_of(draft, across, 2);
     foe_of(draft, along, 2);
-    let clause = format!("{} go to and fro, {} up and down", draft.plural(across), draft.plural(along));
-    draft.add_fact(clause);
+    draft.add_fact("<names> go to and fro, <names> up and down", &[across, along]);
 }
 
 pub(super) fn stray(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
     foe_of(draft, foe, 2);
-    let clause = format!("{} stray about", draft.plural(foe));
-    draft.add_motion_clause(foe, clause);
+    draft.add_motion_clause(foe, "<names> stray about", &[foe]);
 }
 
 pub(super) fn chase(draft: &mut Draft, sampler: &mut Sampler) {
     let params = pursuing(AVATAR, sampler);
     let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
     foe_of(draft, foe, 3);
-    let clause = format!("{} give chase", draft.plural(foe));
-    draft.add_motion_clause(foe, clause);
+    draft.add_motion_clause(foe, "<names> give chase", &[foe]);
 }
 
 pub(super) fn sentry(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Chaser, SpriteClass::LOSChaser, Body::Walker, &pursuing(AVATAR, sampler));
     foe_of(draft, foe, 3);
-    let clause = format!("{} come after you once they see you", draft.plural(foe));
-    draft.add_motion_clause(foe, clause);
+    draft.add_motion_clause(foe, "<names> come after you once they see you", &[foe]);
 }
 
 /// Moves straight on, and turns in a random direction at obstacles.
@@ -56,8 +51,7 @@ pub(super) fn drift(draft: &mut Draft, sampler: &mut Sampler) {
     ];
     let foe = draft.place(Role::Rover, SpriteClass::Missile, Body::Drifter, &params);
     foe_of(draft, foe, 2);
-    let clause = format!("{} rush straight on and come off obstacles any way", draft.plural(foe));
-    draft.add_motion_clause(foe, clause);
+    draft.add_motion_clause(foe, "<names> rush straight on and come off obstacles any way", &[foe]);
 }
 
 /// A slow foe that turns into a fast one when it is hit.
@@ -67,12 +61,7 @@ pub(super) fn split(draft: &mut Draft, sampler: &mut Sampler) {
     draft.harm(slow, Harm::Spent);
     draft.prey_leaves(slow, quick, 1);
     foe_of(draft, quick, 3);
-    let clause = format!(
-        "every {} that is hit turns into {} and gives chase",
-        draft.spaced_name(slow),
-        draft.with_article(quick)
-    );
-    draft.add_fact(clause);
+    draft.add_fact("every <name> that is hit turns into <a name> and gives chase", &[slow, quick]);
 }
 
 /// A patroller that drops things.
@@ -104,16 +93,14 @@ pub(crate) fn throwers(
 pub(super) fn bomb(draft: &mut Draft, sampler: &mut Sampler) {
     let (bomber, drop) = bombers(draft, sampler);
     foe_of(draft, bomber, 3);
-    let clause = format!("{} drop {}", draft.plural(bomber), draft.plural(drop));
-    draft.add_fact(clause);
+    draft.add_fact("<names> drop <names>", &[bomber, drop]);
 }
 
 /// The hero stays below: only the falling things harm it.
 pub(super) fn rain(draft: &mut Draft, sampler: &mut Sampler) {
     let (bomber, drop) = bombers(draft, sampler);
     draft.prey(bomber, 3);
-    let clause = format!("{} drop {}", draft.plural(bomber), draft.plural(drop));
-    draft.add_fact(clause);
+    draft.add_fact("<names> drop <names>", &[bomber, drop]);
 }
 
 /// A foe that leaves medicine when it is killed, so that hunting it pays.
@@ -121,17 +108,15 @@ pub(super) fn bearer(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
     let medicine = draft.spawn(Role::Medicine, SpriteClass::Immovable, Body::Item, &[]);
     let health = draw(sampler, 2, 3);
-    draft.stamina = Stamina::Hearts(health);
-    draft.give(AVATAR, "healthPoints", Value::Count(health));
-    draft.give(AVATAR, "limitHealthPoints", Value::Count(health + 1));
+    draft.hearts(health, health + 1);
     draft.harm(foe, Harm::Spent);
     draft.prey_leaves(foe, medicine, 2);
     draft.scored(Phase::Take, AVATAR, &[medicine], Effect::AddHealthPointsToMax { value: 1 }, 2);
-    let clause = format!(
-        "{} wounds are the end, but every {} that is struck down leaves {}, which heals",
-        english::number(health),
-        draft.spaced_name(foe),
-        draft.spaced_name(medicine)
+    draft.add_fact(
+        &format!(
+            "{} wounds are the end, but every <name> that is struck down leaves <name>, which heals",
+            english::number(health)
+        ),
+        &[foe, medicine],
     );
-    draft.add_fact(clause);
 }

@@ -2,7 +2,7 @@
 
 use super::foe_of;
 use crate::games::body::Body;
-use crate::games::draft::{AVATAR, CLOCK, Draft, Harm, Part, Phase, Stamina, Value, draw};
+use crate::games::draft::{AVATAR, CLOCK, Draft, Harm, Part, Phase, Value, draw};
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::role::Role;
@@ -11,8 +11,7 @@ use engine::{Sampler, SpriteClass};
 pub(super) fn trap(draft: &mut Draft, _: &mut Sampler) {
     let trap = draft.place(Role::Trap, SpriteClass::Immovable, Body::Flat, &[]);
     draft.harm(trap, Harm::Lasting);
-    let clause = format!("{} lie in wait", draft.plural(trap));
-    draft.add_fact(clause);
+    draft.add_fact("<names> lie in wait", &[trap]);
 }
 
 pub(super) fn slime(draft: &mut Draft, sampler: &mut Sampler) {
@@ -26,8 +25,7 @@ pub(super) fn slime(draft: &mut Draft, sampler: &mut Sampler) {
     let slug = draft.place(Role::Slug, SpriteClass::RandomBomber, Body::Walker, &params);
     draft.harm(slime, Harm::Lasting);
     foe_of(draft, slug, 2);
-    let clause = format!("{} leave {} behind", draft.plural(slug), draft.spaced_name(slime));
-    draft.add_fact(clause);
+    draft.add_fact("<names> leave <name> behind", &[slug, slime]);
 }
 
 pub(super) fn turret(draft: &mut Draft, sampler: &mut Sampler) {
@@ -48,8 +46,7 @@ pub(super) fn turret(draft: &mut Draft, sampler: &mut Sampler) {
     draft.harm(dart, Harm::Spent);
     let aim = if direction == "any" { "every which way".to_owned() } else { direction.to_lowercase() };
     let way = if aim == "left" || aim == "right" { format!("to the {aim}") } else { aim };
-    let clause = format!("{} shoot {} {way}", draft.plural(turret), draft.plural(dart));
-    draft.add_motion_clause(dart, clause);
+    draft.add_motion_clause(dart, &format!("<names> shoot <names> {way}"), &[turret, dart]);
 }
 
 /// A vent that erupts with a warning: the steam first rises in the vent, then it spreads all around.
@@ -86,20 +83,16 @@ pub(super) fn vent(draft: &mut Draft, sampler: &mut Sampler, stype: Part, (low, 
     let vent = draft.place(Role::Vent, SpriteClass::SpawnPoint, Body::Den, &params);
     let base = english::spaced(draft.name(stype));
     let what = base.split_once(' ').map_or(base.as_str(), |(_, what)| what).to_owned();
-    let clause = format!("{} comes out of every {}", what, draft.spaced_name(vent));
-    draft.add_fact(clause);
+    draft.add_fact(&format!("{} comes out of every <name>", what), &[vent]);
 }
 
 /// Health fades over time, and wounds reduce it too.
 pub(super) fn hunger(draft: &mut Draft, sampler: &mut Sampler) {
     let (health, timer) = (draw(sampler, 5, 8), draw(sampler, 8, 16));
-    draft.stamina = Stamina::Hearts(health);
-    draft.give(AVATAR, "healthPoints", Value::Count(health));
-    draft.give(AVATAR, "limitHealthPoints", Value::Count(health + 1));
+    draft.hearts(health, health + 1);
     let food = draft.place(Role::Berry, SpriteClass::Immovable, Body::Item, &[]);
     draft.rule(Phase::Harm, AVATAR, &[CLOCK], Effect::Wane { timer });
     let eat = Effect::AddHealthPointsToMax { value: draw(sampler, 2, 4) };
     draft.scored(Phase::Take, AVATAR, &[food], eat, 1);
-    let clause = format!("strength fades with time, and {} give it back", draft.plural(food));
-    draft.add_fact(clause);
+    draft.add_fact("strength fades with time, and <names> give it back", &[food]);
 }

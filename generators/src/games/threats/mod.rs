@@ -9,7 +9,7 @@ pub(crate) use nests::nest;
 
 use crate::games::body::Body;
 use crate::games::draft::{Draft, Harm, Part, Value, draw};
-use crate::games::pattern::{Feature, Pattern};
+use crate::games::pattern::{Build, Feature, Features, Pattern, Roles, pattern};
 use crate::games::role::Role;
 use engine::{Sampler, SpriteClass};
 
@@ -20,14 +20,8 @@ const STAINING: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey, Fe
 /// Moving dangers that cannot be hit.
 const DANGER: &[Feature] = &[Feature::Movers, Feature::Harm];
 
-const fn threat(
-    name: &'static str,
-    weight: u32,
-    roles: &'static [Role],
-    gives: &'static [Feature],
-    build: fn(&mut Draft, &mut Sampler),
-) -> Pattern {
-    Pattern { name, weight, roles, gives, needs: &[Feature::Four], bars: &[], build }
+const fn threat(name: &'static str, weight: u32, roles: Roles, gives: Features, build: Build) -> Pattern {
+    pattern(name, weight, roles, gives, build).needs(&[Feature::Four])
 }
 
 /// All threats.
@@ -43,32 +37,29 @@ pub(crate) const THREATS: &[Pattern] = &[
     threat("threat/nest-of-strays", 2, &[Role::Nest, Role::Wanderer], FOE, nests::nest_of_strays),
     threat("threat/nest-of-chasers", 2, &[Role::Nest, Role::Chaser], FOE, nests::nest_of_chasers),
     threat("threat/geyser", 3, &[Role::Vent, Role::Steam], DANGER, hazards::geyser),
-    Pattern {
-        gives: &[Feature::Movers, Feature::Harm, Feature::Stains],
-        ..threat("threat/creep", 2, &[Role::Vent, Role::Creep], &[], hazards::creep)
-    },
-    Pattern {
-        needs: &[Feature::Four, Feature::Strikes],
-        ..threat("threat/split", 3, &[Role::Wanderer, Role::Chaser], FOE, foes::split)
-    },
-    Pattern {
-        gives: &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Health],
-        needs: &[Feature::Four, Feature::Strikes],
-        bars: &[Feature::Health],
-        ..threat("threat/bearer", 4, &[Role::Wanderer, Role::Medicine], &[], foes::bearer)
-    },
+    threat(
+        "threat/creep",
+        2,
+        &[Role::Vent, Role::Creep],
+        &[Feature::Movers, Feature::Harm, Feature::Stains],
+        hazards::creep,
+    ),
+    threat("threat/split", 3, &[Role::Wanderer, Role::Chaser], FOE, foes::split)
+        .needs(&[Feature::Four, Feature::Strikes]),
+    threat(
+        "threat/bearer",
+        4,
+        &[Role::Wanderer, Role::Medicine],
+        &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Health],
+        foes::bearer,
+    )
+    .needs(&[Feature::Four, Feature::Strikes])
+    .bars(&[Feature::Health]),
     threat("threat/brood", 3, &[Role::Nest, Role::Chaser], FOE, nests::brood),
     threat("threat/sentry", 4, &[Role::Chaser], FOE, foes::sentry),
     threat("threat/drift", 3, &[Role::Rover], FOE, foes::drift),
-    Pattern {
-        gives: &[Feature::Health],
-        bars: &[Feature::Health],
-        ..threat("threat/hunger", 4, &[Role::Berry], &[], hazards::hunger)
-    },
-    Pattern {
-        needs: &[Feature::Row],
-        ..threat("threat/rain", 3, &[Role::Bomber, Role::Drop], FOE, foes::rain)
-    },
+    threat("threat/hunger", 4, &[Role::Berry], &[Feature::Health], hazards::hunger).bars(&[Feature::Health]),
+    threat("threat/rain", 3, &[Role::Bomber, Role::Drop], FOE, foes::rain).needs(&[Feature::Row]),
 ];
 
 /// Adds a patroller that moves straight and turns round; `orientation` is its first direction.

@@ -33,8 +33,7 @@ pub(super) fn nest_of(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
     let total = draw(sampler, 2, 5);
     let nest = nest(draft, sampler, foe, total);
     foe_of(draft, foe, 1);
-    let clause = format!("{} come out of every {}", draft.plural(foe), draft.spaced_name(nest));
-    draft.add_fact(clause);
+    draft.add_fact("<names> come out of every <name>", &[foe, nest]);
 }
 
 /// Each nest hatches one pursuer after a while, unless the hero clears it first.
@@ -48,10 +47,8 @@ pub(super) fn brood(draft: &mut Draft, sampler: &mut Sampler) {
     let nest = draft.place(Role::Nest, SpriteClass::SpawnPoint, Body::Spot, &params);
     draft.scored(Phase::Take, nest, &[AVATAR], Effect::KillSprite, 2);
     foe_of(draft, foe, 2);
-    let clause = format!(
-        "every {} sends {} after you in the end, unless you clear it away first",
-        draft.spaced_name(nest),
-        draft.with_article(foe)
+    draft.add_fact(
+        "every <name> sends <a name> after you in the end, unless you clear it away first",
+        &[nest, foe],
     );
-    draft.add_fact(clause);
 }
