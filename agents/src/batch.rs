@@ -282,7 +282,6 @@ impl Batch {
     }
 }
 
-/// Returns the seed of one episode of a lane.
 fn seed_of(seed: Seed, lane: usize, episode: u64) -> Seed {
     seed.child("lane", lane as u64).child("episode", episode)
 }

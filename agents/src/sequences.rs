@@ -50,7 +50,6 @@ impl<'a> Sequences<'a> {
         (0..horizon).map(|_| self.gene(decision)).collect()
     }
 
-    /// Returns the action of a gene.
     pub(crate) fn action(&self, gene: Gene) -> Action {
         self.alphabet[usize::from(gene)]
     }

@@ -38,7 +38,6 @@ impl Seed {
         Chance::from_java(i64::from_le_bytes(bytes[..8].try_into().expect("eight of 32 bytes")))
     }
 
-    /// The seed of these bytes.
     pub(crate) const fn from_bytes(bytes: [u8; 32]) -> Seed {
         Seed(bytes)
     }

@@ -62,14 +62,19 @@ impl Tally {
         self.levels_tried += other.levels_tried;
         self.levels_accepted += other.levels_accepted;
         self.calls += other.calls;
-        for (why, count) in &other.rejections {
-            *self.rejections.entry(why.clone()).or_default() += count;
-        }
+        add_rejections(&mut self.rejections, &other.rejections);
     }
 
     /// The rejections in words, the most frequent first.
     pub fn reasons(&self) -> String {
         reasons(&self.rejections)
+    }
+}
+
+/// Adds rejections to others.
+pub(crate) fn add_rejections(rejections: &mut BTreeMap<String, u64>, others: &BTreeMap<String, u64>) {
+    for (why, count) in others {
+        *rejections.entry(why.clone()).or_default() += count;
     }
 }
 

@@ -201,7 +201,6 @@ impl LadderConfig {
         (self.measure(&played), played.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 
-    /// Returns the number of plays of a round.
     pub(crate) fn round_plays(&self) -> u64 {
         ROUND * self.players().count() as u64
     }

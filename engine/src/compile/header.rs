@@ -12,7 +12,6 @@ const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counter
 pub(super) struct Header {
     /// Pixels of a cell.
     pub(super) square_size: Option<i32>,
-    /// The number of counters.
     pub(super) counters: usize,
     /// The sprite types that paths avoid; `None` without path finding.
     pub(super) obstacles: Option<Vec<Word>>,

@@ -47,7 +47,6 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 }
 
 impl<'a> Aim<'a> {
-    /// The aim of an order.
     pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder) -> Aim<'a> {
         let climb = order.difficulty.map(|_| LadderConfig {
             plays: PLAYS,

@@ -77,7 +77,6 @@ struct Constraints {
     met: usize,
 }
 
-/// The number of them.
 const CONSTRAINTS: usize = NAMES.len();
 /// Their names; the last is what the order asks of the win.
 const NAMES: [&str; 6] =

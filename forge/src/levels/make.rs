@@ -3,7 +3,7 @@
 use super::accept::{LevelGate, Ruling};
 use super::look::Look;
 use super::order::{LevelOrder, Method};
-use crate::tally::reasons;
+use crate::tally::{add_rejections, reasons};
 use engine::{Analysis, Digest, Game, Level, Seed};
 use generators::levels::{ConstructiveLevels, LevelConfig, LevelSearch, LevelSimilarity};
 use generators::{GenerateError, Generator};
@@ -42,17 +42,13 @@ impl Cost {
     pub(super) fn looked(&mut self, look: &Look) {
         self.looks += 1;
         self.calls += look.calls;
-        if let Some(obstacle) = look.obstacle {
-            self.reject(obstacle);
-        }
+        look.obstacle.into_iter().for_each(|obstacle| self.reject(obstacle));
     }
 
     pub(super) fn judged(&mut self, judged: &Ruling) {
         self.judged += 1;
         self.calls += judged.calls;
-        if let Some(obstacle) = judged.obstacle {
-            self.reject(obstacle);
-        }
+        judged.obstacle.into_iter().for_each(|obstacle| self.reject(obstacle));
     }
 
     pub(super) fn reject(&mut self, why: &str) {
@@ -63,9 +59,7 @@ impl Cost {
         self.looks += other.looks;
         self.judged += other.judged;
         self.calls += other.calls;
-        for (why, count) in &other.rejections {
-            *self.rejections.entry(why.clone()).or_default() += count;
-        }
+        add_rejections(&mut self.rejections, &other.rejections);
     }
 
     /// The rejections in words, the most frequent first.

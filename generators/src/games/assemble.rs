@@ -109,7 +109,7 @@ fn sprites(draft: &Draft, order: &[Part]) -> Vec<SpriteLine> {
         let mut params: Vec<Param> =
             sprite.params.iter().map(|&(key, value)| param(draft, key, value)).collect();
         if part != WALL && part != AVATAR {
-            let color = palette::color(sprite.role, draft.current_theme(), &colors);
+            let color = palette::color(sprite.role, draft.theme, &colors);
             colors.push(color);
             params.push(Param::new("color", color));
         }

@@ -6,9 +6,9 @@ use super::effect::Effect;
 use super::obstacles;
 use super::pattern::{Feature, Pattern, pattern};
 use super::role::Role;
+use super::threats;
 use engine::{Sampler, SpriteClass};
 
-/// All boons.
 pub(crate) const BOONS: &[Pattern] = &[
     pattern("boon/hearts", 4, &[Role::Medicine], &[Feature::Health], hearts)
         .needs(&[Feature::Harm, Feature::Four])
@@ -85,11 +85,7 @@ fn coins(draft: &mut Draft, _: &mut Sampler) {
 pub(crate) fn bush(draft: &mut Draft, sampler: &mut Sampler) {
     let berry =
         draft.spawn(Role::Berry, SpriteClass::Immovable, Body::Item, &[("singleton", Value::Flag(true))]);
-    let params = [
-        ("stype", Value::Part(berry)),
-        ("cooldown", Value::Count(draw(sampler, 5, 12))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 3, 6))),
-    ];
+    let params = threats::spawning(berry, draw(sampler, 5, 12), draw(sampler, 3, 6));
     let bush = draft.place(Role::Bush, SpriteClass::SpawnPoint, Body::Spot, &params);
     draft.scored(Phase::Take, berry, &[AVATAR], Effect::KillSprite, 1);
     draft.add_points_clause("<names> to be had at <names> are worth a point each", &[berry, bush]);

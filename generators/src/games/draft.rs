@@ -3,7 +3,6 @@
 use super::body::Body;
 use super::effect::Effect;
 use super::english;
-use super::naming::Naming;
 use super::role::Role;
 use super::theme::Theme;
 pub(crate) use super::tree::{
@@ -34,7 +33,11 @@ pub(crate) struct Draft {
     pub(crate) clauses: Vec<Clause>,
     /// The number of the pattern under construction.
     pub(crate) gene: Option<usize>,
-    naming: Naming,
+    pub(crate) theme: &'static Theme,
+    /// The draws of names.
+    names: Sampler,
+    /// The words of the theme that are in use.
+    taken: Vec<&'static str>,
 }
 
 impl Draft {
@@ -52,7 +55,9 @@ impl Draft {
             outfit: String::new(),
             clauses: Vec::new(),
             gene: None,
-            naming: Naming::new(theme, names.sampler()),
+            theme,
+            names: names.sampler(),
+            taken: Vec::new(),
         };
         let floor = draft.place(Role::Floor, SpriteClass::Immovable, Body::Floor, &[]);
         let wall = draft.add("wall".into(), Role::Wall, Some(SpriteClass::Immovable), Body::Wall, &[]);
@@ -72,8 +77,20 @@ impl Draft {
 
     /// Adds a sprite type that is created only during play.
     pub(crate) fn spawn(&mut self, role: Role, class: SpriteClass, body: Body, params: Params<'_>) -> Part {
-        let name = self.naming.word(role);
+        let name = self.word(role);
         self.add(name, role, Some(class), body, params)
+    }
+
+    /// Draws a word of the theme for the role that the game does not use yet.
+    ///
+    /// # Panics
+    /// If all are in use: a game gives no role to more sprite types than a theme has words for it.
+    fn word(&mut self, role: Role) -> String {
+        let mut free = self.theme.words(role);
+        free.retain(|word| !self.taken.contains(word));
+        let word = *self.names.choose(&free);
+        self.taken.push(word);
+        word.to_owned()
     }
 
     /// Adds another state of a sprite type, created only during play: `lit` and a lamp make a `litLamp`.
@@ -98,7 +115,7 @@ impl Draft {
     }
 
     fn child(&mut self, parent: Part, role: Role) -> Part {
-        let name = self.naming.word(role);
+        let name = self.word(role);
         let child = self.add(name, role, None, self.sprites[parent.0].body, &[]);
         self.sprites[child.0].parent = Some(parent);
         self.show(child);
@@ -298,12 +315,7 @@ impl Draft {
     /// Makes the title. Called after all other names of the theme are drawn, since it continues the same draws.
     pub(crate) fn title(&mut self, title_word: &str) -> String {
         let hero = english::headline(&self.spaced_name(HERO));
-        self.naming.title(&hero, title_word)
-    }
-
-    /// Returns the theme.
-    pub(crate) fn current_theme(&self) -> &'static Theme {
-        self.naming.theme()
+        self.theme.title(&hero, title_word, &mut self.names)
     }
 }
 

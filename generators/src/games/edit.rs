@@ -94,7 +94,7 @@ impl Edit {
         match self {
             Edit::Param { of, key, value } => {
                 let part = draft.at(of)?;
-                let param = draft.sprites[part.index()].params.iter_mut().find(|(name, _)| *name == key)?;
+                let param = draft.sprites[part.0].params.iter_mut().find(|(name, _)| *name == key)?;
                 param.1 = value;
             }
             Edit::Class { of, class, after } => {
@@ -190,7 +190,7 @@ impl Draft {
         self.rules.retain(|rule| !rule.second.is_empty());
         let gene = self.sprite(part).gene;
         self.clauses.retain(|clause| gene.is_none() || clause.gene != gene);
-        self.sprites[part.index()].removed = true;
+        self.sprites[part.0].removed = true;
         Some(())
     }
 }

@@ -14,7 +14,6 @@ pub(crate) fn spaced(name: &str) -> String {
     text
 }
 
-/// Returns the plural.
 pub(crate) fn plural(noun: &str) -> String {
     let ends = |endings: &[&str]| endings.iter().any(|ending| noun.ends_with(ending));
     if ends(&["fish"]) {

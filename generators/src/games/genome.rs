@@ -192,7 +192,7 @@ fn summary(draft: &Draft) -> String {
         "" => String::new(),
         outfit => format!(", {outfit},"),
     };
-    let first = format!("{}{outfit} {}.", english::capital(&hero), draft.current_theme().place);
+    let first = format!("{}{outfit} {}.", english::capital(&hero), draft.theme.place);
     let sentences = draft.clauses.iter().map(|clause| format!(" {}.", english::capital(&clause.text)));
     first + &sentences.collect::<String>()
 }

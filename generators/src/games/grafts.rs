@@ -52,7 +52,6 @@ const GRAFT: Graft = Graft {
     clause: ("", &[]),
 };
 
-/// All grafts.
 pub(crate) const GRAFTS: &[Graft] = &[
     Graft {
         name: "graft/perish",

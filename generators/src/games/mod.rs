@@ -23,7 +23,6 @@ mod kind;
 mod masked;
 mod mechanics;
 mod movement;
-mod naming;
 mod obstacles;
 mod palette;
 mod pattern;

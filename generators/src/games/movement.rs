@@ -7,7 +7,6 @@ use super::pattern::{Feature, Pattern, pattern};
 use super::role::Role;
 use engine::{Sampler, SpriteClass};
 
-/// All ways of moving.
 pub(crate) const MOVEMENTS: &[Pattern] = &[
     pattern("movement/walk", 12, &[], &[Feature::Four], walk),
     pattern("movement/turn", 2, &[], &[Feature::Four], turn).bars(&[Feature::Crates]),

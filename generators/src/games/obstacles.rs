@@ -17,7 +17,6 @@ const fn shut(name: &'static str, weight: u32, roles: Roles, build: Build) -> Pa
     obstacle(name, weight, roles, build).bars(&[Feature::Lanes])
 }
 
-/// All obstacles.
 pub(crate) const OBSTACLES: &[Pattern] = &[
     shut("obstacle/lock", 4, &[Role::Key, Role::Door], lock),
     obstacle("obstacle/dig", 3, &[Role::Soil], dig),

@@ -65,7 +65,6 @@ pub(crate) struct Pattern {
     pub(crate) weight: u32,
     /// The roles of the sprite types it may introduce; no two patterns of a game share one.
     pub(crate) roles: Roles,
-    /// The features it gives.
     pub(crate) gives: Features,
     /// The features that other patterns must give.
     pub(crate) needs: Features,
@@ -102,7 +101,6 @@ impl Pattern {
 
 /// A pattern that defines how the game is won, with its requirements on the other patterns.
 pub(crate) struct Goal {
-    /// The pattern.
     pub(crate) pattern: Pattern,
     /// The kind of game that it makes.
     pub(crate) kind: Kind,

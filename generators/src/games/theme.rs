@@ -4,7 +4,6 @@ use super::role::{Role, Words};
 use super::themes;
 use engine::Sampler;
 
-/// A theme.
 pub(crate) struct Theme {
     /// The identifier, for configurations and provenance.
     pub(crate) name: &'static str,
@@ -39,7 +38,6 @@ impl Theme {
         &themes::caravan::THEME,
     ];
 
-    /// The words for one role.
     pub(crate) fn words(&self, role: Role) -> Vec<&'static str> {
         self.words.of(role).split(' ').collect()
     }

@@ -5,16 +5,9 @@ use super::effect::Effect;
 use super::role::Role;
 use engine::SpriteClass;
 
-/// A sprite type of the draft.
+/// A sprite type of the draft, by its index there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Part(pub(crate) usize);
-
-impl Part {
-    /// Its index among the sprite types of its draft.
-    pub(crate) fn index(self) -> usize {
-        self.0
-    }
-}
 
 /// A reference to a sprite type that is valid in any draft: no two patterns of a game share a role, so other changes do
 /// not affect it.

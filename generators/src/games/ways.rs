@@ -42,7 +42,7 @@ pub(crate) fn set_class(
         return None;
     }
     let own = class.parameters();
-    let sprite = &mut draft.sprites[part.index()];
+    let sprite = &mut draft.sprites[part.0];
     sprite.class = Some(class);
     sprite.params.retain(|&(key, _)| match key {
         "stype" | "cons" => false,

@@ -78,9 +78,7 @@ impl Builder<'_> {
         stype: SpriteType,
         weight: impl Fn(&Self, usize) -> u32,
     ) -> Option<usize> {
-        if self
-            .examples()
-            .is_some_and(|examples| examples.is_closed() && examples.placement(stype).is_on_border())
+        if self.examples().is_some_and(|examples| examples.closed && examples.placement(stype).is_on_border())
             && let Some(cell) = self.put_in_border(stype)
         {
             return Some(cell);
@@ -157,7 +155,7 @@ impl Builder<'_> {
         let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
         let grid = self.board.grid;
         let placement = examples.placement(stype);
-        let mut weight = placement.weigh(grid, &self.board.wall, cell, examples.nooks(), target.model);
+        let mut weight = placement.weigh(grid, &self.board.wall, cell, &examples.nooks, target.model);
         for (way, other) in placement.companions() {
             if grid.shift(cell, way).is_some_and(|next| self.log.contains(&(next, other))) {
                 weight = weight.saturating_mul(COMPANION_WEIGHT);

@@ -94,7 +94,7 @@ impl<'a> ConstructiveLevels<'a> {
             let problem = "every level is won by waiting: nothing in the rules can prevent it".to_owned();
             return Err(GenerateError::Unsuitable(problem));
         }
-        let base = config.like.as_ref().and_then(|examples| examples.base());
+        let base = config.like.as_ref().and_then(|examples| examples.base);
         let palette = match base {
             Some(base) => Palette::on(&analysis, base),
             None => Palette::of(&analysis),
@@ -179,7 +179,7 @@ impl<'a> ConstructiveLevels<'a> {
             examples.map(|examples| examples.draw(self.config.columns, self.config.rows, &mut layout));
         let mut grid = target.as_ref().map_or_else(|| self.size(&mut layout), |target| target.grid);
         let sampler = seed.child("furniture", 0).sampler();
-        let ring = examples.map_or(self.palette.ring, |examples| examples.is_closed())
+        let ring = examples.map_or(self.palette.ring, |examples| examples.closed)
             && grid.columns > 4
             && grid.rows > 4;
         let steering = self.analysis.start_avatar()?.steering;
@@ -276,7 +276,7 @@ impl<'a> ConstructiveLevels<'a> {
     /// similar numbers.
     fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
         let grid = target.grid;
-        let patterns = self.config.like.as_deref().map(|examples| examples.patterns());
+        let patterns = self.config.like.as_deref().map(|examples| &examples.patterns);
         let patterns = patterns.filter(|patterns| patterns.has_structure());
         let draw = |at: usize, layout: &mut Sampler| {
             let learnt = patterns.filter(|_| at == 0);

@@ -244,7 +244,6 @@ impl<'v> Draft<'v> {
         self.cells.swap(one, two);
     }
 
-    /// Computes the faults.
     pub(crate) fn faults(&self) -> Faults {
         Faults {
             count_deviation: self.count_deviation(),

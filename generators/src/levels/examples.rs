@@ -14,15 +14,15 @@ pub struct Examples {
     /// By type: its placement.
     placements: Vec<Placement>,
     /// The structure of the walls.
-    patterns: Patterns,
+    pub(crate) patterns: Patterns,
     /// `true` if the border is wall.
-    closed: bool,
+    pub(crate) closed: bool,
     /// The number of examples whose walls are the same on the left and on the right.
     mirrored: usize,
     /// The character of empty cells, if it differs from the one that the rules suggest.
-    base: Option<u8>,
+    pub(crate) base: Option<u8>,
     /// The number of open cells by the arrangement of walls around them; see [`nook`].
-    nooks: [usize; NOOKS],
+    pub(crate) nooks: [usize; NOOKS],
     /// Visible types without a meaning in the rules.
     decor: Vec<SpriteType>,
 }
@@ -171,11 +171,6 @@ impl Examples {
         (counts[0], counts[counts.len() / 2], counts[counts.len() - 1])
     }
 
-    /// Returns `true` if the border is wall.
-    pub(crate) fn is_closed(&self) -> bool {
-        self.closed
-    }
-
     /// Returns `true` if sprites of the one type stand lower than those of the other, by a third of the board on average,
     /// or if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
@@ -185,11 +180,6 @@ impl Examples {
         }
     }
 
-    /// The character of empty cells, if it differs from the one that the rules suggest.
-    pub(crate) fn base(&self) -> Option<u8> {
-        self.base
-    }
-
     /// Draws whether walls are to be mirrored left to right, as often as in the examples.
     pub(crate) fn draw_mirrored(&self, sampler: &mut Sampler) -> bool {
         sampler.ratio(self.mirrored, self.boards.len())
@@ -197,15 +187,6 @@ impl Examples {
 
     pub(crate) fn placement(&self, stype: SpriteType) -> &Placement {
         &self.placements[stype.index()]
-    }
-
-    /// The number of open cells by the arrangement of walls around them.
-    pub(crate) fn nooks(&self) -> &[usize; NOOKS] {
-        &self.nooks
-    }
-
-    pub(crate) fn patterns(&self) -> &Patterns {
-        &self.patterns
     }
 
     /// Draws the target for a level of the given size, or of a size between those of two examples.

@@ -12,7 +12,6 @@ pub(crate) enum Walk {
     Blocked,
     /// It can be shot away first.
     Breakable,
-    /// It is pushed.
     Pushed,
     /// It kills or wounds the avatar.
     Deadly,

@@ -112,7 +112,6 @@ impl Changes {
     }
 }
 
-/// The changes of the games.
 pub(super) fn games(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes {
     let thing = |game: &Compared<'_>| Entry {
         id: game.released.card.id.clone(),
@@ -124,7 +123,6 @@ pub(super) fn games(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
     Changes::of(&before, &after)
 }
 
-/// The changes of the items.
 pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes {
     let of_game = |game: &Compared<'_>| {
         let ReleasedGame { card, game: rules, levels, .. } = game.released;

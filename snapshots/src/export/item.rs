@@ -26,7 +26,6 @@ pub(super) struct ExportedGame<'a> {
 }
 
 impl<'a> ExportedGame<'a> {
-    /// The game as released.
     pub(super) fn own(released: &'a ReleasedGame) -> ExportedGame<'a> {
         let ReleasedGame { card, source, game, levels } = released;
         ExportedGame {
@@ -43,7 +42,6 @@ impl<'a> ExportedGame<'a> {
         }
     }
 
-    /// The game as its twin.
     pub(super) fn of_twin(twin: TwinGame) -> Result<ExportedGame<'a>, TwinError> {
         let game = Game::from_source(&twin.text).map_err(TwinError::Game)?;
         let level = |(number, (text, witness)): (usize, (String, Option<Episode>))| {
@@ -98,7 +96,6 @@ impl Item<'_> {
         &self.card.levels[self.number]
     }
 
-    /// The level as exported.
     pub(super) fn exported_level(&self) -> &ReleasedLevel {
         &self.exported.levels[self.number]
     }

@@ -14,7 +14,6 @@ pub(super) struct Rows<'a> {
     pub(super) file: &'a str,
     /// The size of the file in bytes.
     pub(super) bytes: usize,
-    /// The exported games.
     pub(super) games: &'a [(&'a Card, ExportedGame<'a>)],
     /// The number of levels, which is the number of rows.
     pub(super) levels: usize,

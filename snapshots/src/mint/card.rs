@@ -105,7 +105,7 @@ impl ReleaseCard {
             Origin::Corpus { .. } => "corpus".to_owned(),
             Origin::Generated { generator, .. } => generator.clone(),
         };
-        let new: Vec<&Contender> = games().filter(|game| game.is_new()).collect();
+        let new: Vec<&Contender> = games().filter(|game| game.is_new).collect();
         let nearest = |at: usize| {
             let others = new.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, game)| &game.form);
             new[at].form.nearest(others).map(|(_, apart)| apart)

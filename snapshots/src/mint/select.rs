@@ -25,12 +25,11 @@ pub(super) struct Contender {
     /// The index of its job, and its place in the job's result.
     pub(super) job: usize,
     pub(super) at: usize,
-    is_new: bool,
+    pub(super) is_new: bool,
     title: String,
     labels: BTreeMap<Difficulty, i64>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
-    /// The number of rules.
     pub(super) rules: usize,
     pub(super) form: GameForm,
     /// The canonical items: rules and level.
@@ -62,10 +61,6 @@ impl Contender {
             form,
             items,
         })
-    }
-
-    pub(super) fn is_new(&self) -> bool {
-        self.is_new
     }
 
     /// Returns `true` if a previous release has a near copy of this new game, or an item of this corpus game.

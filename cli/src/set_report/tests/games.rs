@@ -2,7 +2,8 @@ use super::page;
 use crate::embedded;
 use crate::set_report::game_report;
 use engine::{Game, Level, Seed};
-use forge::games::report::{GameSetReport, GamesCost, GamesSample};
+use forge::Tally;
+use forge::games::report::{GameSetReport, GamesSample};
 use forge::survey::SurveyedGame;
 use snapshots::{CorpusGame, Draft};
 use std::collections::BTreeMap;
@@ -40,7 +41,7 @@ fn write(dir: &Path) -> GameSetReport {
         .map(|game| (game.name.clone(), Game::from_source(&game.source).unwrap()))
         .collect();
     let rejections = BTreeMap::from([("winnable".to_owned(), 7)]);
-    let cost = GamesCost { calls: 123_456, tried: 10, accepted: games.len() as u64, rejections };
+    let cost = Tally { calls: 123_456, games_tried: 10, rejections, ..Tally::default() };
     let sample = GamesSample {
         method: "constructive",
         games: &games,

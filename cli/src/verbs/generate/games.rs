@@ -10,7 +10,7 @@ use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
 use engine::{Digest, Game, Level, Seed};
 use forge::card::Card;
-use forge::games::report::{GameSetReport, GamesCost, GamesSample};
+use forge::games::report::{GameSetReport, GamesSample};
 use forge::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
@@ -160,18 +160,12 @@ fn report(
         SurveyedGame { name, goal, game: made.game.clone(), levels, report }
     };
     let games: Vec<SurveyedGame> = set.games.par_iter().map(judge).collect();
-    let cost = GamesCost {
-        calls: set.tally.calls,
-        tried: set.tally.games_tried,
-        accepted: games.len() as u64,
-        rejections: set.tally.rejections.clone(),
-    };
     let report = GameSetReport::of(&GamesSample {
         method: args.method.name(),
         games: &games,
         corpus,
         criteria: &criteria,
-        cost: Some(&cost),
+        cost: Some(&set.tally),
         seed: seed.child("measures", 0),
     });
     let title = format!("{} games, seed {}", args.method, args.seed);

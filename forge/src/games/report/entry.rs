@@ -117,7 +117,6 @@ impl GameEntry {
     }
 }
 
-/// The table of all games.
 pub(super) fn table(entries: &[GameEntry]) -> Table {
     let columns = [
         &["game", "verdict"][..],

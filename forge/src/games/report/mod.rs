@@ -10,31 +10,17 @@ mod variety;
 
 pub use entry::{GameEntry, LevelEntry, Nearest};
 
+use crate::Tally;
 use crate::survey::SurveyedGame;
 use engine::{Game, Seed};
 use entry::Measured;
 use likeness::Distances;
 use rayon::prelude::*;
 use report::{Section, SetReport, Share, Value};
-use serde::Serialize;
-use std::collections::BTreeMap;
 use validators::{Criteria, GameForm};
 
 /// The version of the report's form.
 pub const GAME_REPORT_FORMAT: u32 = 1;
-
-/// The cost of making the games. Time is no part of it: it differs from run to run. Nor is judging them for the report.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct GamesCost {
-    /// Forward-model calls of all that looked and judged, on what was turned down too.
-    pub calls: u64,
-    /// Candidates that were judged.
-    pub tried: u64,
-    /// Games that were accepted.
-    pub accepted: u64,
-    /// For each criterion, or the generator, how often it said no first.
-    pub rejections: BTreeMap<String, u64>,
-}
 
 /// The parts that a report is made from.
 #[derive(Clone, Copy)]
@@ -47,8 +33,8 @@ pub struct GamesSample<'a> {
     pub corpus: &'a [(String, Game)],
     /// The criteria that the panel asked.
     pub criteria: &'a Criteria,
-    /// The cost; `None` for games that were not made.
-    pub cost: Option<&'a GamesCost>,
+    /// The cost of making them, without judging them for the report; `None` for games that were not made.
+    pub cost: Option<&'a Tally>,
     /// The seed of the measures.
     pub seed: Seed,
 }
@@ -72,7 +58,8 @@ impl GameSetReport {
         let forms: Vec<GameForm> = corpus.par_iter().map(|(_, game)| GameForm::of(game)).collect();
         let names: Vec<&str> = corpus.iter().map(|(name, _)| name.as_str()).collect();
         let distances = Distances::of(&measured, &names, &forms);
-        let accepted = cost.map(|cost| Share::new(cost.accepted, cost.tried.max(cost.accepted)));
+        let made = games.len() as u64;
+        let accepted = cost.map(|cost| Share::new(made, cost.games_tried.max(made)));
         let (difficulty, places) = quality::difficulty(&measured).unzip();
         let set = SetReport::default()
             .data("format", &GAME_REPORT_FORMAT)
@@ -88,7 +75,7 @@ impl GameSetReport {
             .section("difficulty", difficulty)
             .section("variety", variety::variety(&measured))
             .section("novelty", likeness::novelty(&measured, &distances, &forms))
-            .section("cost", cost.zip(accepted).map(|(cost, accepted)| price(cost, accepted)))
+            .section("cost", cost.zip(accepted).map(|(cost, accepted)| price(cost, made, accepted)))
             .table(variety::kinds(&measured))
             .table(places);
         let near = distances.each.into_iter();
@@ -107,11 +94,11 @@ impl GameSetReport {
     }
 }
 
-fn price(cost: &GamesCost, accepted: Share) -> Section {
-    let each = cost.calls.checked_div(cost.accepted).map_or(Value::Missing, Value::Count);
+fn price(cost: &Tally, made: u64, accepted: Share) -> Section {
+    let each = cost.calls.checked_div(made).map_or(Value::Missing, Value::Count);
     Section::new("cost", "What did they cost?", "Judging them for this report apart.")
-        .data("accepted", &cost.accepted)
-        .data("tried", &cost.tried)
+        .data("accepted", &made)
+        .data("tried", &cost.games_tried)
         .figure("accepted", "accepted of those judged", accepted.into())
         .count("calls", "forward-model calls", cost.calls)
         .shown("calls for each that was accepted", each)

@@ -3,6 +3,7 @@
 use super::*;
 use engine::Level;
 use serde_json::{Value as Json, json};
+use std::collections::BTreeMap;
 use validators::{Difficulty, Panel};
 
 /// Fetch all of something; other words for the same rules are the same game.
@@ -38,7 +39,7 @@ fn reported(title: &str, source: &str) -> SurveyedGame {
 
 fn report(games: &[SurveyedGame], corpus: &[(String, Game)]) -> GameSetReport {
     let rejections = BTreeMap::from([("winnable".to_owned(), 3)]);
-    let cost = GamesCost { calls: 9000, tried: 6, accepted: games.len() as u64, rejections };
+    let cost = Tally { calls: 9000, games_tried: 6, rejections, ..Tally::default() };
     let seed = Seed::from_text("report");
     GameSetReport::of(&GamesSample {
         method: "search",

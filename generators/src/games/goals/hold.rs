@@ -96,11 +96,7 @@ fn headwind(draft: &mut Draft, sampler: &mut Sampler) {
 fn windfalls(draft: &mut Draft, sampler: &mut Sampler, (bomber, drop): (Part, Part), way: &'static str) {
     let params = [("orientation", Value::Word(way)), ("cooldown", Value::Count(2))];
     let fruit = draft.spawn(Role::Fruit, SpriteClass::Missile, Body::FoeShot, &params);
-    let params = [
-        ("stype", Value::Part(fruit)),
-        ("cooldown", Value::Count(draw(sampler, 8, 16))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 4, 8))),
-    ];
+    let params = threats::spawning(fruit, draw(sampler, 8, 16), draw(sampler, 4, 8));
     let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
     let health = draw(sampler, 1, 2);
     draft.hearts(health, health + 1);
@@ -121,12 +117,8 @@ fn waves(draft: &mut Draft, sampler: &mut Sampler) {
     let pest = draft.spawn(Role::Pest, SpriteClass::Missile, Body::FoeShot, &params);
     let landed = draft.state(pest, "landed", SpriteClass::Immovable, Body::Flat, &[]);
     let total = draw(sampler, 2, 4);
-    let params = [
-        ("stype", Value::Part(pest)),
-        ("cooldown", Value::Count(draw(sampler, 10, 24))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 4, 8))),
-        ("total", Value::Count(total)),
-    ];
+    let source = threats::spawning(pest, draw(sampler, 10, 24), draw(sampler, 4, 8));
+    let params = [&source[..], &[("total", Value::Count(total))]].concat();
     let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
     let limit = draw(sampler, 2, 4);
     draft.prey(pest, 2);
@@ -168,12 +160,8 @@ fn catch(draft: &mut Draft, sampler: &mut Sampler) {
     let fruit = draft.spawn(Role::Fruit, SpriteClass::Missile, Body::FoeShot, &params);
     let fallen = draft.state(fruit, "fallen", SpriteClass::Immovable, Body::Flat, &[]);
     let total = draw(sampler, 2, 4);
-    let params = [
-        ("stype", Value::Part(fruit)),
-        ("cooldown", Value::Count(draw(sampler, 12, 24))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 4, 8))),
-        ("total", Value::Count(total)),
-    ];
+    let source = threats::spawning(fruit, draw(sampler, 12, 24), draw(sampler, 4, 8));
+    let params = [&source[..], &[("total", Value::Count(total))]].concat();
     let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
     let limit = draw(sampler, 2, 4);
     draft.mark_handled(fruit, WALL);

@@ -17,7 +17,6 @@ use super::pattern::{Build, Feature, Features, Goal, Roles, pattern};
 use super::role::Role;
 use engine::SpriteClass;
 
-/// All goals.
 pub(crate) fn all() -> Vec<&'static Goal> {
     let families: [&'static [Goal]; 9] = [
         arrive::GOALS,

@@ -63,11 +63,7 @@ fn sow(draft: &mut Draft, sampler: &mut Sampler) {
 fn overrun(draft: &mut Draft, sampler: &mut Sampler) {
     let plot = draft.place(Role::Plot, SpriteClass::Immovable, Body::Spot, &[]);
     let pest = draft.spawn(Role::Pest, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
-    let params = [
-        ("stype", Value::Part(pest)),
-        ("cooldown", Value::Count(draw(sampler, 14, 28))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 3, 6))),
-    ];
+    let params = threats::spawning(pest, draw(sampler, 14, 28), draw(sampler, 3, 6));
     let overrun = draft.state(plot, "overrun", SpriteClass::SpawnPoint, Body::Spot, &params);
     draft.show(overrun);
     let mark_handled = Effect::TransformTo { stype: overrun, kill_second: true };

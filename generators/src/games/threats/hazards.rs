@@ -1,6 +1,6 @@
 //! Hazards to avoid, and health that fades over time.
 
-use super::foe_of;
+use super::{foe_of, spawning};
 use crate::games::body::Body;
 use crate::games::draft::{AVATAR, CLOCK, Draft, Harm, Part, Phase, Value, draw};
 use crate::games::effect::Effect;
@@ -17,11 +17,7 @@ pub(super) fn trap(draft: &mut Draft, _: &mut Sampler) {
 pub(super) fn slime(draft: &mut Draft, sampler: &mut Sampler) {
     let params = [("limit", Value::Count(draw(sampler, 10, 25)))];
     let slime = draft.spawn(Role::Slime, SpriteClass::Flicker, Body::Puff, &params);
-    let params = [
-        ("stype", Value::Part(slime)),
-        ("cooldown", Value::Count(draw(sampler, 3, 4))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 3, 8))),
-    ];
+    let params = spawning(slime, draw(sampler, 3, 4), draw(sampler, 3, 8));
     let slug = draft.place(Role::Slug, SpriteClass::RandomBomber, Body::Walker, &params);
     draft.harm(slime, Harm::Lasting);
     foe_of(draft, slug, 2);
@@ -37,11 +33,7 @@ pub(super) fn turret(draft: &mut Draft, sampler: &mut Sampler) {
         let params = [("orientation", Value::Word(direction)), cooldown];
         draft.spawn(Role::Dart, SpriteClass::Missile, Body::FoeShot, &params)
     };
-    let params = [
-        ("stype", Value::Part(dart)),
-        ("cooldown", Value::Count(draw(sampler, 7, 14))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 6, 10))),
-    ];
+    let params = spawning(dart, draw(sampler, 7, 14), draw(sampler, 6, 10));
     let turret = draft.place(Role::Turret, SpriteClass::SpawnPoint, Body::Den, &params);
     draft.harm(dart, Harm::Spent);
     let aim = if direction == "any" { "every which way".to_owned() } else { direction.to_lowercase() };

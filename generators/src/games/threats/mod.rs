@@ -24,7 +24,6 @@ const fn threat(name: &'static str, weight: u32, roles: Roles, gives: Features, 
     pattern(name, weight, roles, gives, build).needs(&[Feature::Four])
 }
 
-/// All threats.
 pub(crate) const THREATS: &[Pattern] = &[
     threat("threat/trap", 4, &[Role::Trap], &[Feature::Harm], hazards::trap),
     threat("threat/patrol", 4, &[Role::Patroller], FOE, foes::patrol),
@@ -77,6 +76,12 @@ fn foe_of(draft: &mut Draft, foe: Part, score: i32) {
 /// The parameters of random movement: the cooldown, and the number of steps in one direction.
 pub(crate) fn straying(sampler: &mut Sampler) -> [(&'static str, Value); 2] {
     [("cooldown", Value::Count(draw(sampler, 2, 4))), ("cons", Value::Count(draw(sampler, 0, 3)))]
+}
+
+/// The parameters of a source of something: what it makes, how often it may, and in how many of ten times it does.
+pub(crate) fn spawning(stype: Part, cooldown: u32, tenths: u32) -> [(&'static str, Value); 3] {
+    let prob = Value::Hundredths(10 * tenths);
+    [("stype", Value::Part(stype)), ("cooldown", Value::Count(cooldown)), ("prob", prob)]
 }
 
 /// The parameters of pursuit: the target and the cooldown.

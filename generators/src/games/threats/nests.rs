@@ -1,6 +1,6 @@
 //! Sources of foes.
 
-use super::{foe_of, pursuing, straying};
+use super::{foe_of, pursuing, spawning, straying};
 use crate::games::body::Body;
 use crate::games::draft::{AVATAR, Draft, Part, Phase, Value, draw};
 use crate::games::effect::Effect;
@@ -10,11 +10,7 @@ use engine::{Sampler, SpriteClass};
 /// Adds a nest that spawns foes; with `total` 0 it never stops.
 pub(crate) fn nest(draft: &mut Draft, sampler: &mut Sampler, foe: Part, total: u32) -> Part {
     let total = (total > 0).then_some(("total", Value::Count(total)));
-    let params = [
-        ("stype", Value::Part(foe)),
-        ("cooldown", Value::Count(draw(sampler, 15, 35))),
-        ("prob", Value::Hundredths(10 * draw(sampler, 5, 10))),
-    ];
+    let params = spawning(foe, draw(sampler, 15, 35), draw(sampler, 5, 10));
     let params: Vec<_> = params.into_iter().chain(total).collect();
     draft.place(Role::Nest, SpriteClass::SpawnPoint, Body::Den, &params)
 }

@@ -33,7 +33,6 @@ pub(crate) struct Patterns {
     model: Model,
 }
 
-/// Returns the class of a cell.
 fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
     2 * u8::from(grid.on_border(cell)) + u8::from(wall)
 }
