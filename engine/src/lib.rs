@@ -27,6 +27,7 @@ pub mod limits;
 mod lint;
 mod motion;
 mod moved;
+mod named;
 mod observe;
 mod occupancy;
 mod ontology;

@@ -34,111 +34,74 @@ pub struct Taxonomy {
     pub hidden: bool,
 }
 
-/// The passing of time: turn-based or real-time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Time {
-    /// Nothing moves, appears or disappears unless the player acts, except for short effects of an action (a shot, a
-    /// puff of smoke), sprites that take part in nothing, and a limit on the number of ticks.
-    TurnBased,
-    /// Something changes without an action of the player.
-    RealTime,
-}
-
-/// The movement of the player in space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Spatiality {
-    /// The avatar stays where it is.
-    Fixed,
-    /// The avatar moves along one axis only, in steps or drifting.
-    Line,
-    /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of them.
-    Grid,
-    /// The avatar has a velocity that the keys change, and nothing pulls it down.
-    Continuous,
-    /// The avatar has a velocity that the keys change, and it falls.
-    Gravity,
-}
-
-/// The genre of a game. If several fit, they are listed in this order; but shooting that does not win comes last if
-/// something other than waiting wins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Genre {
-    /// The avatar falls, walks and jumps.
-    Platformer,
-    /// The player and others compete for the same goal: its touch wins or loses, depending on who comes first.
-    Race,
-    /// Pushing sprites to certain places wins or opens the way; or winning takes more than waiting, on a grid, with an
-    /// avatar that can stop, without chance and without hostile sprites that move.
-    Puzzle,
-    /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that move straight ahead
-    /// endlessly and reappear at the opposite edge.
-    Crossing,
-    /// The avatar's shots remove moving sprites that must be removed for a win; or they fly, and remove hostile
-    /// sprites.
-    Shooter,
-    /// Sprites that move by themselves must be caught by touch.
-    Hunt,
-    /// Sprites lying around must be taken: all of a type, or many of a resource that an exit requires.
-    Collect,
-    /// Something is locked, and its key must be found.
-    Adventure,
-    /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be touched while
-    /// others merely give points.
-    Escape,
-    /// Other sprites must be brought together with something: not the player's touch, shots or pushes win, but the
-    /// actions of others.
-    Guide,
-    /// Something other than the avatar must be protected.
-    Defence,
-    /// Surviving up to some tick wins.
-    Survive,
-}
-
-impl Time {
-    /// The name used in data files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Time::TurnBased => "turn-based",
-            Time::RealTime => "real-time",
-        }
+crate::named_enum! {
+    /// The passing of time: turn-based or real-time.
+    pub enum Time {
+        /// Nothing moves, appears or disappears unless the player acts, except for short effects of an action (a shot, a
+        /// puff of smoke), sprites that take part in nothing, and a limit on the number of ticks.
+        TurnBased = "turn-based",
+        /// Something changes without an action of the player.
+        RealTime = "real-time",
     }
 }
 
-impl Spatiality {
-    /// The name used in data files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Spatiality::Fixed => "fixed",
-            Spatiality::Line => "line",
-            Spatiality::Grid => "grid",
-            Spatiality::Continuous => "continuous",
-            Spatiality::Gravity => "gravity",
-        }
+crate::named_enum! {
+    /// The movement of the player in space.
+    pub enum Spatiality {
+        /// The avatar stays where it is.
+        Fixed = "fixed",
+        /// The avatar moves along one axis only, in steps or drifting.
+        Line = "line",
+        /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of them.
+        Grid = "grid",
+        /// The avatar has a velocity that the keys change, and nothing pulls it down.
+        Continuous = "continuous",
+        /// The avatar has a velocity that the keys change, and it falls.
+        Gravity = "gravity",
     }
 }
 
-impl Genre {
-    /// The name used in data files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Genre::Platformer => "platformer",
-            Genre::Race => "race",
-            Genre::Puzzle => "puzzle",
-            Genre::Crossing => "crossing",
-            Genre::Shooter => "shooter",
-            Genre::Hunt => "hunt",
-            Genre::Collect => "collect",
-            Genre::Adventure => "adventure",
-            Genre::Escape => "escape",
-            Genre::Guide => "guide",
-            Genre::Defence => "defence",
-            Genre::Survive => "survive",
-        }
+crate::named_enum! {
+    /// The genre of a game. If several fit, they are listed in this order; but shooting that does not win comes last if
+    /// something other than waiting wins.
+    pub enum Genre {
+        /// The avatar falls, walks and jumps.
+        Platformer = "platformer",
+        /// The player and others compete for the same goal: its touch wins or loses, depending on who comes first.
+        Race = "race",
+        /// Pushing sprites to certain places wins or opens the way; or winning takes more than waiting, on a grid, with an
+        /// avatar that can stop, without chance and without hostile sprites that move.
+        Puzzle = "puzzle",
+        /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that move straight ahead
+        /// endlessly and reappear at the opposite edge.
+        Crossing = "crossing",
+        /// The avatar's shots remove moving sprites that must be removed for a win; or they fly, and remove hostile
+        /// sprites.
+        Shooter = "shooter",
+        /// Sprites that move by themselves must be caught by touch.
+        Hunt = "hunt",
+        /// Sprites lying around must be taken: all of a type, or many of a resource that an exit requires.
+        Collect = "collect",
+        /// Something is locked, and its key must be found.
+        Adventure = "adventure",
+        /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be touched while
+        /// others merely give points.
+        Escape = "escape",
+        /// Other sprites must be brought together with something: not the player's touch, shots or pushes win, but the
+        /// actions of others.
+        Guide = "guide",
+        /// Something other than the avatar must be protected.
+        Defence = "defence",
+        /// Surviving up to some tick wins.
+        Survive = "survive",
     }
 }
+
+impl Time {}
+
+impl Spatiality {}
+
+impl Genre {}
 
 impl Analysis {
     /// Classifies the game. Cost: O(types × avatars + interactions).

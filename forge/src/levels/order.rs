@@ -2,34 +2,19 @@
 
 use engine::{Analysis, SpriteType};
 use generators::levels::{LevelConfig, PuzzleConfig};
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 use validators::{Criteria, Difficulty, RuleRef};
 
-/// The method of making levels or games.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// Walls, then furniture by role: instant, and judged only where something is asked that has to be measured.
-    Constructive,
-    /// Levels are altered step by step while judges look on: each by itself.
-    Search,
-    /// An archive of levels that differ evolves under the eyes of judges; the levels are picked from it.
-    Evolutionary,
-}
-
-impl Method {
-    /// All methods, the cheapest first.
-    pub const ALL: [Method; 3] = [Method::Constructive, Method::Search, Method::Evolutionary];
-
-    /// Its name on the command line and in cards.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Constructive => "constructive",
-            Method::Search => "search",
-            Method::Evolutionary => "evolutionary",
-        }
+engine::named_enum! {
+    /// The method of making levels or games.
+    pub enum Method {
+        /// Walls, then furniture by role: instant, and judged only where something is asked that has to be measured.
+        Constructive = "constructive",
+        /// Levels are altered step by step while judges look on: each by itself.
+        Search = "search",
+        /// An archive of levels that differ evolves under the eyes of judges; the levels are picked from it.
+        Evolutionary = "evolutionary",
     }
 }
 

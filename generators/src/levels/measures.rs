@@ -11,63 +11,34 @@ const HALF: f64 = 4.0;
 /// The number of steps at which nearness is half of its maximum.
 const NEAR: f64 = 4.0;
 
-/// A static measure of a level, from 0.0 to 1.0. A share of nothing is 0.0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum LevelMeasure {
-    /// The share of cells that are neither empty nor ground.
-    Cover,
-    /// The share of cells that the avatar, as it starts, can never enter nor clear.
-    Walls,
-    /// The mean number of open neighbours of the cells that the avatar can reach on foot, divided by four. Locks count as
-    /// open, deadly cells do not.
-    Openness,
-    /// The distance to the farthest cell that the avatar can reach on foot, in steps, as a share of all cells that it can
-    /// reach: 1.0 in a single corridor, small in a hall.
-    Linearity,
-    /// The nearness of harm: s / (s + 4), where each cell with something harmful adds to s the mean of 4 / (4 + d) for
-    /// its Manhattan distance d to the avatar and the same for the nearest goal thing (for the avatar only, if there is
-    /// none). Things that stay where they are and spawn nothing count half.
-    Pressure,
-    /// The number of goal things: n / (n + 4), where n counts cells with things that must be removed for a win or must be
-    /// protected, or with an exit.
-    Goals,
-    /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) of the level, unmoved, to its mirror
-    /// image.
-    LeftRight,
-    /// The up-down symmetry, likewise.
-    UpDown,
-    /// The share of walls, without those of the border, that have no wall next to them: high if walls are scattered
-    /// rather than built.
-    Sprinkle,
-}
-
-impl LevelMeasure {
-    /// All measures, in the order of [`LevelMeasures::of`].
-    pub const ALL: [LevelMeasure; 9] = [
-        LevelMeasure::Cover,
-        LevelMeasure::Walls,
-        LevelMeasure::Openness,
-        LevelMeasure::Linearity,
-        LevelMeasure::Pressure,
-        LevelMeasure::Goals,
-        LevelMeasure::LeftRight,
-        LevelMeasure::UpDown,
-        LevelMeasure::Sprinkle,
-    ];
-
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            LevelMeasure::Cover => "cover",
-            LevelMeasure::Walls => "walls",
-            LevelMeasure::Openness => "openness",
-            LevelMeasure::Linearity => "linearity",
-            LevelMeasure::Pressure => "enemy pressure",
-            LevelMeasure::Goals => "goal things",
-            LevelMeasure::LeftRight => "left-right symmetry",
-            LevelMeasure::UpDown => "up-down symmetry",
-            LevelMeasure::Sprinkle => "sprinkle",
-        }
+engine::named_enum! {
+    /// A static measure of a level, from 0.0 to 1.0. A share of nothing is 0.0.
+    pub enum LevelMeasure {
+        /// The share of cells that are neither empty nor ground.
+        Cover = "cover",
+        /// The share of cells that the avatar, as it starts, can never enter nor clear.
+        Walls = "walls",
+        /// The mean number of open neighbours of the cells that the avatar can reach on foot, divided by four. Locks count as
+        /// open, deadly cells do not.
+        Openness = "openness",
+        /// The distance to the farthest cell that the avatar can reach on foot, in steps, as a share of all cells that it can
+        /// reach: 1.0 in a single corridor, small in a hall.
+        Linearity = "linearity",
+        /// The nearness of harm: s / (s + 4), where each cell with something harmful adds to s the mean of 4 / (4 + d) for
+        /// its Manhattan distance d to the avatar and the same for the nearest goal thing (for the avatar only, if there is
+        /// none). Things that stay where they are and spawn nothing count half.
+        Pressure = "enemy pressure",
+        /// The number of goal things: n / (n + 4), where n counts cells with things that must be removed for a win or must be
+        /// protected, or with an exit.
+        Goals = "goal things",
+        /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) of the level, unmoved, to its mirror
+        /// image.
+        LeftRight = "left-right symmetry",
+        /// The up-down symmetry, likewise.
+        UpDown = "up-down symmetry",
+        /// The share of walls, without those of the border, that have no wall next to them: high if walls are scattered
+        /// rather than built.
+        Sprinkle = "sprinkle",
     }
 }
 

@@ -11,33 +11,18 @@ use engine::describe::Guide;
 use engine::{Action, Analysis, Description, Diagnostics, Episode, Game, Level, Outcome, Seed, syntax};
 use generators::GenerateError;
 use generators::games::{Masked, Rethemed};
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// The kind of a twin: the change of the surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Twin {
-    /// Names and level characters no longer carry meaning.
-    Masked,
-    /// The board is reflected left to right, together with every direction in the rules.
-    Mirrored,
-    /// The game has another theme.
-    Renamed,
-}
-
-impl Twin {
-    /// All kinds of twins.
-    pub const ALL: [Twin; 3] = [Twin::Masked, Twin::Mirrored, Twin::Renamed];
-
-    /// The name on the command line and in data.
-    pub fn name(self) -> &'static str {
-        match self {
-            Twin::Masked => "masked",
-            Twin::Mirrored => "mirrored",
-            Twin::Renamed => "renamed",
-        }
+engine::named_enum! {
+    /// The kind of a twin: the change of the surface.
+    pub enum Twin {
+        /// Names and level characters no longer carry meaning.
+        Masked = "masked",
+        /// The board is reflected left to right, together with every direction in the rules.
+        Mirrored = "mirrored",
+        /// The game has another theme.
+        Renamed = "renamed",
     }
 }
 

@@ -1,77 +1,40 @@
 //! Groups of effects and sprite classes by purpose.
 
 use engine::SpriteClass;
-use serde::{Deserialize, Serialize};
 
-/// The group of an effect: the groups of the engine's ontology, with movement split by its result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum EffectFamily {
-    /// Sprites go away, perhaps on a condition.
-    Kill,
-    /// Health points.
-    Health,
-    /// Resources of sprites: taken or changed.
-    Resource,
-    /// Sprites appear.
-    Spawn,
-    /// Sprites become others.
-    Transform,
-    /// Moves are undone.
-    Block,
-    /// Sprites face another way.
-    Turn,
-    /// Sprites are pushed, pulled or carried.
-    Push,
-    /// Sprites come out elsewhere.
-    Travel,
-    /// Sprites get faster or slower, or another physics.
-    Speed,
-    /// Continuous physics meets walls and bats.
-    Bounce,
-    /// Something is scheduled for later.
-    Timer,
-    /// An interaction is prevented.
-    Shield,
+engine::named_enum! {
+    /// The group of an effect: the groups of the engine's ontology, with movement split by its result.
+    pub enum EffectFamily {
+        /// Sprites go away, perhaps on a condition.
+        Kill = "kill",
+        /// Health points.
+        Health = "health",
+        /// Resources of sprites: taken or changed.
+        Resource = "resource",
+        /// Sprites appear.
+        Spawn = "spawn",
+        /// Sprites become others.
+        Transform = "transform",
+        /// Moves are undone.
+        Block = "block",
+        /// Sprites face another way.
+        Turn = "turn",
+        /// Sprites are pushed, pulled or carried.
+        Push = "push",
+        /// Sprites come out elsewhere.
+        Travel = "travel",
+        /// Sprites get faster or slower, or another physics.
+        Speed = "speed",
+        /// Continuous physics meets walls and bats.
+        Bounce = "bounce",
+        /// Something is scheduled for later.
+        Timer = "timer",
+        /// An interaction is prevented.
+        Shield = "shield",
+    }
 }
 
 impl EffectFamily {
-    /// All families, in their order.
-    pub const ALL: [EffectFamily; 13] = [
-        EffectFamily::Kill,
-        EffectFamily::Health,
-        EffectFamily::Resource,
-        EffectFamily::Spawn,
-        EffectFamily::Transform,
-        EffectFamily::Block,
-        EffectFamily::Turn,
-        EffectFamily::Push,
-        EffectFamily::Travel,
-        EffectFamily::Speed,
-        EffectFamily::Bounce,
-        EffectFamily::Timer,
-        EffectFamily::Shield,
-    ];
-
-    /// Returns the name used in data.
-    pub fn name(self) -> &'static str {
-        match self {
-            EffectFamily::Kill => "kill",
-            EffectFamily::Health => "health",
-            EffectFamily::Resource => "resource",
-            EffectFamily::Spawn => "spawn",
-            EffectFamily::Transform => "transform",
-            EffectFamily::Block => "block",
-            EffectFamily::Turn => "turn",
-            EffectFamily::Push => "push",
-            EffectFamily::Travel => "travel",
-            EffectFamily::Speed => "speed",
-            EffectFamily::Bounce => "bounce",
-            EffectFamily::Timer => "timer",
-            EffectFamily::Shield => "shield",
-        }
-    }
-
     /// Returns the family of an effect by its keyword; none if it is not an effect.
     pub fn of(keyword: &str) -> Option<EffectFamily> {
         Some(match keyword {
@@ -112,26 +75,26 @@ impl EffectFamily {
     }
 }
 
-/// The behaviour of sprites of a class by themselves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ClassFamily {
-    /// None: they lie about, are pushed, lead somewhere or carry.
-    Thing,
-    /// None, and they can be held.
-    Resource,
-    /// They go away after a while, or spread.
-    Flicker,
-    /// They fly straight on.
-    Missile,
-    /// They wander, chase or flee.
-    Npc,
-    /// They walk and fall.
-    Walker,
-    /// They make others.
-    Producer,
-    /// They do as the player commands.
-    Avatar,
+engine::named_enum! {
+    /// The behaviour of sprites of a class by themselves.
+    pub enum ClassFamily {
+        /// None: they lie about, are pushed, lead somewhere or carry.
+        Thing = "thing",
+        /// None, and they can be held.
+        Resource = "resource",
+        /// They go away after a while, or spread.
+        Flicker = "flicker",
+        /// They fly straight on.
+        Missile = "missile",
+        /// They wander, chase or flee.
+        Npc = "npc",
+        /// They walk and fall.
+        Walker = "walker",
+        /// They make others.
+        Producer = "producer",
+        /// They do as the player commands.
+        Avatar = "avatar",
+    }
 }
 
 impl ClassFamily {
@@ -151,20 +114,6 @@ impl ClassFamily {
             C::Missile | C::ErraticMissile | C::RandomMissile => ClassFamily::Missile,
             C::Walker | C::WalkerJumper => ClassFamily::Walker,
             _ => ClassFamily::Thing,
-        }
-    }
-
-    /// Returns the name used in data.
-    pub fn name(self) -> &'static str {
-        match self {
-            ClassFamily::Thing => "thing",
-            ClassFamily::Resource => "resource",
-            ClassFamily::Flicker => "flicker",
-            ClassFamily::Missile => "missile",
-            ClassFamily::Npc => "npc",
-            ClassFamily::Walker => "walker",
-            ClassFamily::Producer => "producer",
-            ClassFamily::Avatar => "avatar",
         }
     }
 }

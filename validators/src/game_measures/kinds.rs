@@ -7,32 +7,32 @@ use engine::{Analysis, SpriteClass, SpriteType, Term};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The abilities of the initial avatar: how it moves, and whether the use key makes something.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum AvatarKind {
-    /// Goes up, left, down and right.
-    Walks,
-    /// Goes four ways, but turns before it goes.
-    Turns,
-    /// Goes four ways, and shoots, hits or puts something ahead.
-    WalksAndShoots,
-    /// Goes along a line.
-    Slides,
-    /// Goes along a line, and shoots.
-    SlidesAndShoots,
-    /// Always goes ahead, and can be turned or not.
-    Runs,
-    /// Always goes ahead, and shoots or leaves something behind.
-    RunsAndShoots,
-    /// Stays where it is, aims and shoots.
-    Aims,
-    /// Has thrust and momentum, armed or not.
-    Flies,
-    /// Falls and jumps.
-    Jumps,
-    /// Does nothing; or there is none at the start.
-    Watches,
+engine::named_enum! {
+    /// The abilities of the initial avatar: how it moves, and whether the use key makes something.
+    pub enum AvatarKind {
+        /// Goes up, left, down and right.
+        Walks = "walks",
+        /// Goes four ways, but turns before it goes.
+        Turns = "turns",
+        /// Goes four ways, and shoots, hits or puts something ahead.
+        WalksAndShoots = "walks-and-shoots",
+        /// Goes along a line.
+        Slides = "slides",
+        /// Goes along a line, and shoots.
+        SlidesAndShoots = "slides-and-shoots",
+        /// Always goes ahead, and can be turned or not.
+        Runs = "runs",
+        /// Always goes ahead, and shoots or leaves something behind.
+        RunsAndShoots = "runs-and-shoots",
+        /// Stays where it is, aims and shoots.
+        Aims = "aims",
+        /// Has thrust and momentum, armed or not.
+        Flies = "flies",
+        /// Falls and jumps.
+        Jumps = "jumps",
+        /// Does nothing; or there is none at the start.
+        Watches = "watches",
+    }
 }
 
 impl AvatarKind {
@@ -55,53 +55,36 @@ impl AvatarKind {
             (Steering::Jumping, _) => AvatarKind::Jumps,
         }
     }
-
-    /// Returns the name used in data.
-    pub fn name(self) -> &'static str {
-        match self {
-            AvatarKind::Walks => "walks",
-            AvatarKind::Turns => "turns",
-            AvatarKind::WalksAndShoots => "walks-and-shoots",
-            AvatarKind::Slides => "slides",
-            AvatarKind::SlidesAndShoots => "slides-and-shoots",
-            AvatarKind::Runs => "runs",
-            AvatarKind::RunsAndShoots => "runs-and-shoots",
-            AvatarKind::Aims => "aims",
-            AvatarKind::Flies => "flies",
-            AvatarKind::Jumps => "jumps",
-            AvatarKind::Watches => "watches",
-        }
-    }
 }
 
-/// The task that a win requires, by the signed goals: if several fit, the first in this order counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum GoalKind {
-    /// Others head for the same goal, and the first to arrive wins.
-    Race,
-    /// Pushed sprites have to reach their places.
-    Deliver,
-    /// Many copies of something that is made have to exist.
-    Grow,
-    /// Sprites have to be removed by shots or obstacles of the avatar.
-    Eliminate,
-    /// Moving sprites have to be caught.
-    Hunt,
-    /// Items that lie about have to be taken: all of a type, or many of a resource that an exit requires.
-    Collect,
-    /// Something has to be reached, or taken, that is closed until the avatar has its key or the right form.
-    Unlock,
-    /// A place has to be reached.
-    Reach,
-    /// Others have to do something, or to be brought together.
-    Herd,
-    /// A sprite other than the avatar has to be protected for a while.
-    Guard,
-    /// Some tick has to be reached alive.
-    Survive,
-    /// There is no goal but the score: play cannot cause a win, or the clock wins in any case.
-    Score,
+engine::named_enum! {
+    /// The task that a win requires, by the signed goals: if several fit, the first in this order counts.
+    pub enum GoalKind {
+        /// Others head for the same goal, and the first to arrive wins.
+        Race = "race",
+        /// Pushed sprites have to reach their places.
+        Deliver = "deliver",
+        /// Many copies of something that is made have to exist.
+        Grow = "grow",
+        /// Sprites have to be removed by shots or obstacles of the avatar.
+        Eliminate = "eliminate",
+        /// Moving sprites have to be caught.
+        Hunt = "hunt",
+        /// Items that lie about have to be taken: all of a type, or many of a resource that an exit requires.
+        Collect = "collect",
+        /// Something has to be reached, or taken, that is closed until the avatar has its key or the right form.
+        Unlock = "unlock",
+        /// A place has to be reached.
+        Reach = "reach",
+        /// Others have to do something, or to be brought together.
+        Herd = "herd",
+        /// A sprite other than the avatar has to be protected for a while.
+        Guard = "guard",
+        /// Some tick has to be reached alive.
+        Survive = "survive",
+        /// There is no goal but the score: play cannot cause a win, or the clock wins in any case.
+        Score = "score",
+    }
 }
 
 /// The number from which the quantity is the point of a goal.
@@ -145,40 +128,22 @@ impl GoalKind {
         ];
         fits.into_iter().find(|(_, fits)| *fits).map_or(GoalKind::Score, |(kind, _)| kind)
     }
-
-    /// Returns the name used in data.
-    pub fn name(self) -> &'static str {
-        match self {
-            GoalKind::Race => "race",
-            GoalKind::Deliver => "deliver",
-            GoalKind::Grow => "grow",
-            GoalKind::Eliminate => "eliminate",
-            GoalKind::Hunt => "hunt",
-            GoalKind::Collect => "collect",
-            GoalKind::Unlock => "unlock",
-            GoalKind::Reach => "reach",
-            GoalKind::Herd => "herd",
-            GoalKind::Guard => "guard",
-            GoalKind::Survive => "survive",
-            GoalKind::Score => "score",
-        }
-    }
 }
 
-/// The source of randomness, if randomness can decide anything.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ChanceKind {
-    /// Nothing.
-    None,
-    /// The movement of sprites other than the avatar.
-    Movers,
-    /// The times at which sprites appear.
-    Makers,
-    /// The results of interactions.
-    Rules,
-    /// Several of these.
-    Several,
+engine::named_enum! {
+    /// The source of randomness, if randomness can decide anything.
+    pub enum ChanceKind {
+        /// Nothing.
+        None = "none",
+        /// The movement of sprites other than the avatar.
+        Movers = "movers",
+        /// The times at which sprites appear.
+        Makers = "makers",
+        /// The results of interactions.
+        Rules = "rules",
+        /// Several of these.
+        Several = "several",
+    }
 }
 
 impl ChanceKind {
@@ -217,17 +182,6 @@ impl ChanceKind {
             // Randomness decides in a way that is none of these: the bounces of missiles, for one.
             [] => ChanceKind::Movers,
             _ => ChanceKind::Several,
-        }
-    }
-
-    /// Returns the name used in data.
-    pub fn name(self) -> &'static str {
-        match self {
-            ChanceKind::None => "none",
-            ChanceKind::Movers => "movers",
-            ChanceKind::Makers => "makers",
-            ChanceKind::Rules => "rules",
-            ChanceKind::Several => "several",
         }
     }
 }

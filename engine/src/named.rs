@@ -1,0 +1,23 @@
+//! Enums whose variants have names.
+
+/// Declares an enum with the names of its variants in data: serde reads and writes them, and `name` returns them.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! named_enum {
+    ($(#[$doc:meta])* pub enum $named:ident { $($(#[$about:meta])* $variant:ident = $name:literal,)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[derive(serde::Serialize, serde::Deserialize)]
+        pub enum $named { $($(#[$about])* #[serde(rename = $name)] $variant),* }
+
+        impl $named {
+            /// All of them, in their order.
+            pub const ALL: [$named; [$($name),*].len()] = [$($named::$variant),*];
+
+            /// Returns the name used in data.
+            pub fn name(self) -> &'static str {
+                match self { $($named::$variant => $name),* }
+            }
+        }
+    };
+}
