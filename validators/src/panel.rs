@@ -46,6 +46,7 @@ enum Stage {
 /// The subject of a criterion of games.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Subject {
+    /// The players.
     Players,
     /// The rules: doubts about them may follow from a level that nobody can win.
     Rules,

@@ -7,22 +7,14 @@ use super::draft::{Part, Value};
 pub(crate) enum Effect<P = Part> {
     /// Kills the first.
     KillSprite,
+    /// Kills both.
     KillBoth,
     /// Kills all of a type.
-    KillAll {
-        stype: P,
-    },
+    KillAll { stype: P },
     /// Kills the first if the second holds enough of a resource, which the second may have to pay.
-    KillIfOtherHasMore {
-        resource: P,
-        limit: u32,
-        subtract: bool,
-    },
+    KillIfOtherHasMore { resource: P, limit: u32, subtract: bool },
     /// Kills the first unless it holds more than `limit` of a resource.
-    KillIfHasLess {
-        resource: P,
-        limit: u32,
-    },
+    KillIfHasLess { resource: P, limit: u32 },
     /// Moves the first back.
     StepBack,
     /// Turns the first round.
@@ -36,45 +28,23 @@ pub(crate) enum Effect<P = Part> {
     /// Moves the first to an exit of the second.
     TeleportToExit,
     /// Turns the first into another type; the second may be killed.
-    TransformTo {
-        stype: P,
-        kill_second: bool,
-    },
+    TransformTo { stype: P, kill_second: bool },
     /// Turns all sprites of one type into another.
-    TransformToAll {
-        stype: P,
-        into: P,
-    },
+    TransformToAll { stype: P, into: P },
     /// Spawns a sprite at the first if the first holds enough of a resource, which it pays.
-    SpawnIfHasMore {
-        resource: P,
-        limit: u32,
-        stype: P,
-    },
+    SpawnIfHasMore { resource: P, limit: u32, stype: P },
     /// Spawns a sprite where the second was.
-    SpawnBehind {
-        stype: P,
-    },
+    SpawnBehind { stype: P },
     /// Adds the first to the resources of the second; the first may stay on the board.
-    CollectResource {
-        stays: bool,
-    },
+    CollectResource { stays: bool },
     /// Takes one of a resource from the first, and kills the second.
-    Spend {
-        resource: P,
-    },
+    Spend { resource: P },
     /// Takes a health point from the first every `timer` ticks.
-    Wane {
-        timer: u32,
-    },
+    Wane { timer: u32 },
     /// Takes a health point from the first; losing the last one kills it, with a score of its own.
-    SubtractHealthPoints {
-        score_if_killed: i32,
-    },
+    SubtractHealthPoints { score_if_killed: i32 },
     /// Gives health points to the first, and kills the second.
-    AddHealthPointsToMax {
-        value: u32,
-    },
+    AddHealthPointsToMax { value: u32 },
 }
 
 impl<P: Copy> Effect<P> {
@@ -83,6 +53,7 @@ impl<P: Copy> Effect<P> {
         Effect::TransformTo { stype, kill_second: false }
     }
 
+    /// The keyword.
     pub(crate) fn keyword(self) -> &'static str {
         match self {
             Effect::KillSprite => "killSprite",

@@ -12,6 +12,7 @@ pub(crate) enum Walk {
     Blocked,
     /// It can be shot away first.
     Breakable,
+    /// It is pushed.
     Pushed,
     /// It kills or wounds the avatar.
     Deadly,
