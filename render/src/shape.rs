@@ -50,6 +50,22 @@ pub struct Shape {
 }
 
 impl Outline {
+    /// The outline of an SVG path of our own, such as `M.1,.2 L.3,.4 C.5,.6,.7,.8,.9,1 Z`: absolute coordinates,
+    /// blanks between the commands only.
+    pub(crate) fn path(path: &str) -> Outline {
+        let segment = |command: &str| {
+            let numbers = command[1..].split(',').filter_map(|number| number.parse().ok());
+            match (&command[..1], &numbers.collect::<Vec<f32>>()[..]) {
+                ("M", &[x, y]) => Segment::Move([x, y]),
+                ("L", &[x, y]) => Segment::Line([x, y]),
+                ("C", &[ax, ay, bx, by, x, y]) => Segment::Cubic([ax, ay], [bx, by], [x, y]),
+                ("Z", []) => Segment::Close,
+                _ => unreachable!("`{command}` is no command, and a test draws every tile"),
+            }
+        };
+        Outline(path.split(' ').map(segment).collect())
+    }
+
     /// A line through these points.
     pub(crate) fn line(points: &[Point]) -> Outline {
         let step = |(at, &point): (usize, &Point)| match at {

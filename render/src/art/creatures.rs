@@ -2,7 +2,7 @@
 
 use super::{Art, RIM};
 use crate::colour::{Colour, INK, PAPER};
-use crate::shape::{Outline, Point, Segment};
+use crate::shape::{Outline, Point};
 
 /// The ring around the avatar: no other tile has it.
 const RING: Colour = Colour([0x1f, 0xb8, 0xff]);
@@ -20,27 +20,17 @@ pub(super) fn avatar(art: &mut Art, facing: Option<Point>) {
         let pointer = Outline::polygon(&[[0.99, 0.5], [0.84, 0.36], [0.84, 0.64]]);
         art.solid(pointer.turned(direction), RING);
     }
-    let body = Outline(vec![
-        Segment::Move([0.27, 0.83]),
-        Segment::Cubic([0.27, 0.62], [0.36, 0.52], [0.5, 0.52]),
-        Segment::Cubic([0.64, 0.52], [0.73, 0.62], [0.73, 0.83]),
-        Segment::Close,
-    ]);
+    let body = Outline::path("M.27,.83 C.27,.62,.36,.52,.5,.52 C.64,.52,.73,.62,.73,.83 Z");
     art.solid(body, art.main());
     let skin = Colour([0xff, 0xe0, 0xbd]);
     art.solid(Outline::circle(0.5, 0.35, 0.19), skin);
     // A cap in the figure's own colour.
-    let cap = Outline(vec![
-        Segment::Move([0.31, 0.33]),
-        Segment::Cubic([0.31, 0.08], [0.69, 0.08], [0.69, 0.33]),
-        Segment::Close,
-    ]);
+    let cap = Outline::path("M.31,.33 C.31,.08,.69,.08,.69,.33 Z");
     art.solid(cap, art.main());
     for x in [0.43, 0.57] {
         art.fill(Outline::circle(x, 0.4, 0.03), INK);
     }
-    let smile =
-        Outline(vec![Segment::Move([0.43, 0.46]), Segment::Cubic([0.46, 0.5], [0.54, 0.5], [0.57, 0.46])]);
+    let smile = Outline::path("M.43,.46 C.46,.5,.54,.5,.57,.46");
     art.stroke(smile, INK, 0.025);
 }
 
@@ -89,16 +79,7 @@ pub(super) fn enemy(art: &mut Art) {
             teeth(art, 0.5, 0.68, 0.28);
         }
         2 => {
-            let wing = Outline::polygon(&[
-                [0.5, 0.5],
-                [0.3, 0.28],
-                [0.02, 0.14],
-                [0.03, 0.66],
-                [0.15, 0.56],
-                [0.21, 0.74],
-                [0.31, 0.6],
-                [0.4, 0.76],
-            ]);
+            let wing = Outline::path("M.5,.5 L.3,.28 L.02,.14 L.03,.66 L.15,.56 L.21,.74 L.31,.6 L.4,.76 Z");
             art.solid(wing.clone(), main.shade());
             art.solid(wing.mirrored(), main.shade());
             for ear in [[[0.3, 0.36], [0.33, 0.1], [0.48, 0.3]], [[0.7, 0.36], [0.67, 0.1], [0.52, 0.3]]] {
@@ -112,18 +93,9 @@ pub(super) fn enemy(art: &mut Art) {
             for horn in [[[0.24, 0.34], [0.1, 0.04], [0.44, 0.2]], [[0.76, 0.34], [0.9, 0.04], [0.56, 0.2]]] {
                 art.solid(Outline::polygon(&horn), PAPER);
             }
-            let robe = Outline(vec![
-                Segment::Move([0.14, 0.94]),
-                Segment::Line([0.14, 0.5]),
-                Segment::Cubic([0.14, 0.02], [0.86, 0.02], [0.86, 0.5]),
-                Segment::Line([0.86, 0.94]),
-                Segment::Line([0.74, 0.8]),
-                Segment::Line([0.62, 0.94]),
-                Segment::Line([0.5, 0.8]),
-                Segment::Line([0.38, 0.94]),
-                Segment::Line([0.26, 0.8]),
-                Segment::Close,
-            ]);
+            let robe = Outline::path(
+                "M.14,.94 L.14,.5 C.14,.02,.86,.02,.86,.5 L.86,.94 L.74,.8 L.62,.94 L.5,.8 L.38,.94 L.26,.8 Z",
+            );
             art.solid(robe, main);
             art.eyes([0.5, 0.42], 0.3, 0.11, true);
             teeth(art, 0.5, 0.63, 0.32);
@@ -148,24 +120,10 @@ pub(super) fn charger(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
         0 => art.solid(
-            Outline::polygon(&[
-                [0.98, 0.5],
-                [0.72, 0.22],
-                [0.56, 0.26],
-                [0.46, 0.06],
-                [0.36, 0.26],
-                [0.24, 0.1],
-                [0.18, 0.3],
-                [0.03, 0.22],
-                [0.1, 0.5],
-                [0.03, 0.78],
-                [0.18, 0.7],
-                [0.24, 0.9],
-                [0.36, 0.74],
-                [0.46, 0.94],
-                [0.56, 0.74],
-                [0.72, 0.78],
-            ]),
+            Outline::path(
+                "M.98,.5 L.72,.22 L.56,.26 L.46,.06 L.36,.26 L.24,.1 L.18,.3 L.03,.22 L.1,.5 L.03,.78 \
+                 L.18,.7 L.24,.9 L.36,.74 L.46,.94 L.56,.74 L.72,.78 Z",
+            ),
             main,
         ),
         1 => {
@@ -188,12 +146,7 @@ pub(super) fn charger(art: &mut Art) {
             art.solid(Outline::polygon(&[[0.3, 0.5], [0.02, 0.16], [0.1, 0.5], [0.02, 0.84]]), main.shade());
             art.solid(Outline::polygon(&[[0.62, 0.3], [0.36, 0.06], [0.36, 0.3]]), main.shade());
             art.solid(Outline::polygon(&[[0.62, 0.7], [0.36, 0.94], [0.36, 0.7]]), main.shade());
-            let body = Outline(vec![
-                Segment::Move([0.98, 0.5]),
-                Segment::Cubic([0.8, 0.18], [0.36, 0.16], [0.12, 0.5]),
-                Segment::Cubic([0.36, 0.84], [0.8, 0.82], [0.98, 0.5]),
-                Segment::Close,
-            ]);
+            let body = Outline::path("M.98,.5 C.8,.18,.36,.16,.12,.5 C.36,.84,.8,.82,.98,.5 Z");
             art.solid(body, main);
         }
     }
@@ -237,7 +190,6 @@ pub(super) fn friend(art: &mut Art) {
     for x in [0.37, 0.63] {
         art.fill(Outline::circle(x, 0.5, 0.055), INK);
     }
-    let smile =
-        Outline(vec![Segment::Move([0.32, 0.64]), Segment::Cubic([0.38, 0.82], [0.62, 0.82], [0.68, 0.64])]);
+    let smile = Outline::path("M.32,.64 C.38,.82,.62,.82,.68,.64");
     art.stroke(smile, INK, RIM * 1.3);
 }

@@ -4,7 +4,7 @@ use super::Art;
 use crate::colour::{Colour, GROUND, INK, PAPER};
 use crate::shape::{Outline, Segment};
 
-fn bricks(art: &mut Art) {
+pub(super) fn bricks(art: &mut Art) {
     let (main, joint) = (art.main(), art.main().shade());
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), joint);
     let courses: [&[(f32, f32)]; 3] = [
@@ -19,10 +19,6 @@ fn bricks(art: &mut Art) {
             art.fill(Outline::rect(x, y, w, 0.07), main.mixed(PAPER, 25));
         }
     }
-}
-
-pub(super) fn wall(art: &mut Art) {
-    bricks(art);
 }
 
 pub(super) fn breakable(art: &mut Art) {

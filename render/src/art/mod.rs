@@ -56,7 +56,7 @@ pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
         G::Bomb => shots::bomb(&mut art),
         G::Hazard => ground::hazard(&mut art),
         G::Mire => ground::mire(&mut art),
-        G::Wall => ground::wall(&mut art),
+        G::Wall => ground::bricks(&mut art),
         G::Breakable => ground::breakable(&mut art),
         G::Soil => ground::soil(&mut art),
         G::Cover => ground::cover(&mut art),

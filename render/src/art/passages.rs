@@ -52,26 +52,16 @@ pub(super) fn portal_exit(art: &mut Art) {
     let main = art.main();
     art.stroke(Outline::circle(0.5, 0.5, 0.4), INK, 0.16);
     art.stroke(Outline::circle(0.5, 0.5, 0.4), main, 0.08);
-    let arrow =
-        [[0.44, 0.3], [0.56, 0.3], [0.56, 0.48], [0.68, 0.48], [0.5, 0.7], [0.32, 0.48], [0.44, 0.48]];
-    art.solid(Outline::polygon(&arrow), main);
+    let arrow = Outline::path("M.44,.3 L.56,.3 L.56,.48 L.68,.48 L.5,.7 L.32,.48 L.44,.48 Z");
+    art.solid(arrow, main);
 }
 
 /// A dark mouth in a mound, with eyes in it.
 pub(super) fn nest(art: &mut Art) {
     let main = art.main();
-    let mound = Outline(vec![
-        Segment::Move([0.03, 0.95]),
-        Segment::Cubic([0.06, 0.2], [0.3, 0.05], [0.5, 0.05]),
-        Segment::Cubic([0.7, 0.05], [0.94, 0.2], [0.97, 0.95]),
-        Segment::Close,
-    ]);
+    let mound = Outline::path("M.03,.95 C.06,.2,.3,.05,.5,.05 C.7,.05,.94,.2,.97,.95 Z");
     art.solid(mound, main);
-    let mouth = Outline(vec![
-        Segment::Move([0.2, 0.95]),
-        Segment::Cubic([0.2, 0.2], [0.8, 0.2], [0.8, 0.95]),
-        Segment::Close,
-    ]);
+    let mouth = Outline::path("M.2,.95 C.2,.2,.8,.2,.8,.95 Z");
     art.fill(mouth, INK);
     for x in [0.31, 0.49, 0.67] {
         art.fill(Outline::polygon(&[[x - 0.07, 0.47], [x + 0.09, 0.47], [x + 0.01, 0.6]]), PAPER);

@@ -2,7 +2,7 @@
 
 use super::Art;
 use crate::colour::{Colour, INK, PAPER};
-use crate::shape::{Outline, Segment};
+use crate::shape::Outline;
 
 /// A star of the thing's own colour: flat, with a round middle or many-pointed.
 pub(super) fn treasure(art: &mut Art) {
@@ -44,39 +44,21 @@ pub(super) fn raft(art: &mut Art) {
 
 pub(super) fn ward(art: &mut Art) {
     let main = art.main();
-    let shield = Outline(vec![
-        Segment::Move([0.5, 0.04]),
-        Segment::Cubic([0.62, 0.14], [0.78, 0.16], [0.9, 0.15]),
-        Segment::Cubic([0.92, 0.56], [0.8, 0.8], [0.5, 0.96]),
-        Segment::Cubic([0.2, 0.8], [0.08, 0.56], [0.1, 0.15]),
-        Segment::Cubic([0.22, 0.16], [0.38, 0.14], [0.5, 0.04]),
-        Segment::Close,
-    ]);
+    let shield = Outline::path(
+        "M.5,.04 C.62,.14,.78,.16,.9,.15 C.92,.56,.8,.8,.5,.96 C.2,.8,.08,.56,.1,.15 \
+         C.22,.16,.38,.14,.5,.04 Z",
+    );
     art.solid(shield, main);
-    let heart = Outline(vec![
-        Segment::Move([0.5, 0.72]),
-        Segment::Cubic([0.16, 0.5], [0.24, 0.24], [0.4, 0.28]),
-        Segment::Cubic([0.46, 0.3], [0.5, 0.36], [0.5, 0.4]),
-        Segment::Cubic([0.5, 0.36], [0.54, 0.3], [0.6, 0.28]),
-        Segment::Cubic([0.76, 0.24], [0.84, 0.5], [0.5, 0.72]),
-        Segment::Close,
-    ]);
+    let heart = Outline::path(
+        "M.5,.72 C.16,.5,.24,.24,.4,.28 C.46,.3,.5,.36,.5,.4 C.5,.36,.54,.3,.6,.28 C.76,.24,.84,.5,.5,.72 Z",
+    );
     art.solid(heart, PAPER);
 }
 
 pub(super) fn boulder(art: &mut Art) {
     let main = art.main();
-    let rock = [
-        [0.3, 0.08],
-        [0.66, 0.05],
-        [0.92, 0.3],
-        [0.96, 0.66],
-        [0.74, 0.93],
-        [0.34, 0.96],
-        [0.06, 0.74],
-        [0.06, 0.36],
-    ];
-    art.solid(Outline::polygon(&rock), main);
+    let rock = Outline::path("M.3,.08 L.66,.05 L.92,.3 L.96,.66 L.74,.93 L.34,.96 L.06,.74 L.06,.36 Z");
+    art.solid(rock, main);
     art.fill(
         Outline::polygon(&[[0.32, 0.14], [0.62, 0.11], [0.7, 0.26], [0.42, 0.38], [0.16, 0.38]]),
         main.light(),
@@ -107,19 +89,10 @@ pub(super) fn crossed_crate(art: &mut Art) {
 
 pub(super) fn key(art: &mut Art) {
     let main = art.main();
-    let shaft = [
-        [0.48, 0.44],
-        [0.97, 0.44],
-        [0.97, 0.72],
-        [0.86, 0.72],
-        [0.86, 0.56],
-        [0.78, 0.56],
-        [0.78, 0.67],
-        [0.68, 0.67],
-        [0.68, 0.56],
-        [0.48, 0.56],
-    ];
-    art.solid(Outline::polygon(&shaft), main);
+    let shaft = Outline::path(
+        "M.48,.44 L.97,.44 L.97,.72 L.86,.72 L.86,.56 L.78,.56 L.78,.67 L.68,.67 L.68,.56 L.48,.56 Z",
+    );
+    art.solid(shaft, main);
     art.solid(art.emblem(0.29, 0.5, 0.25), main);
     art.solid(art.emblem(0.29, 0.5, 0.1), PAPER);
 }
@@ -127,11 +100,7 @@ pub(super) fn key(art: &mut Art) {
 pub(super) fn switch(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.08, 0.62, 0.84, 0.3, 0.08), Colour([0x8a, 0x90, 0x9c]));
-    let button = Outline(vec![
-        Segment::Move([0.24, 0.62]),
-        Segment::Cubic([0.26, 0.2], [0.74, 0.2], [0.76, 0.62]),
-        Segment::Close,
-    ]);
+    let button = Outline::path("M.24,.62 C.26,.2,.74,.2,.76,.62 Z");
     art.solid(button, main);
     art.fill(Outline::ellipse(0.42, 0.42, 0.06, 0.05), PAPER);
 }
@@ -186,13 +155,8 @@ pub(super) fn gem(art: &mut Art) {
 
 pub(super) fn neutral(art: &mut Art) {
     let main = art.main();
-    let pebble = Outline(vec![
-        Segment::Move([0.18, 0.62]),
-        Segment::Cubic([0.2, 0.3], [0.6, 0.22], [0.74, 0.36]),
-        Segment::Cubic([0.94, 0.54], [0.86, 0.8], [0.5, 0.8]),
-        Segment::Cubic([0.28, 0.8], [0.18, 0.76], [0.18, 0.62]),
-        Segment::Close,
-    ]);
+    let pebble =
+        Outline::path("M.18,.62 C.2,.3,.6,.22,.74,.36 C.94,.54,.86,.8,.5,.8 C.28,.8,.18,.76,.18,.62 Z");
     art.solid(pebble, main);
     art.fill(Outline::ellipse(0.42, 0.46, 0.1, 0.05), main.light());
 }
