@@ -11,4 +11,4 @@ mod table;
 
 pub use figures::{Mean, Quantiles, Share};
 pub use set::{Figure, Section, SetReport, Value};
-pub use table::{Table, TableCell, in_markdown};
+pub use table::{Column, Table, TableCell, in_markdown};

@@ -18,6 +18,9 @@ pub struct Table {
     pub rows: Vec<Vec<TableCell>>,
 }
 
+/// A column of a table with a row for each `R`: its heading, and the cell of a row.
+pub type Column<'a, R> = (&'a str, &'a dyn Fn(&R) -> TableCell);
+
 /// A cell of a [`Table`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -125,6 +128,14 @@ impl Table {
     pub fn new(id: &str, title: &str, note: &str, columns: &[&str]) -> Table {
         let columns = columns.iter().map(|&column| column.to_owned()).collect();
         Table { id: id.to_owned(), title: title.to_owned(), note: note.to_owned(), columns, rows: Vec::new() }
+    }
+
+    /// Creates a table with a row for each of `rows`.
+    pub fn of<R>(id: &str, title: &str, note: &str, rows: &[R], columns: &[Column<'_, R>]) -> Table {
+        let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+        let mut table = Table::new(id, title, note, &names);
+        table.rows = rows.iter().map(|row| columns.iter().map(|(_, cell)| cell(row)).collect()).collect();
+        table
     }
 
     /// Adds a row. Columns without a cell are [`Missing`](TableCell::Missing); cells without a column are left out.

@@ -167,45 +167,30 @@ impl Contrasts {
             return Vec::new();
         }
         let label = |player: usize| TableCell::text(study.players[player].label());
-        let mut overall = Table::new(
+        let share = |wins: u64, episodes: u64| TableCell::text(format!("{wins}/{episodes}"));
+        let overall = Table::of(
             &format!("{id}-overall"),
             &format!("{title}, over all levels"),
             "p: exact test within levels (Cochran, Mantel, Haenszel). q: corrected for the pairs of this table (Benjamini, Hochberg). \
              h: Cohen's effect size (0.2 small, 0.5 medium, 0.8 large). The difference of win rates, with a bootstrap \
              interval over whole games.",
+            &self.overall,
             &[
-                "first",
-                "second",
-                "levels",
-                "wins",
-                "wins of second",
-                "difference",
-                "odds ratio",
-                "h",
-                "p",
-                "q",
+                ("first", &|found| label(found.players[0])),
+                ("second", &|found| label(found.players[1])),
+                ("levels", &|found| TableCell::Count(found.levels)),
+                ("wins", &|found| share(found.wins[0], found.episodes[0])),
+                ("wins of second", &|found| share(found.wins[1], found.episodes[1])),
+                ("difference", &|found| match found.by_game {
+                    Some(estimate) => Estimate::cell(Some(estimate), 2),
+                    None => TableCell::number(found.difference, 2),
+                }),
+                ("odds ratio", &|found| TableCell::number(found.odds_ratio, 2)),
+                ("h", &|found| TableCell::number(found.h, 2)),
+                ("p", &|found| TableCell::Probability(found.p)),
+                ("q", &|found| TableCell::Probability(found.q)),
             ],
         );
-        for found in &self.overall {
-            let share =
-                |side: usize| TableCell::text(format!("{}/{}", found.wins[side], found.episodes[side]));
-            let difference = match found.by_game {
-                Some(estimate) => Estimate::cell(Some(estimate), 2),
-                None => TableCell::number(found.difference, 2),
-            };
-            overall.push(vec![
-                label(found.players[0]),
-                label(found.players[1]),
-                TableCell::Count(found.levels),
-                share(0),
-                share(1),
-                difference,
-                TableCell::number(found.odds_ratio, 2),
-                TableCell::number(found.h, 2),
-                TableCell::Probability(found.p),
-                TableCell::Probability(found.q),
-            ]);
-        }
         let list = |grain: &str, list: &[Comparison]| {
             let sorted = list.iter().sorted_by(|a, b| a.p.total_cmp(&b.p)).collect_vec();
             let believed = list.iter().filter(|comparison| comparison.q <= 0.05).count();
@@ -219,28 +204,23 @@ impl Contrasts {
                     String::new()
                 }
             );
-            let mut table = Table::new(
+            Table::of(
                 &format!("{id}-by-{grain}"),
                 &format!("{title}, by {grain}"),
                 &note,
-                &["first", "second", grain, "wins", "wins of second", "difference", "h", "p", "q"],
-            );
-            for found in sorted.into_iter().take(most) {
-                let share =
-                    |side: usize| TableCell::text(format!("{}/{}", found.wins[side], found.episodes[side]));
-                table.push(vec![
-                    label(found.players[0]),
-                    label(found.players[1]),
-                    TableCell::text(study.place(found.game, found.level)),
-                    share(0),
-                    share(1),
-                    Estimate::cell(Some(found.difference), 2),
-                    TableCell::number(found.h, 2),
-                    TableCell::Probability(found.p),
-                    TableCell::Probability(found.q),
-                ]);
-            }
-            table
+                &sorted[..sorted.len().min(most)],
+                &[
+                    ("first", &|found| label(found.players[0])),
+                    ("second", &|found| label(found.players[1])),
+                    (grain, &|found| TableCell::text(study.place(found.game, found.level))),
+                    ("wins", &|found| share(found.wins[0], found.episodes[0])),
+                    ("wins of second", &|found| share(found.wins[1], found.episodes[1])),
+                    ("difference", &|found| Estimate::cell(Some(found.difference), 2)),
+                    ("h", &|found| TableCell::number(found.h, 2)),
+                    ("p", &|found| TableCell::Probability(found.p)),
+                    ("q", &|found| TableCell::Probability(found.q)),
+                ],
+            )
         };
         vec![overall, list("game", &self.by_game), list("level", &self.by_level)]
     }

@@ -103,22 +103,21 @@ pub(crate) fn difficulties(study: &Study) -> Vec<DifficultyRow> {
 }
 
 pub(crate) fn table(study: &Study) -> Table {
-    let mut table = Table::new(
+    Table::of(
         "difficulty",
         "Difficulty",
         "Ease: 0.6 win rate + 0.2 normalised reward + 0.2 step efficiency, means over the players of this study; high is easy. Missing \
          if a component is, such as the reward of a game with equal scores. Unbeaten: no player has won.",
-        &["game or level", "win rate", "normalised reward", "efficiency", "ease", "difficulty"],
-    );
-    for row in &study.difficulties {
-        table.push(vec![
-            TableCell::text(study.place(row.game, row.level)),
-            TableCell::number(row.win_rate, 2),
-            TableCell::number(row.normalised_reward, 3),
-            TableCell::number(row.efficiency, 3),
-            TableCell::number(row.ease, 3),
-            row.label.map_or(TableCell::Missing, |label| TableCell::text(label.to_string())),
-        ]);
-    }
-    table
+        &study.difficulties,
+        &[
+            ("game or level", &|row| TableCell::text(study.place(row.game, row.level))),
+            ("win rate", &|row| TableCell::number(row.win_rate, 2)),
+            ("normalised reward", &|row| TableCell::number(row.normalised_reward, 3)),
+            ("efficiency", &|row| TableCell::number(row.efficiency, 3)),
+            ("ease", &|row| TableCell::number(row.ease, 3)),
+            ("difficulty", &|row| {
+                row.label.map_or(TableCell::Missing, |label| TableCell::text(label.to_string()))
+            }),
+        ],
+    )
 }

@@ -151,54 +151,40 @@ pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
 const TOP: usize = 10;
 
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
-    let mut modes = Table::new(
+    let average = |values: &[f64]| TableCell::number(mean(values.iter().copied()), 3);
+    let modes = Table::of(
         "failure-modes",
         "Failure modes",
         "Means, medians and Welch's t test of won against other episodes, treated as independent; corrected by Bonferroni for six \
          measures. A bump is a step that was not meaningful; late: in the last quarter.",
+        &study.failures,
         &[
-            "measure",
-            "won",
-            "episodes",
-            "median",
-            "not won",
-            "episodes not won",
-            "median not won",
-            "t",
-            "df",
-            "p",
-            "corrected p",
-            "missing",
+            ("measure", &|mode| TableCell::text(mode.measure.title())),
+            ("won", &|mode| average(&mode.won)),
+            ("episodes", &|mode| TableCell::Count(mode.won.len() as u64)),
+            ("median", &|mode| TableCell::number(quantile(&mode.won, 0.5), 3)),
+            ("not won", &|mode| average(&mode.lost)),
+            ("episodes not won", &|mode| TableCell::Count(mode.lost.len() as u64)),
+            ("median not won", &|mode| TableCell::number(quantile(&mode.lost, 0.5), 3)),
+            ("t", &|mode| TableCell::number(mode.welch.map(|test| test.t), 2)),
+            ("df", &|mode| TableCell::number(mode.welch.map(|test| test.df), 1)),
+            ("p", &|mode| TableCell::probability(mode.welch.map(|test| test.p))),
+            ("corrected p", &|mode| TableCell::probability(mode.welch.map(|test| test.adjusted))),
+            ("missing", &|mode| TableCell::Count(mode.excluded)),
         ],
     );
-    for mode in &study.failures {
-        let mut row = vec![TableCell::text(mode.measure.title())];
-        for values in [&mode.won, &mode.lost] {
-            row.push(TableCell::number(mean(values.iter().copied()), 3));
-            row.push(TableCell::Count(values.len() as u64));
-            row.push(TableCell::number(quantile(values, 0.5), 3));
-        }
-        row.push(TableCell::number(mode.welch.map(|test| test.t), 2));
-        row.push(TableCell::number(mode.welch.map(|test| test.df), 1));
-        row.push(TableCell::probability(mode.welch.map(|test| test.p)));
-        row.push(TableCell::probability(mode.welch.map(|test| test.adjusted)));
-        row.push(TableCell::Count(mode.excluded));
-        modes.push(row);
-    }
-    let mut top = Table::new(
+    let top = Table::of(
         "oscillation",
         "Oscillation",
         "The levels with the most oscillation: mean fraction of steps that return to the cell of two steps before.",
-        &["player", "level", "oscillation rate", "episodes", "wins"],
+        &study.oscillations[..study.oscillations.len().min(TOP)],
+        &[
+            ("player", &|row| TableCell::text(study.players[row.player].label())),
+            ("level", &|row| TableCell::text(study.place(row.game, Some(row.level)))),
+            ("oscillation rate", &|row| TableCell::number(row.rate, 3)),
+            ("episodes", &|row| TableCell::Count(row.episodes)),
+            ("wins", &|row| TableCell::Count(row.wins)),
+        ],
     );
-    for row in study.oscillations.iter().take(TOP) {
-        top.push(vec![
-            TableCell::text(study.players[row.player].label()),
-            TableCell::text(study.place(row.game, Some(row.level))),
-            TableCell::number(row.rate, 3),
-            TableCell::Count(row.episodes),
-            TableCell::Count(row.wins),
-        ]);
-    }
     vec![modes, top]
 }

@@ -69,86 +69,54 @@ fn row(study: &Study, player: usize) -> LeaderRow {
 
 /// Returns the leaderboard and the table of the choices' origins.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
-    let mut leaders = Table::new(
+    let player = |row: &LeaderRow| TableCell::text(study.players[row.player].label());
+    let leaders = Table::of(
         "leaderboard",
         "Leaderboard",
         "Win rate: wins divided by ended episodes, with Wilson's 95 % interval, and with a bootstrap interval over whole games (for \
          games like these; wide with few games). The overall score is the mean of meaningful step ratio, spared steps, normalised \
          reward and win rate; it rewards quick losses too. Optimality: proved fewest ticks divided by steps, over wins. Broken off: \
          episodes aborted by the network, caps or interruptions; they are excluded from all other columns.",
+        &study.leaderboard,
         &[
-            "player",
-            "episodes",
-            "wins",
-            "win rate",
-            "win rate, games drawn",
-            "overall",
-            "meaningful",
-            "spared steps",
-            "normalised reward",
-            "steps",
-            "efficiency",
-            "optimality",
-            "time-outs",
-            "broken off",
+            ("player", &player),
+            ("episodes", &|row| TableCell::Count(row.scores.episodes)),
+            ("wins", &|row| TableCell::Count(row.scores.wins)),
+            ("win rate", &|row| Estimate::cell(row.scores.win_rate, 2)),
+            ("win rate, games drawn", &|row| Estimate::cell(row.by_game, 2)),
+            ("overall", &|row| TableCell::number(row.scores.overall, 3)),
+            ("meaningful", &|row| TableCell::number(row.scores.meaningful, 3)),
+            ("spared steps", &|row| TableCell::number(row.scores.unused_steps, 3)),
+            ("normalised reward", &|row| TableCell::number(row.scores.normalised_reward, 3)),
+            ("steps", &|row| TableCell::number(row.scores.steps, 1)),
+            ("efficiency", &|row| TableCell::number(row.scores.efficiency, 3)),
+            ("optimality", &|row| TableCell::number(row.scores.optimality, 3)),
+            ("time-outs", &|row| TableCell::Count(row.scores.timeouts)),
+            ("broken off", &|row| TableCell::Count(row.scores.excluded)),
         ],
     );
-    let mut answers = Table::new(
+    let answers = Table::of(
         "answers",
         "Answers",
         "Steps by the origin of their action. Tolerant: read from an answer that is not in the required format. Invalid, refused and \
          truncated answers do nothing, and count against the player. Tokens as counted by the provider, including cached answers.",
+        &study.leaderboard,
         &[
-            "player",
-            "steps",
-            "valid",
-            "tolerant",
-            "invalid",
-            "refused",
-            "truncated",
-            "requests",
-            "failed tries",
-            "from cache",
-            "input tokens",
-            "output tokens",
-            "reasoning tokens",
-            "tokens a step",
+            ("player", &player),
+            ("steps", &|row| TableCell::Count(row.choices.total())),
+            ("valid", &|row| TableCell::Count(row.choices.valid)),
+            ("tolerant", &|row| TableCell::Count(row.choices.tolerant)),
+            ("invalid", &|row| TableCell::Count(row.choices.invalid)),
+            ("refused", &|row| TableCell::Count(row.choices.refused)),
+            ("truncated", &|row| TableCell::Count(row.choices.truncated)),
+            ("requests", &|row| TableCell::Count(row.spending.requests)),
+            ("failed tries", &|row| TableCell::Count(row.spending.failures)),
+            ("from cache", &|row| TableCell::Count(row.spending.cached_replies)),
+            ("input tokens", &|row| TableCell::count(row.spending.input_tokens)),
+            ("output tokens", &|row| TableCell::count(row.spending.output_tokens)),
+            ("reasoning tokens", &|row| TableCell::count(row.spending.reasoning_tokens)),
+            ("tokens a step", &|row| TableCell::number(row.tokens_per_step, 0)),
         ],
     );
-    for LeaderRow { player, scores, by_game, choices, spending, tokens_per_step, .. } in &study.leaderboard {
-        let label = TableCell::text(study.players[*player].label());
-        leaders.push(vec![
-            label.clone(),
-            TableCell::Count(scores.episodes),
-            TableCell::Count(scores.wins),
-            Estimate::cell(scores.win_rate, 2),
-            Estimate::cell(*by_game, 2),
-            TableCell::number(scores.overall, 3),
-            TableCell::number(scores.meaningful, 3),
-            TableCell::number(scores.unused_steps, 3),
-            TableCell::number(scores.normalised_reward, 3),
-            TableCell::number(scores.steps, 1),
-            TableCell::number(scores.efficiency, 3),
-            TableCell::number(scores.optimality, 3),
-            TableCell::Count(scores.timeouts),
-            TableCell::Count(scores.excluded),
-        ]);
-        answers.push(vec![
-            label,
-            TableCell::Count(choices.total()),
-            TableCell::Count(choices.valid),
-            TableCell::Count(choices.tolerant),
-            TableCell::Count(choices.invalid),
-            TableCell::Count(choices.refused),
-            TableCell::Count(choices.truncated),
-            TableCell::Count(spending.requests),
-            TableCell::Count(spending.failures),
-            TableCell::Count(spending.cached_replies),
-            TableCell::count(spending.input_tokens),
-            TableCell::count(spending.output_tokens),
-            TableCell::count(spending.reasoning_tokens),
-            TableCell::number(*tokens_per_step, 0),
-        ]);
-    }
     vec![leaders, answers]
 }

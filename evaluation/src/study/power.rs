@@ -69,21 +69,18 @@ pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
 
 /// Returns the rows as a table.
 pub fn table(rows: &[PowerRow]) -> Table {
-    let mut table = Table::new(
+    Table::of(
         "power",
         "Statistical power",
         "The smallest difference of two win rates that a two-sided test at 5 % detects with a power of 80 %, by the arcsine \
          approximation (Cohen 1988). Episodes of the player with the fewest; with correction for many comparisons, the power is lower.",
-        &["on", "episodes a side", "h", "0.1 against", "0.5 against"],
-    );
-    for row in rows {
-        table.push(vec![
-            TableCell::text(&row.grain),
-            TableCell::Count(row.episodes),
-            TableCell::number(row.h, 2),
-            TableCell::number(row.from_tenth, 2),
-            TableCell::number(row.from_half, 2),
-        ]);
-    }
-    table
+        rows,
+        &[
+            ("on", &|row| TableCell::text(&row.grain)),
+            ("episodes a side", &|row| TableCell::Count(row.episodes)),
+            ("h", &|row| TableCell::number(row.h, 2)),
+            ("0.1 against", &|row| TableCell::number(row.from_tenth, 2)),
+            ("0.5 against", &|row| TableCell::number(row.from_half, 2)),
+        ],
+    )
 }

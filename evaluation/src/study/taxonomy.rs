@@ -43,23 +43,20 @@ pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
 }
 
 pub(crate) fn table(study: &Study) -> Table {
-    let mut table = Table::new(
+    Table::of(
         "taxonomy",
         "Results by kind of game",
         "Kinds are derived from the rules; a game can have several.",
-        &["kind", "player", "games", "episodes", "win rate", "meaningful", "normalised reward", "overall"],
-    );
-    for row in &study.taxonomy {
-        table.push(vec![
-            TableCell::text(&row.kind),
-            TableCell::text(study.players[row.player].label()),
-            TableCell::Count(row.games),
-            TableCell::Count(row.scores.episodes),
-            Estimate::cell(row.scores.win_rate, 2),
-            TableCell::number(row.scores.meaningful, 3),
-            TableCell::number(row.scores.normalised_reward, 3),
-            TableCell::number(row.scores.overall, 3),
-        ]);
-    }
-    table
+        &study.taxonomy,
+        &[
+            ("kind", &|row| TableCell::text(&row.kind)),
+            ("player", &|row| TableCell::text(study.players[row.player].label())),
+            ("games", &|row| TableCell::Count(row.games)),
+            ("episodes", &|row| TableCell::Count(row.scores.episodes)),
+            ("win rate", &|row| Estimate::cell(row.scores.win_rate, 2)),
+            ("meaningful", &|row| TableCell::number(row.scores.meaningful, 3)),
+            ("normalised reward", &|row| TableCell::number(row.scores.normalised_reward, 3)),
+            ("overall", &|row| TableCell::number(row.scores.overall, 3)),
+        ],
+    )
 }

@@ -41,22 +41,19 @@ impl TimeRow {
 }
 
 pub(crate) fn table(study: &Study) -> Table {
-    let mut table = Table::new(
+    Table::of(
         "times",
         "Decision times",
         "From the observation to the action, including waits and repeated questions. Calls: forward-model calls of planners. Times \
          depend on the machine and its load.",
-        &["player", "decisions", "median, ms", "90 %, ms", "median calls", "90 % calls"],
-    );
-    for row in &study.times {
-        table.push(vec![
-            TableCell::text(study.players[row.player].label()),
-            TableCell::Count(row.decisions),
-            TableCell::number(row.median_ms, 1),
-            TableCell::number(row.p90_ms, 1),
-            TableCell::number(row.median_calls, 0),
-            TableCell::number(row.p90_calls, 0),
-        ]);
-    }
-    table
+        &study.times,
+        &[
+            ("player", &|row| TableCell::text(study.players[row.player].label())),
+            ("decisions", &|row| TableCell::Count(row.decisions)),
+            ("median, ms", &|row| TableCell::number(row.median_ms, 1)),
+            ("90 %, ms", &|row| TableCell::number(row.p90_ms, 1)),
+            ("median calls", &|row| TableCell::number(row.median_calls, 0)),
+            ("90 % calls", &|row| TableCell::number(row.p90_calls, 0)),
+        ],
+    )
 }
