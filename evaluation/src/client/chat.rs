@@ -86,6 +86,22 @@ pub struct ChatReply {
     pub cached: bool,
 }
 
+impl ChatReply {
+    /// Creates an answer of which nothing else is known.
+    pub(crate) fn new(text: String, finish: Finish) -> ChatReply {
+        ChatReply {
+            text,
+            reasoning: None,
+            finish,
+            usage: Usage::default(),
+            served_by: None,
+            failures: Vec::new(),
+            latency_ms: 0.0,
+            cached: false,
+        }
+    }
+}
+
 /// The reason why an answer ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -1,7 +1,7 @@
 //! Classification of HTTP replies: an answer, a transient failure, or a final refusal.
 
-use super::chat::{Finish, Usage};
-use super::provider::{Answer, Provider};
+use super::chat::{ChatReply, Finish};
+use super::provider::Provider;
 use super::wire::HttpReply;
 use itertools::Itertools;
 use serde_json::Value;
@@ -32,7 +32,7 @@ pub(super) enum Fault {
 const MAX_MESSAGE: usize = 300;
 
 /// Classifies a reply received at `date`.
-pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<Answer, Fault> {
+pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<ChatReply, Fault> {
     let status = reply.status;
     let transient = |message: String, wait| Fault::Transient { status: Some(status), message, wait };
     if (200..300).contains(&status) {
@@ -43,13 +43,7 @@ pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) 
     }
     let error_body = ErrorBody::read(&reply.body);
     if error_body.is_refusal() {
-        return Ok(Answer {
-            text: shorten(&error_body.message),
-            reasoning: None,
-            finish: Finish::Refusal,
-            usage: Usage::default(),
-            served_by: None,
-        });
+        return Ok(ChatReply::new(shorten(&error_body.message), Finish::Refusal));
     }
     let words = match (body_kind(&reply.body), &reply.location) {
         (_, Some(target)) if (300..400).contains(&status) => format!("it redirects to {}", shorten(target)),
@@ -148,7 +142,7 @@ mod tests {
         HttpReply { status, retry_after: None, location: None, body: body.to_owned() }
     }
 
-    fn classified(status: u16, body: &str) -> Result<Answer, Fault> {
+    fn classified(status: u16, body: &str) -> Result<ChatReply, Fault> {
         classify(Provider::Compatible, &reply(status, body), SystemTime::UNIX_EPOCH)
     }
 

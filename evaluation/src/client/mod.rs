@@ -28,5 +28,6 @@ pub use clock::{Clock, SystemClock};
 pub use connect::{Connection, ModelOptions, ModelSettings, connect, connect_with, price, settings};
 pub use estimate::{Batch, Estimate};
 pub use prices::{Price, Prices, Usd};
+pub(crate) use provider::Content;
 pub use provider::Provider;
 pub use spec::{ModelSpec, Server};

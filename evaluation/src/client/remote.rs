@@ -8,7 +8,6 @@ use super::estimate::prompt_tokens;
 use super::fault::{Fault, classify, shorten};
 use super::key::Key;
 use super::pace::Pace;
-use super::provider::Answer;
 use super::spec::ModelSpec;
 use super::wire::Wire;
 use engine::{Digest, Sampler};
@@ -75,7 +74,8 @@ impl Remote {
             let latency = self.clock.elapsed().saturating_sub(begin);
             let (status, message, requested_wait) = match outcome {
                 Ok(answer) => {
-                    let reply = reply(answer, failures, latency);
+                    let latency_ms = latency.as_micros() as f64 / 1000.0;
+                    let reply = ChatReply { failures, latency_ms, ..answer };
                     // This comes first: if the run is killed after it, the next one finds the answer in the cache.
                     if let Some((cache, key)) = entry {
                         cache.put(key, &reply);
@@ -108,7 +108,7 @@ impl Remote {
         }
     }
 
-    fn try_once(&self, url: &str, body: &[u8]) -> Result<Answer, Fault> {
+    fn try_once(&self, url: &str, body: &[u8]) -> Result<ChatReply, Fault> {
         let headers = self.spec.provider.headers(self.key.as_ref());
         let outcome = self.wire.post(url, &headers, body);
         let hide = |words: String| match &self.key {
@@ -134,10 +134,10 @@ impl Remote {
     }
 
     /// Hides the key again after parsing, because JSON can write the same text in many ways.
-    fn without_key(&self, answer: Answer) -> Answer {
+    fn without_key(&self, answer: ChatReply) -> ChatReply {
         let Some(key) = &self.key else { return answer };
         let hide = |text| key.hide_in_answer(text);
-        Answer {
+        ChatReply {
             text: hide(answer.text),
             reasoning: answer.reasoning.map(hide),
             served_by: answer.served_by.map(hide),
@@ -175,19 +175,6 @@ impl Remote {
             last.message
         );
         ChatError { kind: ChatErrorKind::Infrastructure, message, failures }
-    }
-}
-
-fn reply(answer: Answer, failures: Vec<Failure>, latency: Duration) -> ChatReply {
-    ChatReply {
-        text: answer.text,
-        reasoning: answer.reasoning,
-        finish: answer.finish,
-        usage: answer.usage,
-        served_by: answer.served_by,
-        failures,
-        latency_ms: latency.as_micros() as f64 / 1000.0,
-        cached: false,
     }
 }
 

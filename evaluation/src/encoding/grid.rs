@@ -16,8 +16,19 @@ pub fn grid(observation: &Observation, legend: &Legend) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// Draws the board of [`grid`] rotated clockwise by a quarter turn: its first row is the first column of the
+/// board, read from the bottom to the top. Cost: O(cells).
+pub fn rotated(observation: &Observation, legend: &Legend) -> String {
+    let scene = Scene::of(observation, legend);
+    let lines = (0..scene.columns).map(|column| {
+        let line = (0..scene.rows).rev().map(|row| symbol(legend, scene.at(column, row)));
+        line.collect::<String>()
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 /// Returns the character of a cell that holds these names.
-pub(super) fn symbol(legend: &Legend, names: &[&str]) -> char {
+fn symbol(legend: &Legend, names: &[&str]) -> char {
     names.last().and_then(|name| legend.entry(name)).map_or(EMPTY, |entry| entry.symbol)
 }
 

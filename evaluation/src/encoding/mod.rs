@@ -7,13 +7,11 @@ mod grid;
 mod grounding;
 mod json;
 mod picture;
-mod rotated;
 mod scene;
 
 pub use coordinates::coordinates;
-pub use grid::{grid, stacks};
+pub use grid::{grid, rotated, stacks};
 pub use grounding::grounding;
 pub use json::json;
 pub use picture::{Picture, picture};
-pub use rotated::rotated;
 pub(crate) use scene::direction_name;

@@ -7,7 +7,6 @@
 mod bounds;
 mod origin;
 mod prompted;
-mod random;
 mod reflex;
 mod replan;
 mod server;
@@ -54,7 +53,7 @@ impl PromptPlayer {
         let shown = Shown::of(messages)?;
         let seed = seed(messages);
         let action = match self {
-            PromptPlayer::Random => random::choose(&shown, seed),
+            PromptPlayer::Random => *seed.sampler().choose(&actions_except_nil(&shown.actions)),
             PromptPlayer::Reflex => reflex::choose(&shown, seed)?,
             PromptPlayer::Planner(spec) => replan::choose(&shown, spec, seed)?,
         };
@@ -108,13 +107,8 @@ impl Model for PromptPlayer {
                 output_tokens: Some(tokens(&answer)),
                 ..Usage::default()
             },
-            text: answer,
-            reasoning: None,
-            finish: Finish::Stop,
             served_by: Some(self.to_string()),
-            failures: Vec::new(),
-            latency_ms: 0.0,
-            cached: false,
+            ..ChatReply::new(answer, Finish::Stop)
         })
     }
 }

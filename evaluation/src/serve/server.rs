@@ -2,7 +2,7 @@
 
 use super::bounds::{BodyMemory, Bounds};
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
-use crate::client::{ChatMessage, Role};
+use crate::client::{ChatMessage, Content, Role};
 use crate::error::EvaluationError;
 use axum::Router;
 use axum::body::{Body, Bytes, HttpBody};
@@ -13,7 +13,6 @@ use axum::routing::{get, post};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use itertools::Itertools;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
@@ -192,19 +191,6 @@ struct Message {
     content: Content,
 }
 
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Content {
-    Text(String),
-    Parts(Vec<Part>),
-}
-
-#[derive(Deserialize)]
-struct Part {
-    /// `None` for a picture, which no player can see.
-    text: Option<String>,
-}
-
 async fn models(State(serving): State<Arc<Serving>>) -> Json<Value> {
     let id = serving.player.to_string();
     Json(json!({
@@ -321,11 +307,8 @@ fn message(message: Message) -> Result<ChatMessage, String> {
         "assistant" => Role::Assistant,
         other => return Err(format!("unknown role `{other}`; use system, user or assistant")),
     };
-    let text = match message.content {
-        Content::Text(text) => text,
-        Content::Parts(parts) => parts.into_iter().filter_map(|part| part.text).join("\n"),
-    };
-    Ok(ChatMessage { role, text, image: None })
+    // No player can see pictures.
+    Ok(ChatMessage { role, text: message.content.text(), image: None })
 }
 
 /// Returns an error in the format of the real APIs.

@@ -11,7 +11,7 @@ pub const CORRELATED: [&str; 4] = ["win", "meaningful", "steps", "distance"];
 
 /// Correlations over the episodes of models (of all players, if there is no model): win (0 or 1), meaningful step ratio,
 /// steps, and distance in cells walked.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Correlations {
     /// The number of episodes with all four values.
     pub episodes: u64,

@@ -53,7 +53,7 @@ const RESAMPLES: usize = 2000;
 const MAX_COMPARISONS: usize = 100;
 
 /// The results of several players and their analysis. Indices named `player` and `game` refer to the first two lists.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Study {
     /// The players, in the order in which their results were given.
     pub players: Vec<Player>,
@@ -134,26 +134,7 @@ impl Study {
     /// only; so are levels. Cost: O(episodes log episodes), a Fisher test for each pair of players and level, and 2000
     /// resamples for each pair.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
-        let mut study = Study {
-            players: Vec::new(),
-            games,
-            episodes: Vec::new(),
-            notes: Vec::new(),
-            leaderboard: Vec::new(),
-            by_game: Vec::new(),
-            by_level: Vec::new(),
-            pairs: Contrasts::default(),
-            modes: Contrasts::default(),
-            aids: Contrasts::default(),
-            correlations: Correlations { episodes: 0, excluded: 0, pairs: Vec::new() },
-            failures: Vec::new(),
-            oscillations: Vec::new(),
-            sweeps: Vec::new(),
-            difficulties: Vec::new(),
-            times: Vec::new(),
-            taxonomy: Vec::new(),
-            power: Vec::new(),
-        };
+        let mut study = Study { games, ..Study::default() };
         for (player, episodes) in results {
             let known = study.players.iter().position(|known| *known == player);
             let player = known.unwrap_or_else(|| {

@@ -35,7 +35,7 @@ impl Node {
     /// # Errors
     /// As for [`to_canonical_json`](super::to_canonical_json).
     pub fn of<T: Serialize + ?Sized>(value: &T) -> Result<Node, CanonicalError> {
-        value.serialize(ToNode::top())
+        value.serialize(ToNode { depth: 0 })
     }
 
     pub(super) fn is_scalar(&self) -> bool {
@@ -50,10 +50,6 @@ pub(super) struct ToNode {
 }
 
 impl ToNode {
-    pub(super) fn top() -> ToNode {
-        ToNode { depth: 0 }
-    }
-
     fn enter(self) -> Result<ToNode, CanonicalError> {
         match self.depth {
             MAX_DEPTH => Err(Fault::TooDeep.into()),
@@ -141,6 +137,14 @@ fn tagged(variant: Option<&'static str>, node: Node) -> Node {
     }
 }
 
+macro_rules! integers {
+    ($($method:ident: $type:ty),*) => {$(
+        fn $method(self, value: $type) -> Result<Node, CanonicalError> {
+            Ok(Node::Integer(value.into()))
+        }
+    )*};
+}
+
 impl Serializer for ToNode {
     type Ok = Node;
     type Error = CanonicalError;
@@ -155,29 +159,9 @@ impl Serializer for ToNode {
     fn serialize_bool(self, value: bool) -> Result<Node, CanonicalError> {
         Ok(Node::Bool(value))
     }
-    fn serialize_i8(self, value: i8) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
-    }
-    fn serialize_i16(self, value: i16) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
-    }
-    fn serialize_i32(self, value: i32) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
-    }
-    fn serialize_i64(self, value: i64) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
-    }
-    fn serialize_u8(self, value: u8) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
-    }
-    fn serialize_u16(self, value: u16) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
-    }
-    fn serialize_u32(self, value: u32) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
-    }
-    fn serialize_u64(self, value: u64) -> Result<Node, CanonicalError> {
-        Ok(Node::Integer(value.into()))
+    integers! {
+        serialize_i8: i8, serialize_i16: i16, serialize_i32: i32, serialize_i64: i64,
+        serialize_u8: u8, serialize_u16: u16, serialize_u32: u32, serialize_u64: u64
     }
     fn serialize_f32(self, value: f32) -> Result<Node, CanonicalError> {
         self.serialize_f64(value.into())

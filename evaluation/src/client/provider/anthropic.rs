@@ -1,7 +1,7 @@
 //! Anthropic's messages API.
 
-use super::{Answer, base64, joined, object, parse, text_or_placeholder};
-use crate::client::chat::{ChatMessage, ChatRequest, Finish, Role, Usage};
+use super::{base64, joined, object, parse, text_or_placeholder};
+use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Finish, Role, Usage};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -77,7 +77,7 @@ struct Counts {
 }
 
 /// Reads the body of a reply.
-pub(super) fn answer(body: &str) -> Result<Answer, String> {
+pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
     let reply: Reply = parse(body)?;
     let finish = match reply.stop_reason.as_deref() {
         Some("end_turn" | "stop_sequence") => Finish::Stop,
@@ -90,12 +90,11 @@ pub(super) fn answer(body: &str) -> Result<Answer, String> {
         texts.extend(block.text);
         thoughts.extend(block.thinking.filter(|thought| !thought.is_empty()));
     }
-    Ok(Answer {
-        text: joined(texts).unwrap_or_default(),
+    Ok(ChatReply {
         reasoning: joined(thoughts),
-        finish,
         usage: reply.usage.map(usage).unwrap_or_default(),
         served_by: reply.model,
+        ..ChatReply::new(joined(texts).unwrap_or_default(), finish)
     })
 }
 

@@ -1,7 +1,7 @@
 //! Gemini's `generateContent`.
 
-use super::{Answer, base64, object, parse, text_or_placeholder};
-use crate::client::chat::{ChatMessage, ChatRequest, Decoding, Finish, Role, Usage};
+use super::{base64, object, parse, text_or_placeholder};
+use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Role, Usage};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -95,7 +95,7 @@ struct Counts {
 }
 
 /// Reads the body of a reply.
-pub(super) fn answer(body: &str) -> Result<Answer, String> {
+pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
     let reply: Reply = parse(body)?;
     let blocked = reply.prompt_feedback.is_some_and(|feedback| feedback.block_reason.is_some());
     let (mut text, mut thoughts) = (String::new(), String::new());
@@ -111,12 +111,11 @@ pub(super) fn answer(body: &str) -> Result<Answer, String> {
             finish(candidate.finish_reason.as_deref())
         }
     };
-    Ok(Answer {
-        text,
+    Ok(ChatReply {
         reasoning: (!thoughts.is_empty()).then_some(thoughts),
-        finish,
         usage: reply.usage_metadata.map(usage).unwrap_or_default(),
         served_by: reply.model_version,
+        ..ChatReply::new(text, finish)
     })
 }
 

@@ -4,7 +4,9 @@ mod anthropic;
 mod gemini;
 mod openai;
 
-use super::chat::{ChatRequest, Decoding, Finish, Usage};
+pub(crate) use openai::Content;
+
+use super::chat::{ChatReply, ChatRequest, Decoding};
 use super::key::Key;
 use crate::error::EvaluationError;
 use base64::Engine;
@@ -27,54 +29,38 @@ pub enum Provider {
     Gemini,
 }
 
-/// The content of a reply's body.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Answer {
-    pub(super) text: String,
-    pub(super) reasoning: Option<String>,
-    pub(super) finish: Finish,
-    pub(super) usage: Usage,
-    pub(super) served_by: Option<String>,
-}
-
 impl Provider {
     /// Returns the provider for the prefix of an id.
     pub(super) fn from_prefix(prefix: &str) -> Option<Provider> {
-        match prefix {
-            "openai" => Some(Provider::OpenAi),
-            "anthropic" => Some(Provider::Anthropic),
-            "gemini" => Some(Provider::Gemini),
-            _ => None,
+        let prefixed = [Provider::OpenAi, Provider::Anthropic, Provider::Gemini];
+        prefixed.into_iter().find(|provider| provider.name() == prefix)
+    }
+
+    /// Returns its name, the base URL of its own servers, and its key variable.
+    fn facts(self) -> (&'static str, Option<&'static str>, &'static str) {
+        match self {
+            Provider::OpenAi => ("openai", Some("https://api.openai.com/v1"), "OPENAI_API_KEY"),
+            Provider::Compatible => ("compatible", None, "OPENAI_API_KEY"),
+            Provider::Anthropic => ("anthropic", Some("https://api.anthropic.com/v1"), "ANTHROPIC_API_KEY"),
+            Provider::Gemini => {
+                ("gemini", Some("https://generativelanguage.googleapis.com/v1beta"), "GEMINI_API_KEY")
+            }
         }
     }
 
     /// The name in price tables, settings and prefixes.
     pub fn name(self) -> &'static str {
-        match self {
-            Provider::OpenAi => "openai",
-            Provider::Compatible => "compatible",
-            Provider::Anthropic => "anthropic",
-            Provider::Gemini => "gemini",
-        }
+        self.facts().0
     }
 
     /// The base URL of its own servers.
     pub(super) fn own_url(self) -> Option<&'static str> {
-        match self {
-            Provider::OpenAi => Some("https://api.openai.com/v1"),
-            Provider::Compatible => None,
-            Provider::Anthropic => Some("https://api.anthropic.com/v1"),
-            Provider::Gemini => Some("https://generativelanguage.googleapis.com/v1beta"),
-        }
+        self.facts().1
     }
 
     /// The environment variable that holds the key.
     pub fn key_variable(self) -> &'static str {
-        match self {
-            Provider::OpenAi | Provider::Compatible => "OPENAI_API_KEY",
-            Provider::Anthropic => "ANTHROPIC_API_KEY",
-            Provider::Gemini => "GEMINI_API_KEY",
-        }
+        self.facts().2
     }
 
     /// Returns the decoding to send: the requested one, with the settings that this provider requires.
@@ -131,13 +117,13 @@ impl Provider {
     ///
     /// # Errors
     /// The reason why the body is not a reply.
-    pub(super) fn answer(self, body: &str) -> Result<Answer, String> {
+    pub(super) fn answer(self, body: &str) -> Result<ChatReply, String> {
         let answer = match self {
             Provider::OpenAi | Provider::Compatible => openai::answer(body),
             Provider::Anthropic => anthropic::answer(body),
             Provider::Gemini => gemini::answer(body),
         }?;
-        Ok(Answer { usage: answer.usage.plausible(), ..answer })
+        Ok(ChatReply { usage: answer.usage.plausible(), ..answer })
     }
 }
 

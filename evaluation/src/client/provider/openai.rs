@@ -1,7 +1,8 @@
 //! Chat completions: OpenAI's own API, and the compatible ones of many other servers.
 
-use super::{Answer, base64, joined, object, parse};
-use crate::client::chat::{ChatMessage, ChatRequest, Finish, Usage};
+use super::{base64, object, parse};
+use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Finish, Usage};
+use itertools::Itertools;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -68,16 +69,27 @@ struct Message {
     reasoning: Option<String>,
 }
 
+/// The content of a message: a text, or parts of which some are texts and others, such as pictures, are not.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Content {
+pub(crate) enum Content {
     Text(String),
     Parts(Vec<Part>),
 }
 
 #[derive(Deserialize)]
-struct Part {
+pub(crate) struct Part {
     text: Option<String>,
+}
+
+impl Content {
+    /// Returns its texts, with line breaks between them.
+    pub(crate) fn text(self) -> String {
+        match self {
+            Content::Text(text) => text,
+            Content::Parts(parts) => parts.into_iter().filter_map(|part| part.text).join("\n"),
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -102,7 +114,7 @@ struct OutputDetails {
 }
 
 /// Reads the body of a reply.
-pub(super) fn answer(body: &str) -> Result<Answer, String> {
+pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
     let completion: Completion = parse(body)?;
     let Some(choice) = completion.choices.into_iter().next() else {
         // Gateways report the errors of their upstream servers in this way.
@@ -119,18 +131,12 @@ pub(super) fn answer(body: &str) -> Result<Answer, String> {
         Some("content_filter") => Finish::Refusal,
         _ => Finish::Other,
     };
-    let text = match choice.message.content {
-        Some(Content::Text(text)) => text,
-        Some(Content::Parts(parts)) => {
-            joined(parts.into_iter().filter_map(|part| part.text).collect()).unwrap_or_default()
-        }
-        None => String::new(),
-    };
+    let text = choice.message.content.map(Content::text).unwrap_or_default();
     let text = if text.is_empty() { refused.unwrap_or_default() } else { text };
     let reasoning =
         choice.message.reasoning_content.or(choice.message.reasoning).filter(|text| !text.is_empty());
     let usage = completion.usage.map(usage).unwrap_or_default();
-    Ok(Answer { text, reasoning, finish, usage, served_by: completion.model })
+    Ok(ChatReply { reasoning, usage, served_by: completion.model, ..ChatReply::new(text, finish) })
 }
 
 fn usage(counts: Counts) -> Usage {
@@ -189,7 +195,7 @@ mod tests {
         assert_eq!(body("m", &bare(), Dialect::Own), expect);
     }
 
-    fn check(body: Value, text: &str, finish: Finish) -> Answer {
+    fn check(body: Value, text: &str, finish: Finish) -> ChatReply {
         let answer = answer(&body.to_string()).unwrap();
         assert_eq!((answer.text.as_str(), answer.finish), (text, finish));
         answer

@@ -135,16 +135,22 @@ impl<'a> Beliefs<'a> {
         // Groups have to be known before other sentences are read.
         read.sort_by_key(|(subject, _)| *subject);
         for (subject, found) in read {
+            let [one, two] = ["one", "two"].map(|part| beliefs.names(&found, part));
+            let [one_is_me, two_is_me] = ["one", "two"].map(|part| beliefs.is_me(&found, part));
             match subject {
-                Subject::Group => beliefs.group(&found),
-                Subject::Win => beliefs.win(&found),
-                Subject::Lose => beliefs.lose(&found),
-                Subject::Block => beliefs.block(&found),
+                Subject::Group => _ = found.name("one").map(|name| beliefs.groups.insert(name.as_str(), two)),
+                Subject::Win => beliefs.wins.extend(one.into_iter().chain(two)),
+                Subject::Lose => beliefs.must_keep.extend(one),
+                Subject::Block if one_is_me => beliefs.blocks.extend(two),
+                Subject::Push if two_is_me => beliefs.pushed.extend(one),
+                Subject::Block | Subject::Push => {}
                 Subject::End => beliefs.end(&found),
                 Subject::EndBoth => beliefs.end_both(&found),
-                Subject::Push => beliefs.push(&found),
-                Subject::Change => beliefs.change(&found),
-                Subject::Motion => beliefs.motion(&found),
+                Subject::Change => {
+                    beliefs.changes.extend(two.into_iter().filter(|_| one_is_me));
+                    beliefs.changes.extend(one.into_iter().filter(|_| two_is_me));
+                }
+                Subject::Motion => beliefs.moves.extend(found.name("one").map(|name| name.as_str())),
             }
         }
         beliefs.read_keys(sentences);
@@ -169,47 +175,6 @@ impl<'a> Beliefs<'a> {
     /// Returns `true` if it stops a shot.
     pub(super) fn stops_shots(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(shot.name, name)))
-    }
-
-    fn group(&mut self, found: &Captures<'a>) {
-        let members = self.parties(found, "two").into_iter().filter_map(Party::name).collect();
-        if let Some(name) = found.name("one") {
-            self.groups.insert(name.as_str(), members);
-        }
-    }
-
-    fn win(&mut self, found: &Captures<'a>) {
-        let names = self.names(found, "one").into_iter().chain(self.names(found, "two"));
-        let names: Vec<&str> = names.collect();
-        self.wins.extend(names);
-    }
-
-    fn lose(&mut self, found: &Captures<'a>) {
-        let names = self.names(found, "one");
-        self.must_keep.extend(names);
-    }
-
-    fn block(&mut self, found: &Captures<'a>) {
-        if self.is_me(found, "one") {
-            let names = self.names(found, "two");
-            self.blocks.extend(names);
-        }
-    }
-
-    fn push(&mut self, found: &Captures<'a>) {
-        if self.is_me(found, "two") {
-            let names = self.names(found, "one");
-            self.pushed.extend(names);
-        }
-    }
-
-    fn change(&mut self, found: &Captures<'a>) {
-        for (one, other) in [("one", "two"), ("two", "one")] {
-            if self.is_me(found, one) {
-                let names = self.names(found, other);
-                self.changes.extend(names);
-            }
-        }
     }
 
     fn end(&mut self, found: &Captures<'a>) {
@@ -239,10 +204,6 @@ impl<'a> Beliefs<'a> {
         for (one, two) in one.into_iter().cartesian_product(two) {
             self.removals.extend([(one, two), (two, one)]);
         }
-    }
-
-    fn motion(&mut self, found: &Captures<'a>) {
-        self.moves.extend(found.name("one").map(|name| name.as_str()));
     }
 
     fn read_keys(&mut self, sentences: &[&'a str]) {
