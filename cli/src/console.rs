@@ -17,7 +17,6 @@ pub(crate) struct Console {
     output: Mutex<Output>,
 }
 
-/// The state of standard output.
 #[derive(Default)]
 struct Output {
     /// `true` once the reader has left (`arcade … | head`) or writing has failed: nothing more is written.

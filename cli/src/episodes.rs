@@ -20,7 +20,6 @@ enum Recorded {
     Episode(Episode),
 }
 
-/// Reads an episode.
 pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     let text = read_text(path, MAX_EPISODE)?;
     match serde_json::from_str(&text) {
@@ -52,9 +51,9 @@ pub(crate) fn level(
     name: Option<&str>,
     episode: Option<&Episode>,
 ) -> Result<(Named, Level), Failure> {
-    let checked = |named: Named| match game.level(&named.text) {
-        Ok(level) => Ok((named, level)),
-        Err(problems) => Err(crate::diagnostics::failure(&named, &problems.0)),
+    let checked = |named: Named| {
+        let level = named.level(game)?;
+        Ok((named, level))
     };
     if let Some(name) = name {
         return checked(input.level(name)?);

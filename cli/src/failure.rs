@@ -26,12 +26,10 @@ pub(crate) enum Failure {
 pub(crate) type Answer = Result<bool, Failure>;
 
 impl Failure {
-    /// A malformed question, with this message.
     pub(crate) fn malformed(message: impl fmt::Display) -> Failure {
         Failure::Malformed(anyhow::anyhow!("{message}"))
     }
 
-    /// An environment failure, with this message.
     pub(crate) fn environment(error: impl Into<anyhow::Error>, what: impl fmt::Display) -> Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }

@@ -3,7 +3,7 @@
 use crate::embedded;
 use crate::failure::Failure;
 use crate::paths;
-use engine::{Game, MAX_LEVEL_TEXT, MAX_SOURCE};
+use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -14,12 +14,18 @@ pub(crate) struct Named {
     pub(crate) text: String,
 }
 
+impl Named {
+    /// Checks the text as a level of a game.
+    pub(crate) fn level(&self, game: &Game) -> Result<Level, Failure> {
+        game.level(&self.text).map_err(|problems| crate::diagnostics::failure(self, &problems.0))
+    }
+}
+
 /// A game with the levels that come with it, not yet parsed.
 #[derive(Clone, Debug)]
 pub(crate) struct GameInput {
     /// The game's text, under the name that messages use.
     pub(crate) source: Named,
-    /// Its name in tables.
     pub(crate) title: String,
     levels: Vec<LevelInput>,
 }

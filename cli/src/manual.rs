@@ -7,7 +7,6 @@ use std::ops::Range;
 
 static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs");
 
-/// A page of the manual.
 pub(crate) struct Page {
     /// The name that `arcade docs` takes: that of the file, or that of the folder for its README.
     pub(crate) name: String,
@@ -72,7 +71,6 @@ impl Page {
         }
     }
 
-    /// Returns the heading.
     pub(crate) fn title(&self) -> &str {
         self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
     }

@@ -181,7 +181,6 @@ static MARKED_BY_WORD: LazyLock<Regex> = LazyLock::new(|| {
 /// The reference's spelling of an action.
 static SPELLED: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)(?-u:\b)action_[a-z]+(?-u:\b)"));
 
-/// A word.
 static WORD: LazyLock<Regex> = LazyLock::new(|| pattern("[A-Za-z_]+"));
 
 /// An action alone on a line or in a box.
@@ -198,7 +197,6 @@ static STATED: LazyLock<Regex> = LazyLock::new(|| {
     ))
 });
 
-/// Reads the strict format.
 fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen<'a>> {
     let found = match format {
         Format::Word => WORD_LINE.captures(said.lines().next_back()?.trim()),

@@ -25,7 +25,6 @@ macro_rules! glyphs {
                 match self { $(Glyph::$name => $meaning),* }
             }
 
-            /// Returns its default colour.
             pub(crate) fn colour(self) -> Colour {
                 match self { $(Glyph::$name => colour::$colour),* }
             }

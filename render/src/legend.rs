@@ -12,14 +12,12 @@ const GAP: u32 = 8;
 const NAME: f32 = 15.0;
 const MEANING: f32 = 11.0;
 
-/// An entry of a legend.
 struct Entry<'a> {
     stype: SpriteType,
     look: Look,
     name: &'a str,
 }
 
-/// The layout of the entries, in pixels.
 struct Layout {
     columns: u32,
     /// From one entry to the next.

@@ -45,6 +45,10 @@ impl Looks {
     /// Computes the looks of an analysed game. Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
         let game = analysis.game();
+        let is_shown = |stype: &SpriteType| {
+            let facts = analysis.facts(*stype);
+            facts.concrete && facts.possible && !facts.hidden
+        };
         let visible: Vec<bool> = game.sprite_types().map(|stype| !analysis.facts(stype).hidden).collect();
         let glyphs: Vec<Glyph> = game.sprite_types().map(|stype| Glyph::of(analysis, stype)).collect();
         let mut looks: Vec<Look> = glyphs.iter().map(|&glyph| Look::plain(glyph)).collect();
@@ -65,17 +69,12 @@ impl Looks {
             };
             let pips = if glyph.is_ground() { 0 } else { seen.iter().filter(alike).count().min(3) as u8 };
             let look = Look { glyph, colour, variant, pips };
-            let facts = analysis.facts(stype);
-            if facts.concrete && facts.possible && !facts.hidden {
+            if is_shown(&stype) {
                 seen.push(look);
             }
             looks[stype.index()] = look;
         }
-        let shown = game.sprite_types().filter(|&stype| {
-            let facts = analysis.facts(stype);
-            facts.concrete && facts.possible && !facts.hidden
-        });
-        let shown: Vec<SpriteType> = shown.collect();
+        let shown: Vec<SpriteType> = game.sprite_types().filter(is_shown).collect();
         let wounds = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
         let health = analysis.encounters().iter().any(|encounter| encounter.effects.iter().any(wounds));
         let holdings = health || !analysis.resources().is_empty();

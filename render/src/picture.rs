@@ -105,7 +105,6 @@ impl Picture {
         &self.stamps
     }
 
-    /// Adds a rectangle of one colour.
     pub(crate) fn rect(&mut self, place: Place, colour: Colour) {
         let tile = self.tile(Key::Plain(colour), || Tile {
             shapes: vec![Shape { outline: whole(), paint: Paint::Fill, colour }],

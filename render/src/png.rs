@@ -2,17 +2,14 @@
 
 use crate::error::RenderError;
 use crate::picture::Picture;
-use crate::pixels::{Image, Painter};
+use crate::pixels::Painter;
 
 /// Returns the picture as a PNG file.
 ///
 /// # Errors
 /// If it is empty.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, RenderError> {
-    encode(&Painter::new().paint(picture)?)
-}
-
-fn encode(image: &Image) -> Result<Vec<u8>, RenderError> {
+    let image = Painter::new().paint(picture)?;
     let mut bytes = Vec::new();
     let mut encoder = ::png::Encoder::new(&mut bytes, image.width, image.height);
     encoder.set_color(::png::ColorType::Rgb);

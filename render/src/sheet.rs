@@ -14,7 +14,6 @@ const LETTER: u32 = 15;
 /// The line height of a caption, in pixels.
 const LEADING: u32 = 19;
 
-/// The most lines of a caption.
 const LINES: usize = 4;
 
 /// Puts pictures side by side in rows of `columns`, each shrunk to fit a square of `side` pixels (never enlarged),

@@ -52,7 +52,6 @@ pub struct Mean {
     pub item: &'static str,
 }
 
-/// The number of resamples for an interval.
 const RESAMPLES: usize = 2000;
 
 impl Mean {

@@ -1,10 +1,11 @@
 //! Random episodes of a game, one after the other, for measurements of time and instructions.
 
+use crate::levels::folders;
 use anyhow::{Context, bail};
 use cpu_time::ThreadTime;
 use engine::{Chance, Game, Seed, State};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 /// The maximum number of ticks of an episode, as in the reference's figures.
@@ -24,22 +25,11 @@ pub(crate) struct Subject {
 
 /// The games in the subfolders of a folder, by name; all of them if `only` is empty.
 pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subject>> {
-    let mut folders: Vec<PathBuf> = fs::read_dir(games)
-        .with_context(|| games.display().to_string())?
-        .map(|entry| entry.map(|entry| entry.path()))
-        .collect::<Result<_, _>>()?;
-    folders.sort();
-    let mut subjects = Vec::new();
-    for folder in folders {
-        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if only.is_empty() || only.contains(&name) {
-            subjects.push(subject(name, &folder)?);
-        }
-    }
-    if subjects.is_empty() {
+    let folders = folders(games, only)?;
+    if folders.is_empty() {
         bail!("{}: no such game there", games.display());
     }
-    Ok(subjects)
+    folders.into_iter().map(|(name, folder)| subject(name, &folder)).collect()
 }
 
 fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {

@@ -3,7 +3,22 @@
 use anyhow::Context;
 use engine::{Game, Level};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// The folders in a folder, sorted, with their names; all of them if `only` is empty.
+pub(crate) fn folders(games: &Path, only: &[String]) -> anyhow::Result<Vec<(String, PathBuf)>> {
+    let mut folders: Vec<PathBuf> = fs::read_dir(games)
+        .with_context(|| games.display().to_string())?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<Result<_, _>>()?;
+    folders.sort();
+    let named = folders.into_iter().map(|folder| (name_of(&folder), folder));
+    Ok(named.filter(|(name, _)| only.is_empty() || only.contains(name)).collect())
+}
+
+pub(crate) fn name_of(folder: &Path) -> String {
+    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
 
 /// A game and its levels, loaded as the reference does.
 pub(crate) fn load(folder: &Path) -> anyhow::Result<(Game, Vec<Level>)> {

@@ -1,7 +1,7 @@
 //! `cargo xtask solve`: determines which levels of a folder of games the portfolio wins.
 
 use crate::bench::now;
-use crate::levels::load;
+use crate::levels::{folders, load};
 use agents::{PortfolioConfig, Solution, solve};
 use anyhow::Context;
 use engine::analysis::Spatiality;
@@ -78,16 +78,7 @@ impl Found {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut subjects: Vec<(String, Analysis, Vec<Level>)> = Vec::new();
-    let mut folders: Vec<PathBuf> = fs::read_dir(&args.games)
-        .with_context(|| args.games.display().to_string())?
-        .map(|entry| entry.map(|entry| entry.path()))
-        .collect::<Result<_, _>>()?;
-    folders.sort();
-    for folder in folders {
-        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if !args.game.is_empty() && !args.game.contains(&name) {
-            continue;
-        }
+    for (name, folder) in folders(&args.games, &args.game)? {
         let (game, levels): (Game, Vec<Level>) = load(&folder)?;
         let analysis = Analysis::of(&game);
         if args.continuous || analysis.taxonomy().spatiality < Spatiality::Continuous {

@@ -1,6 +1,6 @@
 //! Plays a trace's actions and compares every recorded field of every tick.
 
-use super::trace::{Tick, Trace};
+use super::trace::{Line, Tick, Trace};
 use engine::{Action, Chance, Game, Level, Outcome, SpriteRecord, State};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -14,7 +14,6 @@ const SHOWN: usize = 6;
 pub(crate) struct Difference {
     /// −1: before the first tick.
     pub(crate) tick: i32,
-    /// The action of the tick.
     action: Option<Action>,
     /// The state of the game's random generator before the tick.
     chance_before: u64,
@@ -24,7 +23,6 @@ pub(crate) struct Difference {
     more: usize,
 }
 
-/// One differing field.
 #[derive(Debug, Serialize)]
 struct Field {
     /// Creation number and type, for fields of a sprite.
@@ -64,14 +62,14 @@ pub(crate) fn compare(game: &Game, level: &Level, trace: &Trace) -> Option<Diffe
         let before = state.chance();
         game.step(&mut state, tick.action);
         check.apply(tick, &mut expected);
-        match &tick.engine_error {
+        match &tick.line.engine_error {
             Some(error) => check.engine_error(&state, error),
             None => {
-                check.tick(&state, tick);
+                check.tick(&state, &tick.line);
                 check.sprites(&state, &expected);
             }
         }
-        if let Some(difference) = check.finish(tick.tick, Some(tick.action), before) {
+        if let Some(difference) = check.finish(tick.line.tick, Some(tick.action), before) {
             return Some(difference);
         }
     }
@@ -93,9 +91,13 @@ impl Check<'_> {
 
     fn equal<T: PartialEq + fmt::Debug>(&mut self, field: &'static str, expected: T, got: T) {
         if expected != got {
-            let (expected, got) = (format!("{expected:?}"), format!("{got:?}"));
-            self.fields.push(Field { sprite: None, field, expected, got });
+            self.differs(field, &expected, &got);
         }
+    }
+
+    fn differs(&mut self, field: &'static str, expected: &impl fmt::Debug, got: &impl fmt::Debug) {
+        let (expected, got) = (format!("{expected:?}"), format!("{got:?}"));
+        self.fields.push(Field { sprite: None, field, expected, got });
     }
 
     fn start(&mut self, state: &State, trace: &Trace) {
@@ -123,7 +125,7 @@ impl Check<'_> {
         self.equal("rng", trace.rng, state.chance().state());
     }
 
-    fn tick(&mut self, state: &State, tick: &Tick) {
+    fn tick(&mut self, state: &State, tick: &Line) {
         let avatar = state.avatar_id();
         self.equal("tick", tick.tick, state.tick());
         self.equal("rng", tick.rng, state.chance().state());
@@ -140,7 +142,7 @@ impl Check<'_> {
         self.equal("resources", &tick.resources, &resources);
         self.equal("counters", &tick.counters[..], state.counters());
         if !matches!(state.outcome(), Outcome::Won | Outcome::Lost) {
-            self.equal("note", tick.noted, state.outcome() == Outcome::Ended);
+            self.equal("note", tick.note.is_some(), state.outcome() == Outcome::Ended);
         }
     }
 
@@ -152,11 +154,11 @@ impl Check<'_> {
 
     /// Applies this tick's changes to the expected sprites; a trace that contradicts itself shows as a difference.
     fn apply(&mut self, tick: &Tick, expected: &mut BTreeMap<u32, SpriteRecord>) {
-        for id in &tick.del {
+        for id in &tick.line.del {
             let gone = expected.remove(id);
             self.equal("del", Some(*id), gone.map(|record| record.id));
         }
-        for record in tick.add.iter().chain(&tick.modified) {
+        for record in &tick.changed {
             expected.insert(record.id, record.clone());
         }
     }
@@ -221,8 +223,7 @@ impl Check<'_> {
 
     fn exact(&mut self, field: &'static str, expected: f64, got: f64) {
         if bits(expected) != bits(got) {
-            let (expected, got) = (format!("{expected:?}"), format!("{got:?}"));
-            self.fields.push(Field { sprite: None, field, expected, got });
+            self.differs(field, &expected, &got);
         }
     }
 }

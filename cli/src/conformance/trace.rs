@@ -29,11 +29,9 @@ pub(crate) struct Header {
     pub(crate) sprite_order: Vec<u16>,
     #[serde(default)]
     pub(crate) actions: Vec<String>,
-    #[serde(default)]
     pub(crate) avatar: Option<u32>,
     #[serde(default)]
     pub(crate) log: Vec<String>,
-    #[serde(default)]
     pub(crate) engine_error: Option<String>,
 }
 
@@ -45,49 +43,38 @@ struct Initial {
 
 /// One tick as recorded.
 #[derive(Deserialize)]
-struct Line {
-    tick: i32,
+pub(crate) struct Line {
+    pub(crate) tick: i32,
     action: String,
-    score: Option<f64>,
-    winner: Option<String>,
+    pub(crate) score: Option<f64>,
+    pub(crate) winner: Option<String>,
     #[serde(default)]
-    ended: bool,
+    pub(crate) ended: bool,
     #[serde(default)]
-    rng: u64,
-    avatar: Option<u32>,
+    pub(crate) rng: u64,
+    pub(crate) avatar: Option<u32>,
     #[serde(default)]
-    resources: BTreeMap<String, i32>,
+    pub(crate) resources: BTreeMap<String, i32>,
     #[serde(default)]
-    counters: Vec<i32>,
+    pub(crate) counters: Vec<i32>,
     #[serde(default)]
     add: Vec<Value>,
     #[serde(default)]
-    del: Vec<u32>,
+    pub(crate) del: Vec<u32>,
     #[serde(rename = "mod", default)]
     modified: Vec<Value>,
-    note: Option<String>,
-    engine_error: Option<String>,
-}
-
-pub(crate) struct Tick {
-    pub(crate) tick: i32,
-    pub(crate) action: Action,
-    pub(crate) score: Option<f64>,
-    pub(crate) winner: Option<String>,
-    pub(crate) ended: bool,
-    pub(crate) rng: u64,
-    pub(crate) avatar: Option<u32>,
-    pub(crate) resources: BTreeMap<String, i32>,
-    pub(crate) counters: Vec<i32>,
-    pub(crate) add: Vec<SpriteRecord>,
-    pub(crate) del: Vec<u32>,
-    pub(crate) modified: Vec<SpriteRecord>,
-    /// `true` if the reference ended the game because it had logged too many messages.
-    pub(crate) noted: bool,
+    /// Present if the reference ended the game because it had logged too many messages.
+    pub(crate) note: Option<String>,
     pub(crate) engine_error: Option<String>,
 }
 
-/// A whole episode.
+/// One tick, with its action, and the sprites that are new or changed.
+pub(crate) struct Tick {
+    pub(crate) line: Line,
+    pub(crate) action: Action,
+    pub(crate) changed: Vec<SpriteRecord>,
+}
+
 pub(crate) struct Trace {
     pub(crate) header: Header,
     pub(crate) sprites: Vec<SpriteRecord>,
@@ -113,29 +100,15 @@ impl Trace {
             return Ok(Trace { header, sprites: Vec::new(), rng: 0, ticks: Vec::new() });
         }
         let initial: Initial = parse(lines.next())?;
-        let sprites = records(2, &initial.sprites)?;
+        let sprites = records(2, initial.sprites.iter())?;
         let mut ticks = Vec::new();
         for line in lines {
             let number = line.as_ref().map_or(0, |(number, _)| *number);
             let line: Line = parse(Some(line))?;
             let action = Action::from_reference(&line.action)
                 .ok_or_else(|| format!("line {number}: no action named `{}`", line.action))?;
-            ticks.push(Tick {
-                tick: line.tick,
-                action,
-                score: line.score,
-                winner: line.winner,
-                ended: line.ended,
-                rng: line.rng,
-                avatar: line.avatar,
-                resources: line.resources,
-                counters: line.counters,
-                add: records(number, &line.add)?,
-                del: line.del,
-                modified: records(number, &line.modified)?,
-                noted: line.note.is_some(),
-                engine_error: line.engine_error,
-            });
+            let changed = records(number, line.add.iter().chain(&line.modified))?;
+            ticks.push(Tick { line, action, changed });
         }
         Ok(Trace { header, sprites, rng: initial.rng, ticks })
     }
@@ -163,9 +136,9 @@ fn parse<T: for<'a> Deserialize<'a>>(line: Option<NumberedLine>) -> Result<T, St
     serde_json::from_str(&text).map_err(|error| format!("line {number}: {error}"))
 }
 
-fn records(line: usize, values: &[Value]) -> Result<Vec<SpriteRecord>, String> {
+fn records<'a>(line: usize, values: impl Iterator<Item = &'a Value>) -> Result<Vec<SpriteRecord>, String> {
     let wrong = |value| format!("line {line}: not a sprite record: {value}");
-    values.iter().map(|value| record(value).ok_or_else(|| wrong(value))).collect()
+    values.map(|value| record(value).ok_or_else(|| wrong(value))).collect()
 }
 
 /// Reads a number, or one of the strings for values that JSON cannot express as numbers.

@@ -72,7 +72,6 @@ pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
     }
 }
 
-/// One problem for programs.
 #[derive(Debug, Serialize)]
 pub(crate) struct Placed {
     file: String,

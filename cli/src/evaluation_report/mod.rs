@@ -15,7 +15,6 @@ use snapshots::Draft;
 
 /// The input of a report.
 pub(crate) struct Results<'a> {
-    /// The numbers.
     pub(crate) study: &'a Study,
     /// The results folders, for replays and settings.
     pub(crate) evaluations: &'a [Evaluation],
@@ -27,7 +26,6 @@ pub(crate) struct Results<'a> {
 /// stored.
 #[derive(Serialize)]
 struct Document<'a> {
-    /// The settings of each player.
     evaluations: Vec<Asked<'a>>,
     study: &'a Study,
 }

@@ -19,7 +19,6 @@ const PARTS: [(&str, &str); 2] =
 /// The approximate size of the page in bytes: replays fill the space that the plots leave.
 const BYTES: usize = 12_000_000;
 
-/// The data of the template.
 #[derive(Serialize)]
 struct Page<'a> {
     title: &'a str,

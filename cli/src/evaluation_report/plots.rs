@@ -1,7 +1,6 @@
 //! The plots of the page, from the numbers of the study.
 
-use crate::page::plots::{Forest, ForestRow, HeatMap, Label, Violin, Violins, forest, heat_map, violins};
-use crate::page::plots::{Matrix as Coefficients, matrix};
+use crate::page::plots::{ForestRow, HeatMap, Label, Violin, forest, heat_map, matrix, violins};
 use crate::page::words;
 use evaluation::study::{
     CORRELATED, Correlation, Estimate, FailureMeasure, Matrix, Measure, Player, Scope, Study, Test,
@@ -12,7 +11,6 @@ use std::fmt::Write;
 /// Columns of a heat map that stay together; it fits the width of a phone.
 const COLUMNS: usize = 6;
 
-/// A plot with its heading and caption.
 #[derive(Serialize)]
 pub(super) struct Plot {
     head: String,
@@ -185,7 +183,6 @@ fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     stretches
 }
 
-/// Returns the name of a game.
 pub(super) fn game(study: &Study, game: usize) -> String {
     let game = &study.games[game];
     if game.title.is_empty() { game.id.clone() } else { game.title.clone() }
@@ -219,7 +216,7 @@ pub(super) fn win_rates(study: &Study) -> Plot {
         .collect();
     Plot {
         head: "Win rates".to_owned(),
-        svg: forest(&Forest { label: "win rates with Wilson intervals", rows: &rows }),
+        svg: forest("win rates with Wilson intervals", &rows),
         caption: "Wilson's intervals: episodes taken for independent. The table has intervals that draw whole games too.".to_owned(),
     }
 }
@@ -241,7 +238,7 @@ pub(super) fn win_rates_by_game(study: &Study) -> Vec<Group> {
                 forest_row(label, row.scores.win_rate, of, player.is_reference())
             })
             .collect();
-        let svg = forest(&Forest { label: "win rates by game", rows: &rows });
+        let svg = forest("win rates by game", &rows);
         let plot = Plot { head: String::new(), svg, caption: String::new() };
         Group { name: format!("{}: win rate by game", player.label()), plots: vec![plot] }
     };
@@ -267,7 +264,7 @@ pub(super) fn failures(study: &Study) -> Vec<Plot> {
         let scale = if mode.measure == FailureMeasure::MaxBumps { [0.0, most] } else { [0.0, 1.0] };
         let groups =
             [Violin { name: "won", values: &mode.won }, Violin { name: "not won", values: &mode.lost }];
-        let svg = violins(&Violins { label: mode.measure.title(), groups: &groups, scale });
+        let svg = violins(mode.measure.title(), &groups, scale);
         Plot { head: mode.measure.title().to_owned(), svg, caption: String::new() }
     };
     modes.map(plot).collect()
@@ -278,14 +275,13 @@ pub(super) fn correlations(study: &Study) -> Vec<Plot> {
     if study.correlations.episodes == 0 {
         return Vec::new();
     }
-    let names = CORRELATED.map(str::to_owned);
     let plot = |head: &str, of: fn(&Correlation) -> Option<Test>| {
-        let mut cells = vec![vec![None; names.len()]; names.len()];
+        let mut cells = vec![vec![None; CORRELATED.len()]; CORRELATED.len()];
         for pair in &study.correlations.pairs {
             let [column, row] = pair.pair;
             cells[row][column] = of(pair).map(|test| (test.r, corrected(test.adjusted)));
         }
-        let svg = matrix(&Coefficients { label: head, names: &names, cells: &cells });
+        let svg = matrix(head, &CORRELATED, &cells);
         Plot { head: head.to_owned(), svg, caption: String::new() }
     };
     vec![plot("Pearson", |pair| pair.pearson), plot("Spearman", |pair| pair.spearman)]

@@ -7,8 +7,7 @@ use evaluation::study::Study;
 use report::Table;
 use serde::Serialize;
 
-/// A question.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(super) struct Section {
     id: &'static str,
     title: &'static str,
@@ -21,15 +20,7 @@ pub(super) struct Section {
 
 impl Section {
     fn new(id: &'static str, title: &'static str, note: impl Into<String>) -> Section {
-        Section {
-            id,
-            title,
-            note: note.into(),
-            heats: None,
-            plots: Vec::new(),
-            groups: Vec::new(),
-            tables: Vec::new(),
-        }
+        Section { id, title, note: note.into(), ..Section::default() }
     }
 
     /// Returns the size of its heat maps, by far the largest part of the page.

@@ -10,7 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The text at the head of page and Markdown.
 pub(super) struct Told {
-    /// The heading.
     pub(super) title: String,
     /// The source of the results.
     pub(super) subtitle: String,
@@ -40,7 +39,6 @@ impl Told {
         Told { title, subtitle: subtitle(evaluations), counted, warnings: study.notes.clone() }
     }
 
-    /// Returns the report as Markdown.
     pub(super) fn markdown(&self, tables: &[Table]) -> String {
         let mut text = format!("# {}\n\n{}\n", in_markdown(&self.title), in_markdown(&self.subtitle));
         for sentence in &self.counted {

@@ -5,7 +5,6 @@ use super::words;
 use report::{Figure, Mean, Quantiles, Share, Table, TableCell, Value};
 use serde::Serialize;
 
-/// A question with its answers.
 #[derive(Serialize)]
 pub(crate) struct Section {
     title: &'static str,
@@ -14,14 +13,12 @@ pub(crate) struct Section {
     tables: Vec<Shown>,
 }
 
-/// A figure.
 #[derive(Serialize)]
 pub(crate) struct Fact {
     name: String,
     value: String,
     /// An SVG; empty if there is nothing to draw.
     bar: String,
-    /// Its interval.
     band: String,
     /// The size of its sample.
     of: String,
@@ -90,18 +87,15 @@ impl Fact {
         Fact { bar: bar(share.share(), share.interval), ..fact }
     }
 
-    /// A value without an interval.
     pub(crate) fn plain(name: impl Into<String>, value: String) -> Fact {
         Fact { name: name.into(), value, bar: String::new(), band: String::new(), of: String::new() }
     }
 
-    /// The figure with the size of its sample.
     #[must_use]
     pub(crate) fn of(self, of: String) -> Fact {
         Fact { of, ..self }
     }
 
-    /// The figure with its interval.
     #[must_use]
     pub(crate) fn within(self, band: String) -> Fact {
         Fact { band, ..self }

@@ -21,7 +21,6 @@ const SHARED: [(&str, &str); 4] = [
     ("parts.html", include_str!("parts.html")),
 ];
 
-/// A picture in a page.
 #[derive(Serialize)]
 pub(crate) struct Figure<'a> {
     png: String,

@@ -26,7 +26,6 @@ pub(crate) struct Column {
     figures: bool,
 }
 
-/// A row.
 #[derive(Serialize)]
 pub(crate) struct Row {
     pub(crate) cells: Vec<String>,
@@ -35,7 +34,6 @@ pub(crate) struct Row {
 }
 
 impl Shown {
-    /// A table with all its rows.
     pub(crate) fn of(table: &Table) -> Shown {
         let column = |(at, name): (usize, &String)| {
             let figures = !table.rows.iter().any(|row| matches!(row[at], TableCell::Text(_)));

@@ -8,7 +8,6 @@ use std::ops::Range;
 /// The colour of the empty board.
 pub(crate) const GROUND: Color = Color::Indexed(235);
 
-/// A cell of the board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Cell<'a> {
     pub(crate) text: &'a str,

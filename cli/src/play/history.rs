@@ -7,8 +7,8 @@ const STRIDE: usize = 32;
 
 /// The actions played, and the state that they led to.
 pub(crate) struct History {
-    episode: Episode,
-    state: State,
+    pub(super) episode: Episode,
+    pub(super) state: State,
     /// The states after 0, [`STRIDE`], 2 × [`STRIDE`] … ticks.
     kept: Vec<State>,
 }
@@ -17,14 +17,6 @@ impl History {
     pub(crate) fn begin(game: &Game, level: &Level, seed: Seed) -> History {
         let (episode, state) = Episode::begin(game, level, seed);
         History { episode, kept: vec![state.clone()], state }
-    }
-
-    pub(crate) fn episode(&self) -> &Episode {
-        &self.episode
-    }
-
-    pub(crate) fn state(&self) -> &State {
-        &self.state
     }
 
     pub(crate) fn ticks(&self) -> usize {

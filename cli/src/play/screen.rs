@@ -54,9 +54,9 @@ impl Screen {
 
     fn run(&mut self, session: &mut Session, view: &View) -> std::io::Result<()> {
         let mut since = Stopwatch::start();
-        while !session.is_over() {
+        while !session.over {
             self.0.draw(|frame| view.draw(session, frame))?;
-            let left = 1.0 / f64::from(session.pace()) - since.seconds();
+            let left = 1.0 / f64::from(session.pace) - since.seconds();
             let wait = if session.runs() { Duration::from_secs_f64(left.max(0.0)) } else { IDLE };
             if event::poll(wait)? {
                 if let Event::Key(key) = event::read()?
@@ -88,7 +88,6 @@ fn restore() {
     let _ = execute!(std::io::stderr(), terminal::LeaveAlternateScreen, cursor::Show);
 }
 
-/// Returns the command of a key.
 fn command(key: KeyEvent) -> Option<Command> {
     if key.kind == KeyEventKind::Release {
         return None;

@@ -9,28 +9,26 @@ pub(crate) const MAX_PACE: u16 = 60;
 /// The lines that Page Up and Page Down scroll the rules.
 const PAGE: u16 = 8;
 
-/// The player that chooses the actions.
 pub(crate) enum Player {
     /// The user at the keyboard.
     Person,
-    /// A planner.
-    Planner { name: String, planner: Box<dyn Planner + Send>, budget: Budget },
+    Planner {
+        name: String,
+        planner: Box<dyn Planner + Send>,
+        budget: Budget,
+    },
     /// A recording, whose actions are already known.
     Recording(Vec<Action>),
 }
 
-/// The command of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Command {
-    /// Choose this action.
     Act(Action),
     /// Pause the clock, or let it run.
     Pause,
     /// Play one tick, then pause the clock.
     Step,
-    /// Return to the start.
     Restart,
-    /// Undo a tick.
     Undo,
     /// More ticks a second.
     Faster,
@@ -38,30 +36,28 @@ pub(crate) enum Command {
     Slower,
     /// Wait for keys, or let the clock run.
     TurnBased,
-    /// Scroll the rules down.
     Down,
-    /// Scroll the rules up.
     Up,
-    /// Quit.
     Quit,
 }
 
-/// A session.
 pub(crate) struct Session {
     game: Game,
     level: Level,
     seed: Seed,
-    player: Player,
+    pub(super) player: Player,
     history: History,
     /// `true` if a tick happens only when a key chooses an action.
-    turn_based: bool,
-    paused: bool,
+    pub(super) turn_based: bool,
+    pub(super) paused: bool,
     /// Ticks a second, if the clock runs.
-    pace: u16,
+    pub(super) pace: u16,
     /// The action of the next tick: the last key since the tick before.
     chosen: Option<Action>,
-    scroll: u16,
-    over: bool,
+    /// The number of rules lines scrolled past.
+    pub(super) scroll: u16,
+    /// `true` once the user has quit.
+    pub(super) over: bool,
 }
 
 impl Session {
@@ -81,37 +77,11 @@ impl Session {
     }
 
     pub(crate) fn state(&self) -> &State {
-        self.history.state()
+        &self.history.state
     }
 
     pub(crate) fn episode(&self) -> &Episode {
-        self.history.episode()
-    }
-
-    pub(crate) fn player(&self) -> &Player {
-        &self.player
-    }
-
-    pub(crate) fn is_turn_based(&self) -> bool {
-        self.turn_based
-    }
-
-    pub(crate) fn is_paused(&self) -> bool {
-        self.paused
-    }
-
-    pub(crate) fn pace(&self) -> u16 {
-        self.pace
-    }
-
-    /// Returns the number of rules lines scrolled past.
-    pub(crate) fn scroll(&self) -> u16 {
-        self.scroll
-    }
-
-    /// Returns `true` once the user has quit.
-    pub(crate) fn is_over(&self) -> bool {
-        self.over
+        &self.history.episode
     }
 
     /// Returns `true` if the next tick comes from the clock and not from a key.
@@ -128,7 +98,6 @@ impl Session {
         recorded || self.state().is_over()
     }
 
-    /// Executes a command.
     pub(crate) fn handle(&mut self, command: Command) {
         match command {
             Command::Act(action) if matches!(self.player, Player::Person) => {
@@ -174,7 +143,7 @@ impl Session {
         let action = match &mut self.player {
             Player::Person => chosen.unwrap_or(Action::Nil),
             Player::Planner { planner, budget, .. } => {
-                planner.plan(&self.game, self.history.state(), *budget).0
+                planner.plan(&self.game, &self.history.state, *budget).0
             }
             Player::Recording(actions) => actions[self.history.ticks()],
         };
@@ -238,7 +207,7 @@ BasicGame
         session.handle(Command::Pause);
         assert!(!session.runs());
         session.handle(Command::TurnBased);
-        assert!(session.is_turn_based() && !session.is_paused());
+        assert!(session.turn_based && !session.paused);
     }
 
     #[test]
@@ -265,9 +234,9 @@ BasicGame
     #[test]
     fn recordings_end_and_can_be_stepped() {
         let mut session = session(Player::Recording(vec![Action::Down, Action::Up]), true);
-        assert!(session.runs() && !session.is_turn_based());
+        assert!(session.runs() && !session.turn_based);
         session.handle(Command::Step);
-        assert!(!session.runs() && session.is_paused());
+        assert!(!session.runs() && session.paused);
         session.handle(Command::Act(Action::Left));
         session.handle(Command::Step);
         session.handle(Command::Step);
@@ -281,10 +250,10 @@ BasicGame
     fn the_pace_stays_in_bounds() {
         let mut session = session(Player::Person, false);
         (0..40).for_each(|_| session.handle(Command::Faster));
-        assert_eq!(session.pace(), MAX_PACE);
+        assert_eq!(session.pace, MAX_PACE);
         (0..80).for_each(|_| session.handle(Command::Slower));
-        assert_eq!(session.pace(), 1);
+        assert_eq!(session.pace, 1);
         session.handle(Command::Faster);
-        assert_eq!(session.pace(), 2);
+        assert_eq!(session.pace, 2);
     }
 }

@@ -19,14 +19,12 @@ const PANEL: (u16, u16) = (32, 64);
 pub(crate) struct View {
     pub(crate) looks: Looks,
     pub(crate) signs: Signs,
-    /// Game and level.
     pub(crate) title: String,
     /// The rules in plain English, one line for each.
     pub(crate) rules: Vec<String>,
 }
 
 impl View {
-    /// Draws a session.
     pub(crate) fn draw(&self, session: &Session, frame: &mut Frame<'_>) {
         let area = frame.area();
         if area.width < MIN_SIZE.0 || area.height < MIN_SIZE.1 {
@@ -100,7 +98,7 @@ impl View {
         frame.render_widget(Paragraph::new(legend), middle);
         let rules: Vec<Line<'_>> = self.rules.iter().map(|line| rule(line)).collect();
         let rules = Paragraph::new(rules).wrap(Wrap { trim: false });
-        frame.render_widget(rules.scroll((session.scroll(), 0)), bottom);
+        frame.render_widget(rules.scroll((session.scroll, 0)), bottom);
     }
 
     fn status(&self, session: &Session) -> Vec<Line<'static>> {
@@ -169,26 +167,26 @@ fn rule(line: &str) -> Line<'_> {
 /// Returns the player, and the timing of the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
-    let who = match session.player() {
+    let who = match &session.player {
         Player::Person => String::new(),
         Player::Planner { name, budget, .. } => format!("{name} plays, {} calls a tick; ", budget.0),
         Player::Recording(actions) => format!("recording, {ticks} of {} ticks; ", actions.len()),
     };
     let when = if session.is_at_end() {
         "over".to_owned()
-    } else if session.is_turn_based() {
+    } else if session.turn_based {
         "waits for you".to_owned()
-    } else if session.is_paused() {
+    } else if session.paused {
         "paused".to_owned()
     } else {
-        format!("{} ticks a second", session.pace())
+        format!("{} ticks a second", session.pace)
     };
     format!("{who}{when}")
 }
 
 fn keys_of(session: &Session) -> &'static str {
-    match session.player() {
-        Player::Person if session.is_turn_based() => {
+    match &session.player {
+        Player::Person if session.turn_based => {
             "arrows or WASD move, space uses, . waits, u takes back, r restarts, t real time, PgUp PgDn rules, q quits"
         }
         Player::Person => {

@@ -12,7 +12,6 @@ use snapshots::Draft;
 pub(crate) struct Pictures<'a> {
     /// The game, as people call it.
     pub(crate) title: &'a str,
-    /// The maker of the levels.
     pub(crate) method: &'a str,
     /// The meaning of the game's rules.
     pub(crate) analysis: &'a Analysis,
@@ -27,7 +26,6 @@ pub(crate) struct Pictures<'a> {
 /// Pixels of the longer side of a board, about.
 const SIDE: u32 = 320;
 
-/// Writes the report on a set of levels.
 pub(crate) fn level_report(
     draft: Draft,
     report: &LevelSetReport,

@@ -9,7 +9,6 @@ use serde::Serialize;
 
 const TEMPLATE: &str = include_str!("page.html");
 
-/// All that the template shows.
 #[derive(Serialize)]
 struct Page<'a> {
     showcase: &'a Showcase<'a>,
@@ -17,7 +16,6 @@ struct Page<'a> {
     sections: Vec<Section>,
     /// The tables beside the pictures.
     grids: Vec<Shown>,
-    /// The table of all items.
     every: Vec<Shown>,
 }
 

@@ -1,7 +1,6 @@
 //! `arcade describe`: the rules of a game in plain English, its kind, and the provable properties of a level.
 
 use crate::console::Console;
-use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
 use engine::describe::{self, Guide};
@@ -60,8 +59,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 fn prospects(analysis: &Analysis, named: &Named) -> Result<Prospects, Failure> {
-    let level = analysis.game().level(&named.text);
-    let level = level.map_err(|problems| diagnostics::failure(named, &problems.0))?;
+    let level = named.level(analysis.game())?;
     let reach = analysis.reach(&level);
     Ok(Prospects {
         level: named.name.clone(),

@@ -40,7 +40,6 @@ const NAMED: [&str; 5] =
     ["diagnostics", "ontology/effects", "ontology/sprites", "ontology/terminations", "spec"];
 /// The folder whose pages come last of those with titles.
 const DECISIONS: &str = "decisions";
-/// The columns of a line of names.
 const COLUMNS: usize = 100;
 
 fn list(pages: &[Page]) -> String {

@@ -30,10 +30,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     protected::check(&args.out)?;
-    let shards = Shards::open(&args.shards).map_err(|error| match error {
-        MergeError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    })?;
+    let shards = Shards::open(&args.shards).map_err(merge_failure)?;
     let corpus = embedded::corpus()?;
     let secret = args.secret.as_deref().map(read_secret_file).transpose()?;
     let plan = Plan::new(shards.recipe(), secret.as_ref(), &corpus).map_err(mint_failure)?;
@@ -42,14 +39,18 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             "the shards were not made from the recipe that they name: mint them again",
         ));
     }
-    in_pool(args.jobs, || shards.check(&plan))?.map_err(|error| match error {
-        MergeError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    })?;
+    in_pool(args.jobs, || shards.check(&plan))?.map_err(merge_failure)?;
     let draft = protected::draft(&args.out)?;
     if plan.is_sealed() {
         draft.keep_private().map_err(failure)?;
     }
     let finished = FinishedMint { plan: &plan, secret: secret.as_ref(), store: &shards, out: &args.out };
     finished.publish(draft, None, args.jobs, console)
+}
+
+fn merge_failure(error: MergeError) -> Failure {
+    match error {
+        MergeError::Snapshot(error) => failure(error),
+        other => Failure::Malformed(other.into()),
+    }
 }

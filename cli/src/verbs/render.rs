@@ -100,7 +100,6 @@ impl Format {
     }
 }
 
-/// The subject of the picture.
 struct Subject<'a> {
     looks: Looks,
     symbols: Symbols,

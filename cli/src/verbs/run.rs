@@ -1,9 +1,8 @@
 //! `arcade run`: win rates of planners.
 
 use crate::console::{Console, Stopwatch};
-use crate::diagnostics;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, Named};
+use crate::input;
 use crate::verbs::release::in_pool;
 use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};
@@ -59,7 +58,6 @@ struct Subject {
     levels: Vec<Level>,
 }
 
-/// One episode to play.
 struct Entry<'a> {
     subject: &'a Subject,
     level: usize,
@@ -189,7 +187,7 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
         for input in input::games(name)? {
             let game = input.compile(args.as_reference)?;
             let levels =
-                input.levels()?.iter().map(|text| level(&game, text)).collect::<Result<Vec<_>, _>>()?;
+                input.levels()?.iter().map(|named| named.level(&game)).collect::<Result<Vec<_>, _>>()?;
             if levels.is_empty() {
                 return Err(Failure::malformed(format!("{}: the game has no levels", input.source.name)));
             }
@@ -197,10 +195,6 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
         }
     }
     Ok(subjects)
-}
-
-fn level(game: &Game, text: &Named) -> Result<Level, Failure> {
-    game.level(&text.text).map_err(|problems| diagnostics::failure(text, &problems.0))
 }
 
 /// Plays an episode. Its seed depends only on game, level, planner and run: adding a game or a planner changes no

@@ -16,7 +16,6 @@ pub(super) struct Cache {
     written: AtomicU64,
 }
 
-/// A file of the cache.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {

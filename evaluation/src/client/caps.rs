@@ -170,7 +170,6 @@ pub(super) struct Reservation<'a> {
 }
 
 impl Reservation<'_> {
-    /// Charges the usage of the reply.
     pub(super) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
         let charge = self.caps.charge(usage, self.prompt, text, reasoning);
         // In one step, so that the request is never counted both as in flight and as paid.

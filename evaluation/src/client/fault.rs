@@ -14,14 +14,11 @@ pub(super) enum Fault {
     Transient {
         /// The HTTP status, if there was a reply.
         status: Option<u16>,
-        /// The error message.
         message: String,
-        /// The wait requested by the server.
         wait: Option<Duration>,
     },
     /// The server will never answer this request.
     Final {
-        /// The status.
         status: u16,
         /// The reason in the server's words.
         message: String,

@@ -43,7 +43,6 @@ impl Key {
         Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
     }
 
-    /// The variable that the key comes from.
     pub(super) fn variable(&self) -> &str {
         &self.variable
     }
@@ -61,7 +60,6 @@ impl Key {
         words.replace(&self.secret, HIDDEN)
     }
 
-    /// Removes the key from an answer.
     pub(super) fn hide_in_answer(&self, text: String) -> String {
         if self.secret.len() >= MIN_SEARCHED && text.contains(&self.secret) {
             return self.hide_in_message(&text);

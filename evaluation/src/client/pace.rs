@@ -24,7 +24,6 @@ struct Schedule {
     server: Duration,
 }
 
-/// A minute in nanoseconds.
 const MINUTE: u128 = 60_000_000_000;
 
 /// Returns the time that a number of things takes at a rate per minute.

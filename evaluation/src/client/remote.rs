@@ -15,7 +15,6 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A model on a server.
 pub(super) struct Remote {
     pub(super) spec: ModelSpec,
     pub(super) key: Option<Key>,

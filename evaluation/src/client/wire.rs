@@ -15,7 +15,6 @@ pub(super) struct Wire {
     connect_timeout: Duration,
 }
 
-/// A reply of any status.
 #[derive(Clone, Debug)]
 pub(super) struct HttpReply {
     pub(super) status: u16,

@@ -7,9 +7,7 @@ use itertools::Itertools;
 /// An observation, as all encodings read it.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
-    /// Columns of the board.
     pub(crate) columns: usize,
-    /// Rows of the board.
     pub(crate) rows: usize,
     /// The names in each cell, row-major, from the lowest to the uppermost, without floors. The avatar is only in the cell
     /// of its centre, on top of everything else.

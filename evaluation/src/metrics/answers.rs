@@ -66,7 +66,6 @@ impl<'a> Answers<'a> {
     }
 }
 
-/// The name of a validity in logs.
 fn name(validity: Validity) -> &'static str {
     match validity {
         Validity::Valid => "valid",

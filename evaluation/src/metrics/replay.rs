@@ -136,7 +136,6 @@ fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, S
     Ok((found, state))
 }
 
-/// Compares a step with its replay.
 fn compare(event: &Event, state: &State, replayed: &Replayed) -> Result<(), String> {
     let Event::Step { step, score, hash, outcome, avatar, .. } = event else { return Ok(()) };
     let number = replayed.actions.len() as u64 - 1;

@@ -40,7 +40,6 @@ enum Log<'a> {
     Past(&'a Journal),
 }
 
-/// The identity of a message.
 type Text = (u8, Digest, Option<Digest>);
 
 impl ModelPlayer {

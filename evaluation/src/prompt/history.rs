@@ -25,9 +25,7 @@ pub struct Past {
     pub(super) shown: String,
     pub(super) attempts: Vec<Attempt>,
     pub(super) played: Action,
-    /// The tokens of the text shown.
     shown_tokens: u64,
-    /// The tokens of the whole turn.
     pub(super) tokens: u64,
 }
 
@@ -61,7 +59,6 @@ pub(super) fn cost(text: &str) -> u64 {
     tokens::count(text) + tokens::PER_MESSAGE
 }
 
-/// Returns the tokens of answers and complaints.
 pub(super) fn answer_tokens(attempts: &[Attempt]) -> u64 {
     let one = |attempt: &Attempt| cost(&attempt.answer) + attempt.complaint.as_deref().map_or(0, cost);
     attempts.iter().map(one).sum()

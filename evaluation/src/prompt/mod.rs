@@ -34,7 +34,6 @@ use serde::Serialize;
 /// The version of the templates, raised when a word of them changes, so that results tell prompts apart at a glance.
 pub const VERSION: u32 = 1;
 
-/// The templates of prompts, by name.
 const TEMPLATES: [(&str, &str); 5] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
     ("standard_turn.j2", include_str!("templates/standard_turn.j2")),
@@ -250,6 +249,13 @@ impl Prompter {
         }
     }
 
+    fn template(&self, [standard, reference]: [&'static str; 2]) -> &'static str {
+        match self.settings.style {
+            PromptStyle::Standard => standard,
+            PromptStyle::Reference => reference,
+        }
+    }
+
     fn words(&self) -> Vec<String> {
         self.actions.iter().map(ToString::to_string).collect()
     }
@@ -261,12 +267,8 @@ impl Prompter {
             Rules::Vgdl => (false, Some(print_bare(analysis.game().description()))),
             Rules::None => (false, None),
         };
-        let template = match self.settings.style {
-            PromptStyle::Standard => "standard_static.j2",
-            PromptStyle::Reference => "reference_static.j2",
-        };
         let text = self.render(
-            template,
+            self.template(["standard_static.j2", "reference_static.j2"]),
             data(serde_json::json!({
             "settings": self.settings,
             "described": described,
@@ -286,10 +288,7 @@ impl Prompter {
     }
 
     fn write_turn(&self, turn: &Turn<'_>, past: &[Past]) -> String {
-        let template = match self.settings.style {
-            PromptStyle::Standard => "standard_turn.j2",
-            PromptStyle::Reference => "reference_turn.j2",
-        };
+        let template = self.template(["standard_turn.j2", "reference_turn.j2"]);
         let mask = |seen| self.mask.as_ref().map(|mask| mask.observation(seen));
         let seen = mask(turn.observation);
         let before = turn.before.as_ref().and_then(|before| mask(before.observation));

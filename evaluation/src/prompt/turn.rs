@@ -19,7 +19,6 @@ pub(super) struct View<'a> {
     pub(super) turn: &'a Turn<'a>,
     /// The observation under the names shown to the player.
     pub(super) now: &'a Observation,
-    /// The observation of the previous turn.
     pub(super) before: Option<&'a Observation>,
     /// The last actions played, the newest last.
     pub(super) recent: Vec<Action>,

@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-/// A stopwatch that runs from its creation.
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {

@@ -8,7 +8,6 @@ use crate::subject::{Subject, SubjectLevel};
 use crate::turn::{Before, Turn, choices};
 use agents::{Planner, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
-use std::fmt::Display;
 
 /// An episode to play.
 #[derive(Clone, Copy, Debug)]
@@ -35,20 +34,15 @@ impl Task<'_> {
     /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
     pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, .. } = start else { return Ok(()) };
-        let differs = |what: &str, found: &dyn Display, requested: &dyn Display| {
-            Err(format!("the log is of {what} {found}, but {requested} was requested"))
-        };
-        if *game != self.subject.id {
-            return differs("game", game, &self.subject.id);
-        }
-        if *level != self.level.number {
-            return differs("level", level, &self.level.number);
-        }
-        if *run != self.run {
-            return differs("run", run, &self.run);
-        }
-        if *max_steps != self.max_steps {
-            return differs("an episode with `max_steps`", max_steps, &self.max_steps);
+        let fields = [
+            ("game", game.clone(), self.subject.id.clone()),
+            ("level", level.to_string(), self.level.number.to_string()),
+            ("run", run.to_string(), self.run.to_string()),
+            ("an episode with `max_steps`", max_steps.to_string(), self.max_steps.to_string()),
+        ];
+        if let Some((what, found, requested)) = fields.iter().find(|(_, found, requested)| found != requested)
+        {
+            return Err(format!("the log is of {what} {found}, but {requested} was requested"));
         }
         match *seed == self.chance() {
             true => Ok(()),
@@ -108,7 +102,6 @@ pub fn play(
     Ok(PlayResult::Ended(outcome))
 }
 
-/// An episode in progress.
 struct Playing<'a> {
     task: &'a Task<'a>,
     contestant: &'a mut Contestant,

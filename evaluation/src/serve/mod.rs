@@ -135,7 +135,6 @@ fn tokens(text: &str) -> u64 {
     text.len().div_ceil(4) as u64
 }
 
-/// Returns the tokens of a conversation.
 fn prompt_tokens(messages: &[ChatMessage]) -> u64 {
     messages.iter().map(|message| tokens(&message.text)).sum()
 }

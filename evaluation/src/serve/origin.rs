@@ -13,7 +13,6 @@ use axum::response::Response;
 /// The names of this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
 
-/// Forwards the allowed requests.
 pub(super) async fn check(request: Request, next: Next) -> Response {
     match problem(request.method(), request.headers()) {
         None => next.run(request).await,

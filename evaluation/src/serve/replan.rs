@@ -156,7 +156,6 @@ impl Position {
     }
 }
 
-/// Lowers the tick limits by `ticks`.
 fn lower_tick_limits(description: &mut Description, ticks: u32) {
     let timeouts = description.terminations.iter_mut().filter(|line| line.class.text == "Timeout");
     for param in timeouts.flat_map(|line| &mut line.params).filter(|param| param.key.text == "limit") {

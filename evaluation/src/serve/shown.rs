@@ -15,7 +15,6 @@ pub(super) struct Shown<'a> {
     pub(super) rules: Vec<&'a str>,
     /// The rules as VGDL, if the prompt has them in that form.
     pub(super) vgdl: Option<&'a str>,
-    /// The available actions.
     pub(super) actions: Vec<Action>,
     /// The columns of the board; 0 without a board.
     pub(super) columns: usize,
@@ -23,7 +22,6 @@ pub(super) struct Shown<'a> {
     pub(super) cells: Vec<Vec<&'a str>>,
     /// The names that the board does not show.
     pub(super) floors: Vec<&'a str>,
-    /// The number of ticks played.
     pub(super) tick: u32,
     /// The player, while it exists.
     pub(super) you: Option<You<'a>>,
@@ -38,9 +36,7 @@ pub(super) struct Shown<'a> {
 pub(super) struct You<'a> {
     /// Its type, as far as the prompt names it.
     pub(super) name: &'a str,
-    /// The cell.
     pub(super) cell: usize,
-    /// Its direction.
     pub(super) facing: Option<Action>,
 }
 
@@ -172,7 +168,6 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// The meanings of the characters.
 struct Symbols<'a> {
     names: BTreeMap<char, &'a str>,
     you: char,
@@ -220,7 +215,6 @@ fn actions_of(list: &str) -> Vec<Action> {
     list.split(", ").filter_map(|word| action(word.trim())).collect()
 }
 
-/// Returns an action by its name.
 fn action(word: &str) -> Option<Action> {
     Action::ALL.into_iter().find(|action| action.to_string() == word)
 }

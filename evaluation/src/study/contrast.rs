@@ -78,7 +78,6 @@ pub struct OverallComparison {
 type Counts = (u64, u64);
 
 impl Contrasts {
-    /// Compares these pairs.
     pub(crate) fn of(study: &Study, pairs: &[[usize; 2]]) -> Contrasts {
         let counts = counts(study);
         let mut contrasts = Contrasts::default();

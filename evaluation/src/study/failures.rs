@@ -92,7 +92,6 @@ pub struct WelchTest {
     pub adjusted: f64,
 }
 
-/// Returns all failure modes.
 pub(crate) fn failures(study: &Study) -> Vec<FailureMode> {
     let of = |measure: FailureMeasure| {
         let values = |won: bool| {

@@ -36,28 +36,26 @@ impl Measure {
         Measure::BumpRate,
     ];
 
+    /// Returns the names in headings and in file names.
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Measure::WinRate => ["Win rate", "win-rate"],
+            Measure::Overall => ["Overall score", "overall"],
+            Measure::NormalisedReward => ["Normalised reward", "normalised-reward"],
+            Measure::Meaningful => ["Meaningful step ratio", "meaningful"],
+            Measure::Steps => ["Steps", "steps"],
+            Measure::BumpRate => ["Bump rate", "bump-rate"],
+        }
+    }
+
     /// The name in headings.
     pub fn title(self) -> &'static str {
-        match self {
-            Measure::WinRate => "Win rate",
-            Measure::Overall => "Overall score",
-            Measure::NormalisedReward => "Normalised reward",
-            Measure::Meaningful => "Meaningful step ratio",
-            Measure::Steps => "Steps",
-            Measure::BumpRate => "Bump rate",
-        }
+        self.names()[0]
     }
 
     /// The name in file names.
     pub fn id(self) -> &'static str {
-        match self {
-            Measure::WinRate => "win-rate",
-            Measure::Overall => "overall",
-            Measure::NormalisedReward => "normalised-reward",
-            Measure::Meaningful => "meaningful",
-            Measure::Steps => "steps",
-            Measure::BumpRate => "bump-rate",
-        }
+        self.names()[1]
     }
 
     /// Returns `true` if higher values are better, and `None` if neither direction is.
@@ -116,8 +114,7 @@ impl Scope {
     fn row(self, player: &Player) -> Option<String> {
         match (self, player.mode.as_deref()) {
             (_, None) | (Scope::Both, _) => Some(player.short_label()),
-            (Scope::ZeroShot, Some(mode)) => (mode == ZERO_SHOT).then(|| player.short_label()),
-            (Scope::Contextual, Some(mode)) => (mode == CONTEXTUAL).then(|| player.short_label()),
+            (_, Some(mode)) => (mode == self.id()).then(|| player.short_label()),
         }
     }
 }

@@ -45,7 +45,6 @@ use engine::Seed;
 use report::Table;
 use serde::Serialize;
 
-/// The confidence level of all intervals.
 const LEVEL: f64 = 0.95;
 /// The number of resamples of a bootstrap over whole games.
 const RESAMPLES: usize = 2000;
@@ -179,7 +178,6 @@ impl Study {
         self.episodes.push(StudyEpisode { player, game, normalised_reward: None, most_steps: 0, metrics });
     }
 
-    /// Collects the notes.
     fn note(&mut self) {
         let mut limits: Vec<u64> = self.episodes.iter().map(|episode| episode.metrics.max_steps).collect();
         limits.sort_unstable();

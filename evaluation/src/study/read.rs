@@ -91,7 +91,6 @@ struct Names {
 }
 
 impl Names {
-    /// Adds the game of a folder.
     fn add(&mut self, subject: &Subject, folder: &Path) -> Result<(), EvaluationError> {
         let levels = subject.levels.iter().map(|level| (level.number, level.level.digest()));
         let Some((game, digest, known)) = self.games.iter_mut().find(|(game, ..)| game.id == subject.id)
@@ -99,20 +98,18 @@ impl Names {
             self.games.push((StudyGame::from(subject), subject.game.digest(), levels.collect()));
             return Ok(());
         };
+        let differs = |what: String| {
+            let (folder, id) = (folder.display(), &subject.id);
+            EvaluationError::Malformed(format!(
+                "{folder}: its {what} `{id}` differs from that of an earlier folder; report on them separately"
+            ))
+        };
         if *digest != subject.game.digest() {
-            return Err(EvaluationError::Malformed(format!(
-                "{}: its game `{}` differs from that of an earlier folder; report on them separately",
-                folder.display(),
-                subject.id
-            )));
+            return Err(differs("game".to_owned()));
         }
         for (number, digest) in levels {
             if *known.entry(number).or_insert(digest) != digest {
-                return Err(EvaluationError::Malformed(format!(
-                    "{}: its level {number} of `{}` differs from that of an earlier folder; report on them separately",
-                    folder.display(),
-                    subject.id
-                )));
+                return Err(differs(format!("level {number} of")));
             }
         }
         for level in StudyGame::from(subject).levels {

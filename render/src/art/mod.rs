@@ -14,7 +14,6 @@ use crate::glyph::Glyph;
 use crate::look::Look;
 use crate::shape::{Outline, Paint, Point, Shape};
 
-/// The gold of every star.
 const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
 /// The usual width of an outline, in tiles.
 const RIM: f32 = 0.045;

@@ -23,7 +23,6 @@ pub(super) fn bolt(art: &mut Art) {
     art.fill(Outline::rounded(0.34, 0.42, 0.34, 0.07, 0.03), PAPER);
 }
 
-/// The crescent that a blade leaves.
 pub(super) fn blade(art: &mut Art) {
     let main = art.main();
     let crescent = Outline::path("M.24,.04 C1.14,.1,1.14,.9,.24,.96 C.74,.76,.74,.24,.24,.04 Z");

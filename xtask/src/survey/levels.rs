@@ -1,8 +1,8 @@
 //! `cargo xtask survey`: the levels of the constructive generator, game by game.
 
+use super::folders;
 use super::missing::missing;
-use super::{folders, name_of};
-use crate::levels::load;
+use crate::levels::{load, name_of};
 use anyhow::{Context, bail};
 use cpu_time::ThreadTime;
 use engine::{Analysis, Level, Seed};

@@ -1,7 +1,7 @@
 //! `cargo xtask side-by-side`: compares two groups of games by the same criteria, line by line.
 
-use super::{folders, name_of};
-use crate::levels::load;
+use super::folders;
+use crate::levels::{load, name_of};
 use anyhow::Context;
 use engine::{Digest, Level, Seed};
 use forge::survey::{Comparison, GameRow, GameSurvey};

@@ -6,13 +6,11 @@ use std::fmt::Write;
 
 /// The tiles of a game's boards, each stored once in the page.
 pub(super) struct Tiles {
-    /// The prefix of their ids.
     pub(super) prefix: String,
     known: Vec<Tile>,
 }
 
 impl Tiles {
-    /// An empty set of tiles.
     pub(super) fn new(prefix: String) -> Tiles {
         Tiles { prefix, known: Vec::new() }
     }
@@ -34,7 +32,6 @@ impl Tiles {
 /// A tile, and its left and top edge, width and height in pixels.
 type Mark = (usize, [i32; 4]);
 
-/// A sequence of boards.
 pub(super) struct Boards {
     cell: i32,
     last: Vec<Mark>,

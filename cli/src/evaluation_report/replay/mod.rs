@@ -24,38 +24,30 @@ const STILL: u32 = 220;
 /// The number of still boards of an episode, including start and end.
 const STILLS: usize = 4;
 
-/// All replays of a page.
 #[derive(Serialize)]
 pub(super) struct Replays {
     /// The tiles of their boards, SVG.
     symbols: String,
-    /// By player.
     players: Vec<PlayerReplays>,
-    /// A note on the omitted episodes.
     note: String,
 }
 
-/// A player's episodes.
 #[derive(Serialize)]
 struct PlayerReplays {
     name: String,
     episodes: Vec<Replay>,
 }
 
-/// An episode.
 #[derive(Serialize)]
 struct Replay {
     /// Game, level and run.
     title: String,
-    /// The result of the episode.
     result: String,
     /// `true` if it was won.
     won: bool,
-    /// Pixels of the board.
     size: [u32; 2],
     /// The data of the script: tiles, changes from board to board, the text below each.
     data: String,
-    /// A few of the boards.
     stills: Vec<Figure<'static>>,
     /// Every action, with equal ones in a row counted.
     actions: String,
@@ -67,7 +59,6 @@ struct Replay {
     skipped: usize,
 }
 
-/// A decision with texts.
 #[derive(Serialize)]
 struct Decision {
     /// The board that was seen, counted from 0 among those shown.

@@ -19,12 +19,9 @@ pub(super) struct Talk {
     pub(super) answers: Vec<Answer>,
 }
 
-/// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Answer {
-    /// The text.
     pub(super) text: String,
-    /// The reasoning, if it is known.
     pub(super) reasoning: Option<String>,
     /// Its validity, in a word; empty for the requested format.
     pub(super) class: &'static str,

@@ -1,7 +1,11 @@
 //! A builder of SVG text.
 
+use super::{Label, shortened};
 use crate::page::facts::number;
 use std::fmt::Write;
+
+/// The most letters of a row's name.
+const LETTERS: usize = 18;
 
 /// The edge of a text that lies at its position.
 #[derive(Clone, Copy, Debug)]
@@ -40,13 +44,11 @@ impl Canvas {
         self.text.push_str("</g>\n");
     }
 
-    /// A rectangle.
     pub(super) fn rect(&mut self, [x, y, w, h]: [f64; 4]) {
         let [x, y, w, h] = [x, y, w, h].map(number);
         let _ = write!(self.text, "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>");
     }
 
-    /// A disc.
     pub(super) fn dot(&mut self, x: f64, y: f64, radius: f64, class: &str) {
         let [x, y, radius] = [x, y, radius].map(number);
         let _ = write!(self.text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" class=\"{class}\"/>");
@@ -58,7 +60,6 @@ impl Canvas {
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{ways}\"/>");
     }
 
-    /// The area within these points.
     pub(super) fn area(&mut self, points: &[[f64; 2]], class: &str) {
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{}Z\"/>", way(points));
     }
@@ -73,6 +74,15 @@ impl Canvas {
         };
         let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
         let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\"{anchor}{class}>{words}</text>");
+    }
+
+    /// A row's label to the left of a place, in one line there or in two around it, each shortened.
+    pub(super) fn label(&mut self, x: f64, y: f64, Label { name, note }: &Label) {
+        let lift = if note.is_empty() { 0.0 } else { 5.0 };
+        self.text(x, y - lift, Anchor::End, "", &shortened(name, LETTERS));
+        if !note.is_empty() {
+            self.text(x, y + 6.0, Anchor::End, "soft", &shortened(note, LETTERS + 4));
+        }
     }
 
     /// Words that run upwards, with their middle at this place.
@@ -98,7 +108,6 @@ impl Canvas {
         self.close();
     }
 
-    /// Returns the SVG.
     pub(super) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text

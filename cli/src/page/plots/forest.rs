@@ -1,7 +1,7 @@
 //! Forest plots: shares with their intervals, a line each.
 
+use super::Label;
 use super::canvas::{Anchor, Canvas};
-use super::{Label, shortened};
 use crate::page::words;
 
 /// Pixels of the names, of the scale from 0 to 1, and of the figures beside it.
@@ -11,47 +11,30 @@ const RIGHT: f64 = 160.0;
 /// Pixels of a line, and of the scale's marks.
 const LINE: f64 = 28.0;
 const FOOT: f64 = 24.0;
-/// The most letters of a name.
-const LETTERS: usize = 18;
 
-/// The data of a forest plot: shares from 0 to 1.
-pub(crate) struct Forest<'a> {
-    /// Its description.
-    pub(crate) label: &'a str,
-    /// The lines, in drawing order.
-    pub(crate) rows: &'a [ForestRow],
-}
-
-/// A line.
 pub(crate) struct ForestRow {
-    /// The subject of the share.
     pub(crate) label: Label,
     /// The share and its interval; none if there are no cases.
     pub(crate) share: Option<(f64, [f64; 2])>,
-    /// The number of cases.
     pub(crate) of: String,
     /// `true` for a reference to compare with, not a subject.
     pub(crate) reference: bool,
 }
 
-/// Draws the plot, with a line at one half. Cost: O(rows).
-pub(crate) fn forest(plot: &Forest<'_>) -> String {
-    let foot = plot.rows.len() as f64 * LINE + 4.0;
-    let mut canvas = Canvas::new("forest", LEFT + PLANE + RIGHT, foot + FOOT, plot.label);
+/// Draws the rows in order, with a line at one half; `label` describes the plot. Cost: O(rows).
+pub(crate) fn forest(label: &str, rows: &[ForestRow]) -> String {
+    let foot = rows.len() as f64 * LINE + 4.0;
+    let mut canvas = Canvas::new("forest", LEFT + PLANE + RIGHT, foot + FOOT, label);
     let along = |share: f64| LEFT + PLANE * share.clamp(0.0, 1.0);
     for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
         let class = if part == 0.5 { "half" } else { "rule" };
         canvas.lines(&[&[[along(part), 2.0], [along(part), foot]]], class);
         canvas.text(along(part), foot + 16.0, Anchor::Middle, "soft", &words::whole_percent(part));
     }
-    for (at, row) in plot.rows.iter().enumerate() {
+    for (at, row) in rows.iter().enumerate() {
         let (top, middle) = (at as f64 * LINE, at as f64 * LINE + LINE / 2.0 + 1.0);
-        let Label { name, note } = &row.label;
-        let lift = if note.is_empty() { 19.0 } else { 14.0 };
-        canvas.text(LEFT - 8.0, top + lift, Anchor::End, "", &shortened(name, LETTERS));
-        if !note.is_empty() {
-            canvas.text(LEFT - 8.0, top + 25.0, Anchor::End, "soft", &shortened(note, LETTERS + 4));
-        }
+        let name = &row.label.name;
+        canvas.label(LEFT - 8.0, top + 19.0, &row.label);
         let beside = along(1.0) + 12.0;
         match row.share.filter(|(share, [low, high])| [share, low, high].iter().all(|end| end.is_finite())) {
             None => canvas.missing([along(0.0), top + 5.0, PLANE, LINE - 8.0], &format!("{name}: no value")),
@@ -96,7 +79,7 @@ mod tests {
             row("none", None, false),
             row("mark", Some((0.0, [-0.1, 0.43])), true),
         ];
-        let svg = forest(&Forest { label: "win rates", rows: &rows });
+        let svg = forest("win rates", &rows);
         for part in ["60\u{a0}%", "23–120", "class=\"subject\"", "class=\"mark\"", "3/5"] {
             assert!(svg.contains(part), "{part} in {svg}");
         }

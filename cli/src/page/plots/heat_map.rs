@@ -9,14 +9,9 @@ const CELL: [f64; 2] = [38.0, 28.0];
 const TOP: f64 = 36.0;
 /// The gap between two groups of columns.
 const GAP: f64 = 8.0;
-/// The most letters of a row's name.
-const LETTERS: usize = 18;
 
-/// The data of a heat map.
 pub(crate) struct HeatMap<'a> {
-    /// Its description.
     pub(crate) label: &'a str,
-    /// The subject of each row.
     pub(crate) rows: &'a [Label],
     /// The groups of columns, each with the names of its columns: a game with its levels.
     pub(crate) groups: &'a [(String, Vec<String>)],
@@ -36,17 +31,7 @@ pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
     let mut canvas = Canvas::new("heat-map", width, TOP + map.rows.len() as f64 * CELL[1] + 2.0, map.label);
     let top = |row: usize| TOP + row as f64 * CELL[1];
     for (row, label) in map.rows.iter().enumerate() {
-        let lift = if label.note.is_empty() { 18.0 } else { 13.0 };
-        canvas.text(LEFT - 8.0, top(row) + lift, Anchor::End, "", &shortened(&label.name, LETTERS));
-        if !label.note.is_empty() {
-            canvas.text(
-                LEFT - 8.0,
-                top(row) + 24.0,
-                Anchor::End,
-                "soft",
-                &shortened(&label.note, LETTERS + 4),
-            );
-        }
+        canvas.label(LEFT - 8.0, top(row) + 18.0, label);
     }
     let (mut left, mut column) = (LEFT, 0);
     for (group, names) in map.groups {

@@ -8,30 +8,20 @@ const LEFT: f64 = 128.0;
 const CELL: [f64; 2] = [74.0, 46.0];
 const FOOT: f64 = 24.0;
 
-/// The data of a correlation matrix.
-pub(crate) struct Matrix<'a> {
-    /// Its description.
-    pub(crate) label: &'a str,
-    /// The measures.
-    pub(crate) names: &'a [String],
-    /// By row and column below the diagonal: the coefficient, -1 to 1, and the text under it; `None` is missing.
-    pub(crate) cells: &'a [Vec<Option<(f64, String)>>],
-}
-
-/// Draws the part below the diagonal. Cost: O(cells).
-pub(crate) fn matrix(matrix: &Matrix<'_>) -> String {
-    let count = matrix.names.len();
+/// Draws the part of the matrix below the diagonal; `label` describes it. `cells` has, by row and column of the measures
+/// in `names`, the coefficient, -1 to 1, and the text under it; `None` is missing. Cost: O(cells).
+pub(crate) fn matrix(label: &str, names: &[&str], cells: &[Vec<Option<(f64, String)>>]) -> String {
+    let count = names.len();
     let sides = count.saturating_sub(1) as f64;
-    let mut canvas =
-        Canvas::new("matrix", LEFT + sides * CELL[0] + 8.0, sides * CELL[1] + FOOT, matrix.label);
+    let mut canvas = Canvas::new("matrix", LEFT + sides * CELL[0] + 8.0, sides * CELL[1] + FOOT, label);
     for row in 1..count {
         let top = (row - 1) as f64 * CELL[1];
-        canvas.text(LEFT - 8.0, top + CELL[1] / 2.0 + 4.0, Anchor::End, "", &matrix.names[row]);
+        canvas.text(LEFT - 8.0, top + CELL[1] / 2.0 + 4.0, Anchor::End, "", names[row]);
         for column in 0..row {
             let left = LEFT + column as f64 * CELL[0];
             let place = [left + 0.5, top + 0.5, CELL[0] - 1.0, CELL[1] - 1.0];
-            let pair = format!("{} and {}", matrix.names[row], matrix.names[column]);
-            match matrix.cells[row][column].as_ref().filter(|(value, _)| value.is_finite()) {
+            let pair = format!("{} and {}", names[row], names[column]);
+            match cells[row][column].as_ref().filter(|(value, _)| value.is_finite()) {
                 None => canvas.missing(place, &format!("{pair}: no value")),
                 Some((value, note)) => {
                     canvas.open(
@@ -47,7 +37,7 @@ pub(crate) fn matrix(matrix: &Matrix<'_>) -> String {
             }
         }
     }
-    for (column, name) in matrix.names.iter().take(count.saturating_sub(1)).enumerate() {
+    for (column, name) in names.iter().take(count.saturating_sub(1)).enumerate() {
         let middle = LEFT + (column as f64 + 0.5) * CELL[0];
         canvas.text(middle, sides * CELL[1] + 15.0, Anchor::Middle, "", name);
     }
@@ -60,10 +50,10 @@ mod tests {
 
     #[test]
     fn each_pair_is_reported_once() {
-        let names = ["win", "steps", "distance"].map(str::to_owned);
+        let names = ["win", "steps", "distance"];
         let cell = |value: f64| Some((value, "p < 0.001".to_owned()));
         let cells = [vec![], vec![cell(-0.28)], vec![None, cell(f64::NAN)]];
-        let svg = matrix(&Matrix { label: "correlations", names: &names, cells: &cells });
+        let svg = matrix("correlations", &names, &cells);
         assert!(
             svg.contains(">-0.28<") && svg.contains("class=\"d4\"") && svg.contains("p &lt; 0.001"),
             "{svg}"

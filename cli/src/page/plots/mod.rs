@@ -12,16 +12,15 @@ mod matrix;
 mod range;
 mod violin;
 
-pub(crate) use forest::{Forest, ForestRow, forest};
+pub(crate) use forest::{ForestRow, forest};
 pub(crate) use heat_map::{HeatMap, heat_map};
-pub(crate) use matrix::{Matrix, matrix};
+pub(crate) use matrix::matrix;
 pub(crate) use range::range;
-pub(crate) use violin::{Violin, Violins, violins};
+pub(crate) use violin::{Violin, violins};
 
 /// The label of a row of a plot: two lines, the second perhaps empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// Its name.
     pub(crate) name: String,
     /// The note that distinguishes it from others of that name.
     pub(crate) note: String,

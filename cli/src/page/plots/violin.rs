@@ -17,38 +17,25 @@ const POINTS: usize = 48;
 /// The most values that are drawn as dots too.
 const DOTS: usize = 30;
 
-/// The data of a violin plot.
-pub(crate) struct Violins<'a> {
-    /// Its description.
-    pub(crate) label: &'a str,
-    /// The groups, from left to right.
-    pub(crate) groups: &'a [Violin<'a>],
-    /// The values at the bottom and at the top.
-    pub(crate) scale: [f64; 2],
-}
-
-/// A group.
 pub(crate) struct Violin<'a> {
-    /// Its name.
     pub(crate) name: &'a str,
     /// Its values; those that are not finite numbers are left out.
     pub(crate) values: &'a [f64],
 }
 
 /// Draws the violins: densities by Gaussian kernels of Silverman's width (Density Estimation, 1986, equation 3.31),
-/// all of the same maximum width; a box from the lower to the upper quartile, and a line at the median. Cost:
-/// O(values).
-pub(crate) fn violins(plot: &Violins<'_>) -> String {
-    let [low, high] = plot.scale;
-    let width = LEFT + plot.groups.len() as f64 * PLACE + 8.0;
-    let mut canvas = Canvas::new("violins", width, TOP + PLANE + FOOT, plot.label);
+/// all of the same maximum width; a box from the lower to the upper quartile, and a line at the median. `label` describes
+/// the plot, and the scale is from `low` at the bottom to `high` at the top. Cost: O(values).
+pub(crate) fn violins(label: &str, groups: &[Violin<'_>], [low, high]: [f64; 2]) -> String {
+    let width = LEFT + groups.len() as f64 * PLACE + 8.0;
+    let mut canvas = Canvas::new("violins", width, TOP + PLANE + FOOT, label);
     let up = |value: f64| TOP + PLANE * (1.0 - ((value - low) / (high - low)).clamp(0.0, 1.0));
     for part in [0.0, 0.5, 1.0] {
         let value = low + part * (high - low);
         canvas.lines(&[&[[LEFT, up(value)], [width - 8.0, up(value)]]], "rule");
         canvas.text(LEFT - 6.0, up(value) + 4.0, Anchor::End, "soft", &words::short(value));
     }
-    for (at, Violin { name, values }) in plot.groups.iter().enumerate() {
+    for (at, Violin { name, values }) in groups.iter().enumerate() {
         let middle = LEFT + (at as f64 + 0.5) * PLACE;
         let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
@@ -66,7 +53,7 @@ pub(crate) fn violins(plot: &Violins<'_>) -> String {
         canvas.text(middle, foot + 33.0, Anchor::Middle, "soft", &median);
         canvas.text(middle, foot + 48.0, Anchor::Middle, "soft", &count);
         canvas.open(if at == 0 { "first" } else { "second" }, &format!("{name}: {median}, {count}"));
-        canvas.area(&outline(&sorted, plot.scale, middle, up), "body");
+        canvas.area(&outline(&sorted, [low, high], middle, up), "body");
         if sorted.len() <= DOTS {
             sorted.iter().for_each(|&value| canvas.dot(middle, up(value), 2.2, "point"));
         } else {
@@ -117,7 +104,7 @@ mod tests {
 
     fn drawn(won: &[f64], lost: &[f64]) -> String {
         let groups = [Violin { name: "won", values: won }, Violin { name: "not won", values: lost }];
-        violins(&Violins { label: "bump rate", groups: &groups, scale: [0.0, 1.0] })
+        violins("bump rate", &groups, [0.0, 1.0])
     }
 
     #[test]

@@ -16,7 +16,6 @@ pub(super) struct Leftover {
     pub(super) kind: LeftoverKind,
 }
 
-/// The kinds of leftovers.
 pub(super) enum LeftoverKind {
     /// The folder of a release, report or export that was not finished.
     Unfinished(Abandoned),
@@ -26,7 +25,6 @@ pub(super) enum LeftoverKind {
     Shard(String),
     /// An unfinished file; while it is open, no other process considers it abandoned.
     File(#[expect(dead_code, reason = "it holds the lock")] File),
-    /// The scratch folder of a player.
     Scratch,
 }
 

@@ -21,6 +21,7 @@ use evaluation::serve::{PromptPlayer, Prompted};
 use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use human::Human;
 use indicatif::ProgressBar;
+use itertools::Itertools;
 use model::{ModelArgs, Prompters};
 use serde_json::json;
 use std::num::NonZeroUsize;
@@ -85,7 +86,6 @@ pub(crate) struct Args {
     model: ModelArgs,
 }
 
-/// The player as requested.
 enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
@@ -95,7 +95,6 @@ enum RequestedPlayer {
     Model(Box<model::RequestedModel>),
 }
 
-/// The player, connected to play.
 enum ConnectedPlayer {
     Planner(PlannerSpec, Budget),
     Replay(Replay),
@@ -297,7 +296,6 @@ impl ConnectedPlayer {
     }
 }
 
-/// Ends the programs of players.
 fn end_players() {
     #[cfg(unix)]
     evaluation::player::process::end_all();
@@ -371,19 +369,14 @@ fn process(command: &str, timeout: u64) -> Result<Process, String> {
 
 /// Returns `results/` with the player's name.
 fn default_folder(entrant: &Entrant) -> PathBuf {
-    let parts: Vec<&str> = [Some(entrant.name.as_str()), entrant.mode.as_deref()]
-        .into_iter()
-        .flatten()
-        .chain(entrant.aids.iter().map(String::as_str))
-        .collect();
-    PathBuf::from("results").join(file_name(&parts.join("_")))
+    let name = [&entrant.name].into_iter().chain(&entrant.mode).chain(&entrant.aids).join("_");
+    PathBuf::from("results").join(file_name(&name))
 }
 
 fn file_name(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' }).collect()
 }
 
-/// Prints the result.
 fn print_results(
     console: &Console,
     folder: &Path,

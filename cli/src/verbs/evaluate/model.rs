@@ -3,11 +3,13 @@
 use crate::failure::Failure;
 use crate::input::read_text;
 use crate::verbs::evaluate::failure;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
 use evaluation::run::Task;
 use evaluation::{Entrant, Observed, Subject};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
@@ -90,14 +92,14 @@ pub(crate) struct ModelArgs {
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
     /// Earlier turns in prompts: left out or shown
-    #[arg(long, value_enum, default_value = "zero-shot")]
-    mode: ModeName,
+    #[arg(long, value_parser = named::<Mode, 2>(["zero-shot", "contextual"]), default_value = "zero-shot")]
+    mode: Mode,
     /// The composition of prompts
-    #[arg(long, value_enum, default_value = "standard")]
-    prompt_style: StyleName,
+    #[arg(long, value_parser = named::<PromptStyle, 2>(["standard", "reference"]), default_value = "standard")]
+    prompt_style: PromptStyle,
     /// The form of the rules in prompts
-    #[arg(long, value_enum, default_value = "described")]
-    rules: RulesName,
+    #[arg(long, value_parser = named::<Rules, 3>(["described", "vgdl", "none"]), default_value = "described")]
+    rules: Rules,
     /// Aids beyond the default
     #[arg(long, value_enum, value_delimiter = ',', value_name = "AID")]
     with: Vec<Aid>,
@@ -121,23 +123,13 @@ pub(crate) struct PromptArgs {
     history_tokens: u64,
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum ModeName {
-    ZeroShot,
-    Contextual,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum StyleName {
-    Standard,
-    Reference,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum RulesName {
-    Described,
-    Vgdl,
-    None,
+/// Parses one of the names that a setting has in JSON.
+fn named<T, const N: usize>(names: [&'static str; N]) -> impl TypedValueParser<Value = T>
+where
+    T: DeserializeOwned + Clone + Send + Sync + 'static,
+{
+    let value = |name: String| serde_json::from_value(name.into()).expect("the names are those of JSON");
+    PossibleValuesParser::new(names).map(value)
 }
 
 /// An optional part of a prompt.
@@ -166,23 +158,12 @@ enum Aid {
 }
 
 impl PromptArgs {
-    /// Returns the prompt settings of the flags.
     pub(crate) fn settings(&self) -> Result<PromptSettings, Failure> {
         let strategy = self.strategy.as_deref().map(|path| read_text(path, MAX_STRATEGY)).transpose()?;
         let mut settings = PromptSettings {
-            style: match self.prompt_style {
-                StyleName::Standard => PromptStyle::Standard,
-                StyleName::Reference => PromptStyle::Reference,
-            },
-            mode: match self.mode {
-                ModeName::ZeroShot => Mode::ZeroShot,
-                ModeName::Contextual => Mode::Contextual,
-            },
-            rules: match self.rules {
-                RulesName::Described => Rules::Described,
-                RulesName::Vgdl => Rules::Vgdl,
-                RulesName::None => Rules::None,
-            },
+            style: self.prompt_style,
+            mode: self.mode,
+            rules: self.rules,
             masked_names: self.masked_names,
             identity_tracking: self.identity_tracking,
             shuffled_symbols: self.shuffle_symbols,
@@ -276,7 +257,6 @@ impl ModelArgs {
 /// The prompters of the games, by game id.
 pub(crate) type Prompters = BTreeMap<String, Arc<Prompter>>;
 
-/// Makes the prompters of these games.
 pub(crate) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Result<Prompters, Failure> {
     let prompter = |subject: &Subject| {
         let prompter = Prompter::new(subject, settings.clone()).map_err(failure)?;
@@ -293,7 +273,6 @@ pub(crate) struct RequestedModel {
     reasks: u32,
 }
 
-/// A model that is ready to play.
 pub(crate) struct ConnectedModel {
     model: Arc<dyn client::Model>,
     prompters: Prompters,
@@ -316,7 +295,6 @@ pub(crate) struct Forecast {
     /// US dollars; none if the price is unknown.
     cost: Option<f64>,
     cost_if_cached: Option<f64>,
-    /// Tokens that an answer is assumed to have.
     answer_tokens: u64,
     /// The most tokens that an answer can have; none if there is no limit.
     max_answer_tokens: Option<u64>,

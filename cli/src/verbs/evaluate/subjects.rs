@@ -120,7 +120,6 @@ fn is_snapshot(place: &Path) -> bool {
     }
 }
 
-/// The files of a release.
 enum Files<'a> {
     Folder(&'a Path),
     Archive(Box<Archive>),

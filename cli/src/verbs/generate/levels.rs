@@ -2,9 +2,8 @@
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};
-use crate::diagnostics;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput, Named};
+use crate::input::{self, GameInput};
 use crate::protected;
 use crate::set_report::{Pictures, level_report};
 use crate::verbs::release::in_pool;
@@ -141,13 +140,8 @@ fn none(error: &LevelsError) -> serde_json::Value {
     json!({ "levels": [], "reason": error.to_string() })
 }
 
-/// Returns the levels that the game comes with.
 fn examples(input: &GameInput, game: &Game) -> Result<Vec<Level>, Failure> {
-    let check = |named: Named| {
-        let level = game.level(&named.text);
-        level.map_err(|problems| diagnostics::failure(&named, &problems.0))
-    };
-    input.levels()?.into_iter().map(check).collect()
+    input.levels()?.iter().map(|named| named.level(game)).collect()
 }
 
 fn order(args: &Args, examples: &[Level], game: &Game) -> Result<LevelOrder, Failure> {

@@ -5,7 +5,6 @@ use indicatif::ProgressBar;
 use snapshots::mint::{FrozenGame, Progress};
 use std::sync::Mutex;
 
-/// Receives the progress of the jobs.
 pub(crate) struct ProgressBars<'a> {
     bar: ProgressBar,
     console: &'a Console,

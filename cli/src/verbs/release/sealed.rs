@@ -83,7 +83,6 @@ fn entropy() -> std::io::Result<[u8; 64]> {
     Ok(chance)
 }
 
-/// Reads a secret.
 pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(failure)
 }

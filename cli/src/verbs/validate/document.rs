@@ -6,7 +6,7 @@ use engine::{Diagnostic, Digest, Episode, line_and_column};
 use serde::Serialize;
 use validators::{Criteria, Finding, Judgement, Report};
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(super) struct Document<'a> {
     pub(super) game: String,
     pub(super) digest: Option<Digest>,
@@ -26,20 +26,12 @@ impl Document<'_> {
         problems: &[Diagnostic],
         levels: Vec<LevelDocument<'static>>,
     ) -> Document<'static> {
-        Document {
-            game: source.name.clone(),
-            digest: None,
-            passes: false,
-            seed: None,
-            criteria: None,
-            problems: diagnostics::placed(source, problems),
-            levels,
-            judgements: &[],
-        }
+        let problems = diagnostics::placed(source, problems);
+        Document { game: source.name.clone(), problems, levels, ..Document::default() }
     }
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(super) struct LevelDocument<'a> {
     pub(super) level: String,
     pub(super) digest: Option<Digest>,
@@ -57,16 +49,8 @@ pub(super) struct LevelDocument<'a> {
 impl LevelDocument<'_> {
     /// Returns the problems of a level that are certain although its game does not compile.
     pub(super) fn of_malformed_game(level: &Named, problems: &[Diagnostic]) -> LevelDocument<'static> {
-        LevelDocument {
-            level: level.name.clone(),
-            digest: None,
-            passes: false,
-            problems: diagnostics::placed(level, problems),
-            board: Vec::new(),
-            out_of_reach: Vec::new(),
-            report: None,
-            witness: None,
-        }
+        let problems = diagnostics::placed(level, problems);
+        LevelDocument { level: level.name.clone(), problems, ..LevelDocument::default() }
     }
 }
 

@@ -204,7 +204,6 @@ fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     }
 }
 
-/// Writes a board with a legend.
 fn moment(text: &mut String, Board { rows, legend }: &Board) {
     board(text, rows);
     let legend: Vec<String> = legend.iter().map(|(symbol, name)| format!("{symbol} {name}")).collect();
@@ -219,7 +218,6 @@ fn board(text: &mut String, rows: &[String]) {
     }
 }
 
-/// Writes the results of the players of a ladder.
 fn ladder_results(text: &mut String, ladder: &Ladder) {
     let ease = ladder.ease.map_or(String::new(), |ease| format!(" (ease {ease:.2})"));
     let who = match ladder.difficulty {

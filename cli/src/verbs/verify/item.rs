@@ -2,6 +2,7 @@
 
 use super::failure;
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use engine::Digest;
 use serde_json::json;
@@ -22,18 +23,14 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
             "`{}` exists: choose another --write-proof or remove it",
             file.display()
         )),
-        _ => unwritable(error, file),
+        _ => Failure::write(file, error),
     })?;
     open.write_all(&bytes).and_then(|()| open.sync_all()).map_err(|error| {
         // An incomplete proof is useless.
         drop(fs::remove_file(file));
-        unwritable(error, file)
+        Failure::write(file, error)
     })?;
-    Ok(format!("proof of {} written to {}", files(proof.files.len()), file.display()))
-}
-
-fn unwritable(error: std::io::Error, file: &Path) -> Failure {
-    Failure::write(file, error)
+    Ok(format!("proof of {} written to {}", count(proof.files.len(), "file"), file.display()))
 }
 
 /// Checks an item by its proof, against a root from another source.
@@ -42,7 +39,7 @@ pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console:
     let proof = ItemProof::parse(&bytes)
         .map_err(|error| Failure::malformed(format_args!("`{}`: {error}", file.display())))?;
     if place.is_file() && proof.item == id && proof.files.iter().any(|file| file.path != id) {
-        let count = files(proof.files.len());
+        let count = count(proof.files.len(), "file");
         return Err(Failure::malformed(format_args!("`{id}` is a game of {count}: name its folder")));
     }
     let problems = problems(place, id, &proof, root).map_err(failure)?;
@@ -53,7 +50,9 @@ pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console:
         console.say(problem);
     }
     match sound {
-        true => console.say(format_args!("{id}: in the release with root {root}; {}", files(paths.len()))),
+        true => {
+            console.say(format_args!("{id}: in the release with root {root}; {}", count(paths.len(), "file")))
+        }
         false => console.say(format_args!("{}: NOT proved to be `{id}` of that release", place.display())),
     }
     Ok(sound)
@@ -117,8 +116,4 @@ fn malformed(error: ProofError) -> Failure {
         ProofError::Snapshot(error) => failure(error),
         other => Failure::Malformed(other.into()),
     }
-}
-
-fn files(count: usize) -> String {
-    if count == 1 { "1 file".to_owned() } else { format!("{count} files") }
 }

@@ -63,7 +63,6 @@ fn digest(text: &str) -> Result<Digest, String> {
     text.to_ascii_lowercase().parse::<Digest>().map_err(|error| error.to_string())
 }
 
-/// The answer for programs.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]

@@ -76,7 +76,6 @@ struct Counts {
     output_tokens: Option<u64>,
 }
 
-/// Reads the body of a reply.
 pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
     let reply: Reply = parse(body)?;
     let finish = match reply.stop_reason.as_deref() {

@@ -94,7 +94,6 @@ struct Counts {
     thoughts_token_count: Option<u64>,
 }
 
-/// Reads the body of a reply.
 pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
     let reply: Reply = parse(body)?;
     let blocked = reply.prompt_feedback.is_some_and(|feedback| feedback.block_reason.is_some());

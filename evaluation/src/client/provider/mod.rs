@@ -30,7 +30,6 @@ pub enum Provider {
 }
 
 impl Provider {
-    /// Returns the provider for the prefix of an id.
     pub(super) fn from_prefix(prefix: &str) -> Option<Provider> {
         let prefixed = [Provider::OpenAi, Provider::Anthropic, Provider::Gemini];
         prefixed.into_iter().find(|provider| provider.name() == prefix)
@@ -53,7 +52,6 @@ impl Provider {
         self.facts().0
     }
 
-    /// The base URL of its own servers.
     pub(super) fn own_url(self) -> Option<&'static str> {
         self.facts().1
     }
@@ -103,7 +101,6 @@ impl Provider {
         headers
     }
 
-    /// Returns the body of a request.
     pub(super) fn body(self, model: &str, request: &ChatRequest) -> Value {
         match self {
             Provider::OpenAi => openai::body(model, request, openai::Dialect::Own),
@@ -151,7 +148,6 @@ fn text_or_placeholder(text: &str) -> &str {
     if text.trim().is_empty() { PLACEHOLDER } else { text }
 }
 
-/// Encodes a picture as text.
 fn base64(picture: &[u8]) -> String {
     STANDARD.encode(picture)
 }
@@ -161,7 +157,6 @@ fn object(fields: Vec<(&str, Option<Value>)>) -> Value {
     fields.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
-/// Reads a body as a `T`.
 fn parse<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, String> {
     serde_json::from_str(body).map_err(|error| format!("a body that is not a reply: {error}"))
 }

@@ -15,7 +15,6 @@ pub(super) enum Dialect {
     Compatible,
 }
 
-/// Returns the body of a request.
 pub(super) fn body(model: &str, request: &ChatRequest, dialect: Dialect) -> Value {
     let decoding = &request.decoding;
     let limit = match dialect {
@@ -113,7 +112,6 @@ struct OutputDetails {
     reasoning_tokens: Option<u64>,
 }
 
-/// Reads the body of a reply.
 pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
     let completion: Completion = parse(body)?;
     let Some(choice) = completion.choices.into_iter().next() else {

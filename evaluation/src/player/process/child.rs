@@ -64,7 +64,6 @@ pub(super) struct LineProcess {
     ended: bool,
 }
 
-/// The output on standard output.
 #[derive(Debug)]
 enum Output {
     Line(Vec<u8>),
@@ -221,7 +220,6 @@ impl LineProcess {
         self._folder.path()
     }
 
-    /// The process id.
     #[cfg(test)]
     pub(super) fn id(&self) -> u32 {
         self.child.id()

@@ -35,11 +35,9 @@ const ROUNDS: u32 = 1000;
 /// The pause after a round.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// An event that the guard waits for.
 enum Event {
     /// A signal: `SIGCHLD`, or a request to end.
     Signal(i32),
-    /// The input of the program has ended.
     InputEnded,
     /// The time for exiting by itself is over.
     TimeUp,

@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 /// The version of the protocol, raised when an agent for an older version could misread a message.
 pub const PROTOCOL: u32 = 1;
 
-/// A message to the process.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(super) enum Message<'a> {
@@ -16,15 +15,11 @@ pub(super) enum Message<'a> {
     Hello {
         /// [`PROTOCOL`].
         protocol: u32,
-        /// The rules in plain English.
         rules: &'a str,
         /// The meaning of the grid's symbols.
         legend: BTreeMap<char, Vec<&'a str>>,
-        /// All actions.
         actions: &'a [Action],
-        /// Columns of the board.
         columns: usize,
-        /// Rows of the board.
         rows: usize,
         /// The maximum number of decisions.
         step_limit: u64,
@@ -35,18 +30,12 @@ pub(super) enum Message<'a> {
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
-        /// The available actions.
         actions: &'a [Action],
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         past: Option<Past>,
     },
     /// A complaint about an unusable answer; another one is expected.
-    Invalid {
-        /// The number of the turn.
-        turn: u64,
-        /// The problem with the answer.
-        message: String,
-    },
+    Invalid { turn: u64, message: String },
     /// The last message, with the result. No answer is expected.
     End {
         /// The number of decisions made.
@@ -63,30 +52,23 @@ pub(super) enum Message<'a> {
 pub(super) struct Past {
     /// Always `true`: no answer is expected.
     pub(super) past: bool,
-    /// The action played.
     pub(super) action: Action,
 }
 
-/// The observation.
 #[derive(Debug, Serialize)]
 pub(super) struct Seen<'a> {
     /// The board, a string of symbols for each row, from the top.
     grid: Vec<String>,
     /// Everything visible on the board, by name.
     sprites: Vec<Sprites<'a>>,
-    /// The avatar, while it is on the board.
     avatar: Option<Avatar<'a>>,
-    /// Its resources.
     resources: BTreeMap<&'a str, i32>,
-    /// The score.
     score: f64,
     /// The change of the score by the last action.
     reward: f64,
-    /// The number of ticks played.
     tick: u32,
 }
 
-/// The sprites of one name.
 #[derive(Debug, Serialize)]
 struct Sprites<'a> {
     name: &'a str,
@@ -94,13 +76,11 @@ struct Sprites<'a> {
     cells: Vec<(usize, usize)>,
 }
 
-/// The position of the avatar.
 #[derive(Debug, Serialize)]
 struct Avatar<'a> {
     name: &'a str,
     /// Health points; 0 in games without them.
     health: i32,
-    /// Column and row.
     cell: (i32, i32),
     /// `up`, `left`, `down`, `right`; `None` for any other direction.
     facing: Option<&'static str>,

@@ -251,7 +251,6 @@ impl Shown {
     }
 }
 
-/// An answer.
 #[derive(Deserialize)]
 struct Answer {
     action: String,

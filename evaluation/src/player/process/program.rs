@@ -34,7 +34,6 @@ fn is_script(word: &str) -> bool {
     ending.is_some_and(|ending| SCRIPTS.contains(&ending)) && !word.starts_with('-') && !word.contains('=')
 }
 
-/// Checks the file named by a word.
 fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
     let found = match path.metadata() {
         Ok(found) => found,
@@ -61,7 +60,6 @@ fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
     }
 }
 
-/// Searches the folders of `PATH` for a program.
 fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
     let folders: Vec<PathBuf> = std::env::split_paths(path).map(|folder| here.join(folder)).collect();
     let is_program = |path: &PathBuf| {

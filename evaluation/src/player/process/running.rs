@@ -6,7 +6,6 @@ use std::sync::{Mutex, MutexGuard};
 use std::thread;
 use std::time::Duration;
 
-/// The players of this program.
 static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: BTreeMap::new() });
 
 /// The number of polls until all players are gone, and the pause between them: three seconds at most.

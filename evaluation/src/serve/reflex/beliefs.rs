@@ -25,7 +25,6 @@ pub(super) struct Beliefs<'a> {
     pub(super) wins: BTreeSet<&'a str>,
     /// Things whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
-    /// Things that move by themselves.
     pub(super) moves: BTreeSet<&'a str>,
     /// Pairs of a thing and another one whose touch removes it.
     removals: Vec<(&'a str, &'a str)>,
@@ -33,7 +32,6 @@ pub(super) struct Beliefs<'a> {
     pub(super) shot: Option<Shot<'a>>,
 }
 
-/// A resource condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct ResourceCondition<'a> {
     resource: &'a str,
@@ -45,27 +43,22 @@ struct ResourceCondition<'a> {
 /// The product of the use key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Shot<'a> {
-    /// The type.
     pub(super) name: &'a str,
     /// `true` if it appears at the player's position, not ahead.
     pub(super) at_player: bool,
-    /// The resources it costs.
     pub(super) ammo: Vec<&'a str>,
     /// `Some` if it moves by itself; the direction is given if it is always the same.
     pub(super) flight: Option<Option<&'a str>>,
 }
 
-/// A party in a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Party<'a> {
     You,
     It(&'a str),
 }
 
-/// The subject of a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Subject {
-    /// The members of a group.
     Group,
     Win,
     Lose,
@@ -73,7 +66,6 @@ enum Subject {
     Block,
     /// The first is removed by touching the second.
     End,
-    /// Both are removed.
     EndBoth,
     /// The second pushes the first.
     Push,

@@ -62,7 +62,6 @@ struct Reflex<'a> {
 }
 
 impl Reflex<'_> {
-    /// Returns the other names in a cell.
     fn others(&self, cell: usize) -> impl Iterator<Item = &str> {
         self.shown.cells[cell].iter().copied().filter(|name| *name != self.you.name)
     }

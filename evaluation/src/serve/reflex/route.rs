@@ -8,12 +8,9 @@ use std::collections::BinaryHeap;
 pub(super) const DIRECTIONS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 
-/// The size of a board in cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Board {
-    /// The number of columns.
     pub(super) columns: usize,
-    /// The number of rows.
     pub(super) rows: usize,
 }
 
