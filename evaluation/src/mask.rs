@@ -11,7 +11,8 @@ const RESERVED: [&str; 2] = ["wall", "avatar"];
 /// A renaming that hides the names of a game's sprite types.
 #[derive(Clone, Debug)]
 pub(crate) struct Mask {
-    game: Game,
+    /// The renamed game. Its types keep their places in the registry.
+    pub(crate) game: Game,
     names: BTreeMap<String, String>,
 }
 
@@ -40,11 +41,6 @@ impl Mask {
             EvaluationError::Malformed(format!("the names of the game cannot be masked: {problems}"))
         })?;
         Ok(Mask { game, names })
-    }
-
-    /// The renamed game. Its types keep their places in the registry.
-    pub(crate) fn game(&self) -> &Game {
-        &self.game
     }
 
     /// Returns an observation with the names replaced.

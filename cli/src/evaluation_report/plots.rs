@@ -3,7 +3,7 @@
 use crate::page::plots::{ForestRow, HeatMap, Label, Violin, forest, heat_map, matrix, violins};
 use crate::page::words;
 use evaluation::study::{
-    CORRELATED, Correlation, Estimate, FailureMeasure, Matrix, Measure, Player, Scope, Study, Test,
+    CORRELATED, Correlation, FailureMeasure, Matrix, Measure, Player, Scope, Scores, Study, Test,
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -210,8 +210,7 @@ pub(super) fn win_rates(study: &Study) -> Plot {
         .iter()
         .map(|row| {
             let player = &study.players[row.player];
-            let of = format!("{}/{}", row.scores.wins, row.scores.episodes);
-            forest_row(label_of(player), row.scores.win_rate, of, player.is_reference())
+            forest_row(label_of(player), &row.scores, player.is_reference())
         })
         .collect();
     Plot {
@@ -227,15 +226,14 @@ pub(super) fn win_rates_by_game(study: &Study) -> Vec<Group> {
         let player = &study.players[sweep.player];
         let mut games: Vec<_> = sweep.games.iter().filter(|row| row.scores.episodes > 0).collect();
         games.sort_by(|a, b| {
-            let rate = |scores: &evaluation::study::Scores| scores.win_rate.map_or(-1.0, |rate| rate.value);
+            let rate = |scores: &Scores| scores.win_rate.map_or(-1.0, |rate| rate.value);
             rate(&b.scores).total_cmp(&rate(&a.scores))
         });
         let rows: Vec<ForestRow> = games
             .into_iter()
             .map(|row| {
                 let label = Label { name: game(study, row.game), note: String::new() };
-                let of = format!("{}/{}", row.scores.wins, row.scores.episodes);
-                forest_row(label, row.scores.win_rate, of, player.is_reference())
+                forest_row(label, &row.scores, player.is_reference())
             })
             .collect();
         let svg = forest("win rates by game", &rows);
@@ -245,8 +243,9 @@ pub(super) fn win_rates_by_game(study: &Study) -> Vec<Group> {
     study.sweeps.iter().filter(|sweep| !sweep.games.is_empty()).map(group).collect()
 }
 
-fn forest_row(label: Label, rate: Option<Estimate>, of: String, reference: bool) -> ForestRow {
-    let share = rate.map(|rate| (rate.value, [rate.low, rate.high]));
+fn forest_row(label: Label, scores: &Scores, reference: bool) -> ForestRow {
+    let share = scores.win_rate.map(|rate| (rate.value, [rate.low, rate.high]));
+    let of = format!("{}/{}", scores.wins, scores.episodes);
     ForestRow { label, share, of, reference }
 }
 

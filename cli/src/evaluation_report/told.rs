@@ -3,7 +3,7 @@
 use super::Results;
 use crate::page::words;
 use evaluation::Evaluation;
-use evaluation::metrics::EpisodeStatus;
+use evaluation::metrics::{Choices, EpisodeStatus};
 use evaluation::study::Study;
 use report::{Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
@@ -134,17 +134,11 @@ fn common(study: &Study, levels: u64) -> String {
 /// Returns the statistics of the models' answers.
 fn answers(study: &Study) -> Option<String> {
     let models = study.leaderboard.iter().filter(|row| !study.players[row.player].is_reference());
-    let (mut steps, mut invalid, mut refused, mut truncated, mut tolerant) = (0, 0, 0, 0, 0);
-    for row in models {
-        steps += row.choices.total();
-        invalid += row.choices.invalid;
-        refused += row.choices.refused;
-        truncated += row.choices.truncated;
-        tolerant += row.choices.tolerant;
-    }
-    (steps > 0).then(|| {
+    let mut all = Choices::default();
+    models.for_each(|row| all.add(&row.choices));
+    (all.total() > 0).then(|| {
         let [steps, invalid, refused, truncated, tolerant] =
-            [steps, invalid, refused, truncated, tolerant].map(words::grouped);
+            [all.total(), all.invalid, all.refused, all.truncated, all.tolerant].map(words::grouped);
         format!(
             "Of {steps} decisions of models, nothing was done in {invalid} because no answer could be read, in {refused} because the \
              model would not answer, in {truncated} because the answer was cut off; {tolerant} were read from an answer that is not in \

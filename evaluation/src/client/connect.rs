@@ -224,7 +224,7 @@ mod tests {
     fn sent(model: &str, base_url: Option<&str>, named: Option<&str>) -> Option<String> {
         let options = ModelOptions { key_variable: named.map(str::to_owned), ..ModelOptions::new(model) };
         let spec = ModelSpec::parse(model, base_url).unwrap();
-        key(&options, &spec, &all_keys).unwrap().map(|key| key.variable().to_owned())
+        key(&options, &spec, &all_keys).unwrap().map(|key| key.variable)
     }
 
     #[test]

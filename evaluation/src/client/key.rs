@@ -7,7 +7,7 @@ use ureq::http::HeaderValue;
 /// An API key. It has no `Display`, and its `Debug` does not show it.
 #[derive(Clone)]
 pub(super) struct Key {
-    variable: String,
+    pub(super) variable: String,
     secret: String,
 }
 
@@ -41,10 +41,6 @@ impl Key {
             return Err(EvaluationError::Malformed(problem));
         }
         Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
-    }
-
-    pub(super) fn variable(&self) -> &str {
-        &self.variable
     }
 
     /// Returns the value of a header: `prefix` and the key.

@@ -148,7 +148,7 @@ impl Remote {
         let (host, model) = (&self.spec.server.host, &self.spec.model);
         let next = match (status, &self.key) {
             (401 | 403, Some(key)) => {
-                format!("; check that the key in {} is valid for {host}", key.variable())
+                format!("; check that the key in {} is valid for {host}", key.variable)
             }
             (401 | 403, None) => "; if it requires a key, name its variable with --key-variable".to_owned(),
             (404, _) if self.spec.server.own => format!("; check the model name `{model}`"),

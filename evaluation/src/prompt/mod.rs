@@ -120,7 +120,7 @@ impl Prompter {
             return Err(EvaluationError::Malformed(message));
         }
         let mask = if settings.masked_names { Some(Mask::of(&subject.game)?) } else { None };
-        let masked = mask.as_ref().map(|mask| Analysis::of(mask.game()));
+        let masked = mask.as_ref().map(|mask| Analysis::of(&mask.game));
         let analysis = masked.as_ref().unwrap_or(&subject.analysis);
         // The characters of a game can reveal as much as its names.
         let shuffled = settings.shuffled_symbols.or(settings.masked_names.then_some(0));

@@ -209,7 +209,7 @@ impl LineProcess {
             }
         }
         let mut running = running();
-        running.remove(self.child.id());
+        running.players.remove(&self.child.id());
         let _ = kill_process_group(id, Signal::KILL);
         Some(running)
     }
@@ -237,11 +237,11 @@ fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
     #[cfg(unix)]
     {
         let mut running = running();
-        if running.is_over() {
+        if running.is_over {
             return Err(std::io::ErrorKind::Interrupted.into());
         }
         let child = command.spawn()?;
-        running.insert(child.id(), is_guarded);
+        running.players.insert(child.id(), is_guarded);
         Ok(child)
     }
     #[cfg(not(unix))]

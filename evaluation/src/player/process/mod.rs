@@ -147,7 +147,7 @@ impl Process {
         };
         let (status, words) = self.running.take().map_or((None, String::new()), |it| it.process.kill());
         #[cfg(unix)]
-        if running::running().is_over() {
+        if running::running().is_over {
             return Halt::Interrupted;
         }
         #[cfg(unix)]

@@ -14,25 +14,11 @@ const PAUSE: Duration = Duration::from_millis(5);
 
 /// The players by process id, and if they have a guard.
 pub(super) struct Running {
-    is_over: bool,
-    players: BTreeMap<u32, bool>,
-}
-
-impl Running {
-    /// Returns `true` if no further player may start.
-    pub(super) fn is_over(&self) -> bool {
-        self.is_over
-    }
-
-    /// Registers a player that was started while this lock was held.
-    pub(super) fn insert(&mut self, id: u32, is_guarded: bool) {
-        self.players.insert(id, is_guarded);
-    }
-
-    /// Removes a player. Its process id may belong to another process afterwards.
-    pub(super) fn remove(&mut self, id: u32) {
-        self.players.remove(&id);
-    }
+    /// `true` if no further player may start.
+    pub(super) is_over: bool,
+    /// A player is inserted while it is started, and removed before it is reaped: its id may then belong to another
+    /// process.
+    pub(super) players: BTreeMap<u32, bool>,
 }
 
 /// Locks the running players. The lock is held while a player is started or reaped.
