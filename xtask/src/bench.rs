@@ -107,15 +107,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// Measures the ticks per second, after a warm-up.
 fn speed(subject: &Subject, seconds: f64) -> f64 {
-    let mut episode_run = EpisodeRun::new(subject);
-    while episode_run.time.as_secs_f64() < seconds / 5.0 {
-        episode_run.batch(u64::MAX);
-    }
-    let mut episode_run = EpisodeRun::new(subject);
-    while episode_run.time.as_secs_f64() < seconds {
-        episode_run.batch(u64::MAX);
-    }
-    episode_run.ticks as f64 / episode_run.time.as_secs_f64()
+    let [_, speed] = [seconds / 5.0, seconds].map(|seconds| {
+        let mut episode_run = EpisodeRun::new(subject);
+        while episode_run.time.as_secs_f64() < seconds {
+            episode_run.batch(u64::MAX);
+        }
+        episode_run.ticks as f64 / episode_run.time.as_secs_f64()
+    });
+    speed
 }
 
 fn summarise(kind: &str, mut ratios: Vec<f64>) {

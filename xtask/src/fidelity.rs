@@ -142,7 +142,6 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
         })
         .collect();
     let q = statistics::benjamini_hochberg(&p);
-    let mut holds = true;
     let mut faults = Vec::new();
     for ((cell, p), q) in cells.iter().zip(&p).zip(&q) {
         let Cell { game, agent, planner, theirs, ours, .. } = cell;
@@ -184,11 +183,8 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     if apart > MEAN_DIFFERENCE {
         faults.push(format!("win rates differ by {:.1} points on average", 100.0 * apart));
     }
-    for fault in faults {
-        println!("{fault}");
-        holds = false;
-    }
-    holds
+    faults.iter().for_each(|fault| println!("{fault}"));
+    faults.is_empty()
 }
 
 /// A line of the recorded episodes.

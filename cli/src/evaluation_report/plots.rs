@@ -3,7 +3,7 @@
 use crate::page::plots::{ForestRow, HeatMap, Label, Violin, forest, heat_map, matrix, violins};
 use crate::page::words;
 use evaluation::study::{
-    CORRELATED, Correlation, FailureMeasure, Matrix, Measure, Player, Scope, Scores, Study, Test,
+    CORRELATED, Correlation, FailureMeasure, Matrix, Measure, Scope, Scores, Study, Test,
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -199,10 +199,6 @@ fn label(name: &str, reference: bool) -> Label {
     }
 }
 
-fn label_of(player: &Player) -> Label {
-    label(&player.label(), player.is_reference())
-}
-
 /// Plots the win rates of all players over all episodes.
 pub(super) fn win_rates(study: &Study) -> Plot {
     let rows: Vec<ForestRow> = study
@@ -210,7 +206,8 @@ pub(super) fn win_rates(study: &Study) -> Plot {
         .iter()
         .map(|row| {
             let player = &study.players[row.player];
-            forest_row(label_of(player), &row.scores, player.is_reference())
+            let label = label(&player.label(), player.is_reference());
+            forest_row(label, &row.scores, player.is_reference())
         })
         .collect();
     Plot {

@@ -93,7 +93,8 @@ impl View {
             Constraint::Length((legend.len() as u16 + 1).min(area.height / 2)),
             Constraint::Min(0),
         ];
-        let [top, middle, bottom] = Layout::vertical(heights).areas(indented(area));
+        let indented = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
+        let [top, middle, bottom] = Layout::vertical(heights).areas(indented);
         frame.render_widget(Paragraph::new(status), top);
         frame.render_widget(Paragraph::new(legend), middle);
         let rules: Vec<Line<'_>> = self.rules.iter().map(|line| rule(line)).collect();
@@ -151,10 +152,6 @@ fn size(session: &Session) -> (u16, u16) {
     let side = |length: i32| u16::try_from(length).unwrap_or(0);
     let (columns, rows) = session.state().size();
     (side(columns), side(rows))
-}
-
-fn indented(area: Rect) -> Rect {
-    Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area }
 }
 
 /// Styles a line of the rules; headings are bold.

@@ -57,51 +57,45 @@ impl Sweep {
     }
 }
 
-const COLUMNS: [&str; 10] = [
-    "player",
-    "game",
-    "episodes",
-    "win rate",
-    "meaningful",
-    "efficiency",
-    "normalised reward",
-    "overall",
-    "levels",
-    "never won",
-];
-
-fn row(player: &str, game: &str, scores: &Scores, levels: u64, zero_win_levels: u64) -> Vec<TableCell> {
-    vec![
-        TableCell::text(player),
-        TableCell::text(game),
-        TableCell::Count(scores.episodes),
-        Estimate::cell(scores.win_rate, 2),
-        TableCell::number(scores.meaningful, 3),
-        TableCell::number(scores.efficiency, 3),
-        TableCell::number(scores.normalised_reward, 3),
-        TableCell::number(scores.overall, 3),
-        TableCell::Count(levels),
-        TableCell::Count(zero_win_levels),
-    ]
-}
+/// A row of a table: the player, what was played, the scores, the levels, and those never won.
+type Row<'a> = (String, String, &'a Scores, u64, u64);
 
 /// Returns the table of all games and its summary.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / most steps of any episode on the \
                 level, over the levels that were won.";
-    let mut games = Table::new("games", "Game by game", note, &COLUMNS);
-    let mut summary = Table::new("summary", "Results over all games", note, &COLUMNS);
-    for sweep in &study.sweeps {
-        let player = study.players[sweep.player].label();
-        for found in &sweep.games {
-            let game = &study.games[found.game].id;
-            games.push(row(&player, game, &found.scores, found.levels, found.zero_win_levels));
-        }
-        let count = match sweep.games.len() {
+    let table = |id: &str, title: &str, rows: &[Row<'_>]| {
+        Table::of(
+            id,
+            title,
+            note,
+            rows,
+            &[
+                ("player", &|(player, ..)| TableCell::text(player)),
+                ("game", &|(_, game, ..)| TableCell::text(game)),
+                ("episodes", &|(_, _, scores, ..)| TableCell::Count(scores.episodes)),
+                ("win rate", &|(_, _, scores, ..)| Estimate::cell(scores.win_rate, 2)),
+                ("meaningful", &|(_, _, scores, ..)| TableCell::number(scores.meaningful, 3)),
+                ("efficiency", &|(_, _, scores, ..)| TableCell::number(scores.efficiency, 3)),
+                ("normalised reward", &|(_, _, scores, ..)| TableCell::number(scores.normalised_reward, 3)),
+                ("overall", &|(_, _, scores, ..)| TableCell::number(scores.overall, 3)),
+                ("levels", &|(.., levels, _)| TableCell::Count(*levels)),
+                ("never won", &|(.., zero_win_levels)| TableCell::Count(*zero_win_levels)),
+            ],
+        )
+    };
+    let (mut games, mut summary): (Vec<Row<'_>>, Vec<Row<'_>>) = (Vec::new(), Vec::new());
+    for Sweep { player, games: found, total, levels, zero_win_levels } in &study.sweeps {
+        let player = study.players[*player].label();
+        games.extend(found.iter().map(|row| {
+            let game = study.games[row.game].id.clone();
+            (player.clone(), game, &row.scores, row.levels, row.zero_win_levels)
+        }));
+        let count = match found.len() {
             1 => "1 game".to_owned(),
             count => format!("{count} games"),
         };
-        summary.push(row(&player, &count, &sweep.total, sweep.levels, sweep.zero_win_levels));
+        summary.push((player, count, total, *levels, *zero_win_levels));
     }
-    vec![games, summary]
+    vec![table("games", "Game by game", &games), table("summary", "Results over all games", &summary)]
 }

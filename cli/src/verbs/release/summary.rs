@@ -40,7 +40,7 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
     if let Some(board) = example_board(minted, out) {
         let _ = writeln!(text, "\n{board}");
     }
-    for bin in card.planned.iter().filter(|_| !card.planned.is_empty()) {
+    for bin in &card.planned {
         let _ = writeln!(text, "{}: {} (planned {} to {})", bin.name, bin.there, bin.least, bin.most);
     }
     let _ = writeln!(
@@ -58,13 +58,9 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
     let _ = writeln!(text, "\nroot {}\nin   {}", manifest.root, out.display());
     match manifest.commitment {
         None => {
-            let _ =
-                writeln!(text, "check it:       {}", shell::command([OsStr::new("verify"), out.as_os_str()]));
-            let _ = writeln!(
-                text,
-                "mint it again:  {}",
-                shell::command([OsStr::new("regenerate"), out.as_os_str()])
-            );
+            for (what, verb) in [("check it:     ", "verify"), ("mint it again:", "regenerate")] {
+                let _ = writeln!(text, "{what}  {}", shell::command([OsStr::new(verb), out.as_os_str()]));
+            }
         }
         Some(_) => {
             let (public, held) = (out.join("public"), out.join("held"));
