@@ -3,6 +3,7 @@
 use crate::error::EvaluationError;
 use engine::syntax::{SpriteLine, Trivia};
 use engine::{Description, Game, Observation, Seed};
+use itertools::Itertools;
 use std::collections::BTreeMap;
 
 /// Names with a meaning for the engine; they are kept.
@@ -24,13 +25,8 @@ impl Mask {
     /// The game does not compile under other names: it was loaded with faults that only the reference tolerates.
     pub(crate) fn of(game: &Game) -> Result<Mask, EvaluationError> {
         let description = game.description();
-        let mut own: Vec<String> = Vec::new();
-        for (_, line) in description.sprite_lines() {
-            let name = &line.name.text;
-            if !RESERVED.contains(&name.as_str()) && !own.contains(name) {
-                own.push(name.clone());
-            }
-        }
+        let own = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone());
+        let own = own.filter(|name| !RESERVED.contains(&name.as_str())).unique().collect_vec();
         let mut numbers: Vec<usize> = (1..=own.len()).collect();
         Seed::from_text(&game.digest().to_string()).child("masked names", 0).sampler().shuffle(&mut numbers);
         let names: BTreeMap<String, String> =

@@ -112,18 +112,12 @@ impl Contrasts {
     /// Compares models in the same mode with each other, and with players that are not models. Variants of one model are
     /// compared in [`Contrasts::modes`] and [`Contrasts::aids`].
     pub(crate) fn pairs(study: &Study) -> Contrasts {
-        let players = &study.players;
-        let mut pairs = Vec::new();
-        for (b, theirs) in players.iter().enumerate() {
-            for (a, ours) in players[..b].iter().enumerate() {
-                let comparable = ours.mode == theirs.mode || ours.is_reference() || theirs.is_reference();
-                if comparable && ours.name != theirs.name {
-                    pairs.push([a, b]);
-                }
-            }
-        }
-        pairs.sort_unstable();
-        Contrasts::of(study, &pairs)
+        let players = study.players.iter().enumerate();
+        let pairs = players.tuple_combinations().filter(|((_, ours), (_, theirs))| {
+            let comparable = ours.mode == theirs.mode || ours.is_reference() || theirs.is_reference();
+            comparable && ours.name != theirs.name
+        });
+        Contrasts::of(study, &pairs.map(|((a, _), (b, _))| [a, b]).collect_vec())
     }
 
     /// Compares the two modes of the same model: zero-shot first, contextual second.
@@ -142,17 +136,13 @@ impl Contrasts {
 
     /// Compares the same model in the same mode without and with one aid: without it first.
     pub(crate) fn aids(study: &Study) -> Contrasts {
-        let mut pairs = Vec::new();
-        for (a, without) in study.players.iter().enumerate() {
-            for (b, with) in study.players.iter().enumerate() {
-                let same = (&without.name, &without.mode) == (&with.name, &with.mode);
-                let more = with.aids.len() == without.aids.len() + 1;
-                if same && more && without.aids.iter().all(|aid| with.aids.contains(aid)) {
-                    pairs.push([a, b]);
-                }
-            }
-        }
-        Contrasts::of(study, &pairs)
+        let players = study.players.iter().enumerate();
+        let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
+            let same = (&without.name, &without.mode) == (&with.name, &with.mode);
+            let more = with.aids.len() == without.aids.len() + 1;
+            same && more && without.aids.iter().all(|aid| with.aids.contains(aid))
+        });
+        Contrasts::of(study, &pairs.map(|((a, _), (b, _))| [a, b]).collect_vec())
     }
 
     /// Returns `true` if there are no comparisons.

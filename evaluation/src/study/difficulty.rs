@@ -92,12 +92,9 @@ impl DifficultyRow {
 /// Returns all games, each followed by its levels.
 pub(crate) fn difficulties(study: &Study) -> Vec<DifficultyRow> {
     let of_game = |(game, facts): (usize, &super::StudyGame)| {
-        let levels = facts.levels.iter().map(|level| Some(level.number)).collect::<Vec<Option<usize>>>();
-        [None]
-            .into_iter()
-            .chain(levels)
-            .map(move |level| DifficultyRow::of(study, game, level))
-            .collect::<Vec<_>>()
+        let levels = facts.levels.iter().map(|level| Some(level.number));
+        let rows = [None].into_iter().chain(levels).map(|level| DifficultyRow::of(study, game, level));
+        rows.collect::<Vec<_>>()
     };
     study.games.iter().enumerate().flat_map(of_game).collect()
 }

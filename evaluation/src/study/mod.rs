@@ -42,6 +42,7 @@ pub use times::TimeRow;
 use crate::metrics::EpisodeMetrics;
 use crate::subject::Subject;
 use engine::Seed;
+use itertools::Itertools;
 use report::Table;
 use serde::Serialize;
 
@@ -179,14 +180,12 @@ impl Study {
     }
 
     fn note(&mut self) {
-        let mut limits: Vec<u64> = self.episodes.iter().map(|episode| episode.metrics.max_steps).collect();
-        limits.sort_unstable();
-        limits.dedup();
+        let limits = self.episodes.iter().map(|episode| episode.metrics.max_steps);
+        let limits = limits.sorted_unstable().dedup().collect_vec();
         if limits.len() > 1 {
-            let limits: Vec<String> = limits.iter().map(u64::to_string).collect();
             self.notes.push(format!(
                 "Players had different step limits ({}): steps, wins and derived values are not comparable.",
-                limits.join(", ")
+                limits.iter().join(", ")
             ));
         }
         let broken = self.episodes.iter().filter(|episode| !episode.metrics.counts()).count();

@@ -21,14 +21,8 @@ pub struct TaxonomyRow {
 
 /// Returns a row for each kind and player, with kinds in the order of their first game. A game has several kinds.
 pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
-    let mut kinds: Vec<&String> = Vec::new();
-    for kind in study.games.iter().flat_map(|game| &game.taxonomy) {
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
-    }
     let mut rows = Vec::new();
-    for kind in kinds {
+    for kind in study.games.iter().flat_map(|game| &game.taxonomy).unique() {
         for player in 0..study.players.len() {
             let of_kind = |game: usize| study.games[game].taxonomy.contains(kind);
             let episodes = || study.on(player, None, None).iter().filter(|episode| of_kind(episode.game));
