@@ -123,13 +123,13 @@ fn network_moves_equal_direct_calls() {
             connect(&ModelOptions { base_url, ..ModelOptions::new(&format!("openai:{name}")) }).unwrap();
         let settings = PromptSettings { mode, ..PromptSettings::default() };
         let mut played = 0;
-        for subject in corpus().iter().take(10) {
+        for subject in corpus().iter().take(4) {
             let direct = episode(subject, &settings, |messages| through(&player, messages));
             let remotely = episode(subject, &settings, |messages| through(&*remote.model, messages));
             assert_eq!(remotely, direct, "{name} on {}", subject.id);
             played += direct.0.len();
         }
-        assert!(played > 200, "{name} played {played} moves only");
+        assert!(played > 80, "{name} played {played} moves only");
     }
 }
 

@@ -36,14 +36,14 @@ fn draw(name: &str, game: &Game, level: &Level) {
 fn hostile_games_can_be_drawn() {
     let mut drawn = 0;
     for case in Case::all() {
-        for load in [Game::from_source, Game::from_source_as_reference] {
-            let Ok(game) = load(&case.source) else { continue };
-            let Some(Ok(level)) = case.level.as_ref().map(|text| game.level(text)) else { continue };
-            draw(&case.name, &game, &level);
-            drawn += 1;
-        }
+        // A picture does not depend on the policy that loaded the game.
+        let game = Game::from_source(&case.source).or_else(|_| Game::from_source_as_reference(&case.source));
+        let Ok(game) = game else { continue };
+        let Some(Ok(level)) = case.level.as_ref().map(|text| game.level(text)) else { continue };
+        draw(&case.name, &game, &level);
+        drawn += 1;
     }
-    assert!(drawn > 50, "{drawn}");
+    assert!(drawn > 40, "{drawn}");
 }
 
 #[test]
