@@ -22,5 +22,5 @@ pub fn seed(purpose: &str) -> Seed {
 }
 
 fn fresh() -> Option<String> {
-    std::env::var(VARIABLE).ok()
+    std::env::var_os(VARIABLE)?.into_string().ok()
 }
