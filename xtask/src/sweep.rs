@@ -20,6 +20,10 @@ pub(crate) struct Args {
 /// The environment variable that the tests read, as `tests::sweep::VARIABLE`.
 const VARIABLE: &str = "ARCADE_SWEEP";
 
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the seed of a sweep is the time; it is printed, and given back by --seed"
+)]
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()).to_string();
     let seed = args.seed.clone().unwrap_or_else(now);
