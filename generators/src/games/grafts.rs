@@ -37,7 +37,7 @@ pub(crate) struct Graft {
     clause: (&'static str, &'static [usize]),
 }
 
-/// What most grafts have in common.
+/// The common part of most grafts.
 const GRAFT: Graft = Graft {
     name: "",
     weight: 3,
