@@ -1,12 +1,13 @@
 //! The glyphs of tiles: one for each kind of thing that a player must tell apart.
 
+use crate::art::{Art, creatures, ground, passages, shots, things};
 use crate::colour::{self, Colour};
 use engine::analysis::{Harm, Key, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType};
 
-/// Declares the glyphs in one place: variant, form, meaning, colour, letters of a terminal.
+/// Declares the glyphs in one place: variant, form, meaning, colour, letters of a terminal, drawing.
 macro_rules! glyphs {
-    ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal;)*) => {
+    ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal, $draw:path;)*) => {
         /// The glyph of a tile.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Glyph { $(#[doc = $meaning] $name),* }
@@ -38,51 +39,56 @@ macro_rules! glyphs {
             pub fn ascii(self) -> &'static str {
                 match self { $(Glyph::$name => $ascii),* }
             }
+
+            /// Adds its shapes to a tile.
+            pub(crate) fn draw(self, art: &mut Art) {
+                match self { $(Glyph::$name => $draw(art)),* }
+            }
         }
     };
 }
 
 glyphs! {
-    Avatar, "a figure in a bright ring", "you", BLUE, "@ ", "@ ";
-    Craft, "a ship in a bright ring", "you, steering by thrust", BLUE, "▲ ", "@^";
-    Fallen, "a grave cross", "you, dead", STONE, "† ", "+ ";
-    Exit, "a door with a star", "the way to win", GREEN, "★ ", "X ";
-    Treasure, "a star", "take it to win", YELLOW, "☆ ", "* ";
-    Prey, "a startled creature with a star", "catch or hit it to win", YELLOW, "◎ ", "& ";
-    Target, "rings with a star", "must go for the win", YELLOW, "⊛ ", "()";
-    Peril, "spiked rings with a star", "harms, and must go for the win", VERMILION, "✶ ", "(^";
-    Socket, "a sunken square with a star", "push things here", SKY, "□ ", "_ ";
-    Ward, "a shield with a heart", "keep it safe", SKY, "♥ ", "V ";
-    Enemy, "a spiky creature with angry eyes", "moves and harms", VERMILION, "Ж ", "M ";
-    Charger, "an angry head with a pointed snout", "runs ahead, harms", VERMILION, "Ж ", "M>";
-    HostileShot, "a barbed arrow", "a shot that harms", VERMILION, "↯ ", "! ";
-    Hazard, "a row of spikes", "harms where it stands", VERMILION, "▲▲", "^^";
-    Mire, "waves", "harms at times", SKY, "≈≈", "~~";
-    Nest, "a cave with eyes", "makes what harms", PURPLE, "◙ ", "% ";
-    Maker, "a hatch with a plus", "makes other things", PURPLE, "⊞ ", "%+";
-    Boulder, "a rock", "falls, blocks, may crush", STONE, "● ", "O ";
-    Crate, "a crossed crate", "can be pushed", WOOD, "▣ ", "[]";
-    Key, "a key", "opens something", YELLOW, "¬ ", "k ";
-    Switch, "a button", "touch it to open", ORANGE, "⊙ ", "o ";
-    Token, "a coin", "a resource to hold", YELLOW, "○ ", "$ ";
-    Gem, "a gem", "can be taken", ORANGE, "◆ ", "' ";
-    Gate, "bars with a lock", "shut until unlocked", WOOD, "╫╫", "##";
-    Portal, "a swirl", "takes you elsewhere", PURPLE, "@@", "@@";
-    PortalExit, "an empty ring with an arrow", "where a portal leads", PURPLE, "◌ ", "<>";
-    Blade, "a slash", "what you strike with", SKY, "⁄ ", "/ ";
-    Bolt, "a dart", "what you shoot", SKY, "• ", ". ";
-    Bomb, "a round bomb", "what you lay", SLATE, "♠ ", "b ";
-    Friend, "a round creature that smiles", "moves and does no harm", GREEN, "☻ ", "f ";
-    Raft, "planks", "moves along, does no harm", WOOD, "≡≡", "==";
-    Wall, "bricks", "blocks the way for good", SLATE, "██", "##";
-    Breakable, "cracked bricks", "blocks until broken", STONE, "▓▓", "%%";
-    Soil, "speckled ground", "dug away by walking", EARTH, "░░", "::";
-    Cover, "sandbags", "stops shots", STONE, "▒▒", "HH";
-    Refuge, "a bush", "stops enemies, not you", GREEN, "♣♣", "\"\"";
-    Conveyor, "chevrons", "carries what stands on it", STONE, "»»", ">>";
-    Spring, "a tile with a plus", "gives while you are on it", SKY, "++", "++";
-    Floor, "a plain tile", "nothing happens on it", GRID, "  ", "  ";
-    Neutral, "a pebble", "none of these", STONE, "▪ ", ", ";
+    Avatar, "a figure in a bright ring", "you", BLUE, "@ ", "@ ", creatures::avatar;
+    Craft, "a ship in a bright ring", "you, steering by thrust", BLUE, "▲ ", "@^", creatures::craft;
+    Fallen, "a grave cross", "you, dead", STONE, "† ", "+ ", creatures::fallen;
+    Exit, "a door with a star", "the way to win", GREEN, "★ ", "X ", passages::exit;
+    Treasure, "a star", "take it to win", YELLOW, "☆ ", "* ", things::treasure;
+    Prey, "a startled creature with a star", "catch or hit it to win", YELLOW, "◎ ", "& ", creatures::prey;
+    Target, "rings with a star", "must go for the win", YELLOW, "⊛ ", "()", things::target;
+    Peril, "spiked rings with a star", "harms, and must go for the win", VERMILION, "✶ ", "(^", things::peril;
+    Socket, "a sunken square with a star", "push things here", SKY, "□ ", "_ ", passages::socket;
+    Ward, "a shield with a heart", "keep it safe", SKY, "♥ ", "V ", things::ward;
+    Enemy, "a spiky creature with angry eyes", "moves and harms", VERMILION, "Ж ", "M ", creatures::enemy;
+    Charger, "an angry head with a pointed snout", "runs ahead, harms", VERMILION, "Ж ", "M>", creatures::charger;
+    HostileShot, "a barbed arrow", "a shot that harms", VERMILION, "↯ ", "! ", shots::hostile;
+    Hazard, "a row of spikes", "harms where it stands", VERMILION, "▲▲", "^^", ground::hazard;
+    Mire, "waves", "harms at times", SKY, "≈≈", "~~", ground::mire;
+    Nest, "a cave with eyes", "makes what harms", PURPLE, "◙ ", "% ", passages::nest;
+    Maker, "a hatch with a plus", "makes other things", PURPLE, "⊞ ", "%+", passages::maker;
+    Boulder, "a rock", "falls, blocks, may crush", STONE, "● ", "O ", things::boulder;
+    Crate, "a crossed crate", "can be pushed", WOOD, "▣ ", "[]", things::crossed_crate;
+    Key, "a key", "opens something", YELLOW, "¬ ", "k ", things::key;
+    Switch, "a button", "touch it to open", ORANGE, "⊙ ", "o ", things::switch;
+    Token, "a coin", "a resource to hold", YELLOW, "○ ", "$ ", things::token;
+    Gem, "a gem", "can be taken", ORANGE, "◆ ", "' ", things::gem;
+    Gate, "bars with a lock", "shut until unlocked", WOOD, "╫╫", "##", passages::gate;
+    Portal, "a swirl", "takes you elsewhere", PURPLE, "@@", "@@", passages::portal;
+    PortalExit, "an empty ring with an arrow", "where a portal leads", PURPLE, "◌ ", "<>", passages::portal_exit;
+    Blade, "a slash", "what you strike with", SKY, "⁄ ", "/ ", shots::blade;
+    Bolt, "a dart", "what you shoot", SKY, "• ", ". ", shots::bolt;
+    Bomb, "a round bomb", "what you lay", SLATE, "♠ ", "b ", shots::bomb;
+    Friend, "a round creature that smiles", "moves and does no harm", GREEN, "☻ ", "f ", creatures::friend;
+    Raft, "planks", "moves along, does no harm", WOOD, "≡≡", "==", things::raft;
+    Wall, "bricks", "blocks the way for good", SLATE, "██", "##", ground::bricks;
+    Breakable, "cracked bricks", "blocks until broken", STONE, "▓▓", "%%", ground::breakable;
+    Soil, "speckled ground", "dug away by walking", EARTH, "░░", "::", ground::soil;
+    Cover, "sandbags", "stops shots", STONE, "▒▒", "HH", ground::cover;
+    Refuge, "a bush", "stops enemies, not you", GREEN, "♣♣", "\"\"", ground::refuge;
+    Conveyor, "chevrons", "carries what stands on it", STONE, "»»", ">>", ground::conveyor;
+    Spring, "a tile with a plus", "gives while you are on it", SKY, "++", "++", ground::spring;
+    Floor, "a plain tile", "nothing happens on it", GRID, "  ", "  ", ground::floor;
+    Neutral, "a pebble", "none of these", STONE, "▪ ", ", ", things::neutral;
 }
 
 impl Glyph {

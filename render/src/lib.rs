@@ -63,6 +63,6 @@ pub use pixels::{Image, Painter};
 pub use png::png;
 pub use shape::{Outline, Paint, Point, Segment, Shape};
 pub use sheet::{gallery, sheet};
-pub use svg::{svg, svg_tile};
+pub use svg::{escaped, svg, svg_tile};
 pub use symbols::{EMPTY, Symbols};
 pub use text::{rows, text};

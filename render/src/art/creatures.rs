@@ -2,7 +2,7 @@
 
 use super::{Art, RIM};
 use crate::colour::{Colour, INK, PAPER};
-use crate::shape::{Outline, Point};
+use crate::shape::Outline;
 
 /// The ring around the avatar: no other tile has it.
 const RING: Colour = Colour([0x1f, 0xb8, 0xff]);
@@ -14,9 +14,9 @@ fn ring(art: &mut Art) {
 }
 
 /// A figure with a head, seen from the front; a pointer on the ring shows its facing.
-pub(super) fn avatar(art: &mut Art, facing: Option<Point>) {
+pub(crate) fn avatar(art: &mut Art) {
     ring(art);
-    if let Some(direction) = facing {
+    if let Some(direction) = art.facing {
         let pointer = Outline::polygon(&[[0.99, 0.5], [0.84, 0.36], [0.84, 0.64]]);
         art.solid(pointer.turned(direction), RING);
     }
@@ -35,22 +35,19 @@ pub(super) fn avatar(art: &mut Art, facing: Option<Point>) {
 }
 
 /// A pointed hull that shows its heading; upwards if it has none.
-pub(super) fn craft(art: &mut Art, facing: Option<Point>) {
+pub(crate) fn craft(art: &mut Art) {
     ring(art);
     let first = art.shapes.len();
     art.solid(Outline::polygon(&[[0.3, 0.4], [0.08, 0.5], [0.3, 0.6]]), Colour([0xff, 0xb0, 0x2e]));
     art.solid(Outline::polygon(&[[0.93, 0.5], [0.22, 0.2], [0.34, 0.5], [0.22, 0.8]]), art.main());
     art.solid(Outline::ellipse(0.55, 0.5, 0.12, 0.08), PAPER);
-    if facing.is_none() {
-        for shape in &mut art.shapes[first..] {
-            let outline = std::mem::take(&mut shape.outline);
-            shape.outline = outline.turned([0.0, -1.0]);
-        }
+    if art.facing.is_none() {
+        art.turn(first, [0.0, -1.0]);
     }
 }
 
 /// The mark of the place where the player died.
-pub(super) fn fallen(art: &mut Art) {
+pub(crate) fn fallen(art: &mut Art) {
     ring(art);
     art.solid(Outline::rounded(0.43, 0.18, 0.14, 0.66, 0.03), art.main());
     art.solid(Outline::rounded(0.26, 0.32, 0.48, 0.14, 0.03), art.main());
@@ -58,7 +55,7 @@ pub(super) fn fallen(art: &mut Art) {
 }
 
 /// Four bodies, all with points, angry eyes and teeth.
-pub(super) fn enemy(art: &mut Art) {
+pub(crate) fn enemy(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
         0 => {
@@ -116,7 +113,7 @@ fn teeth(art: &mut Art, x: f32, y: f32, width: f32) {
 }
 
 /// Seen from above, so that it can point anywhere: a snout ahead, eyes beside it, points at the sides.
-pub(super) fn charger(art: &mut Art) {
+pub(crate) fn charger(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
         0 => art.solid(
@@ -159,7 +156,7 @@ pub(super) fn charger(art: &mut Art) {
 }
 
 /// Wide eyes, an open mouth, and the star of winning.
-pub(super) fn prey(art: &mut Art) {
+pub(crate) fn prey(art: &mut Art) {
     let main = art.main();
     for ear in [[[0.16, 0.46], [0.14, 0.14], [0.4, 0.3]], [[0.84, 0.46], [0.86, 0.14], [0.6, 0.3]]] {
         art.solid(Outline::polygon(&ear), main);
@@ -171,7 +168,7 @@ pub(super) fn prey(art: &mut Art) {
 }
 
 /// A smile and no points anywhere.
-pub(super) fn friend(art: &mut Art) {
+pub(crate) fn friend(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
         0 => {

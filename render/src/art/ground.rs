@@ -4,7 +4,7 @@ use super::Art;
 use crate::colour::{Colour, GROUND, INK, PAPER};
 use crate::shape::{Outline, Segment};
 
-pub(super) fn bricks(art: &mut Art) {
+pub(crate) fn bricks(art: &mut Art) {
     let (main, joint) = (art.main(), art.main().shade());
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), joint);
     let courses: [&[(f32, f32)]; 3] = [
@@ -21,7 +21,7 @@ pub(super) fn bricks(art: &mut Art) {
     }
 }
 
-pub(super) fn breakable(art: &mut Art) {
+pub(crate) fn breakable(art: &mut Art) {
     bricks(art);
     let crack = [[0.3, 0.0], [0.44, 0.2], [0.34, 0.4], [0.58, 0.56], [0.46, 0.78], [0.62, 1.0]];
     art.stroke(Outline::line(&crack), INK, 0.07);
@@ -29,7 +29,7 @@ pub(super) fn breakable(art: &mut Art) {
     art.stroke(Outline::line(&[[0.58, 0.56], [0.86, 0.46]]), INK, 0.06);
 }
 
-pub(super) fn soil(art: &mut Art) {
+pub(crate) fn soil(art: &mut Art) {
     let (main, speck) = (art.main(), art.main().shade());
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), main);
     let specks = [
@@ -47,7 +47,7 @@ pub(super) fn soil(art: &mut Art) {
     }
 }
 
-pub(super) fn mire(art: &mut Art) {
+pub(crate) fn mire(art: &mut Art) {
     let main = art.main();
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), main.mixed(PAPER, 20));
     for y in [0.22, 0.52, 0.82] {
@@ -60,7 +60,7 @@ pub(super) fn mire(art: &mut Art) {
     }
 }
 
-pub(super) fn hazard(art: &mut Art) {
+pub(crate) fn hazard(art: &mut Art) {
     let main = art.main();
     for (x, base, height) in [(0.26, 0.58, 0.5), (0.74, 0.58, 0.5)] {
         spike(art, x, base, height, main.shade());
@@ -80,7 +80,7 @@ fn spike(art: &mut Art, x: f32, base: f32, height: f32, colour: Colour) {
 }
 
 /// Bags in three courses.
-pub(super) fn cover(art: &mut Art) {
+pub(crate) fn cover(art: &mut Art) {
     let (main, light) = (art.main().mixed(INK, 12), art.main().mixed(PAPER, 35));
     let courses: [&[(f32, f32)]; 3] = [
         &[(0.03, 0.45), (0.52, 0.45)],
@@ -96,7 +96,7 @@ pub(super) fn cover(art: &mut Art) {
     }
 }
 
-pub(super) fn refuge(art: &mut Art) {
+pub(crate) fn refuge(art: &mut Art) {
     let main = art.main();
     for (x, y, r) in [(0.27, 0.36, 0.2), (0.7, 0.33, 0.22), (0.25, 0.68, 0.22), (0.73, 0.7, 0.21)] {
         art.solid(Outline::circle(x, y, r), main);
@@ -107,7 +107,7 @@ pub(super) fn refuge(art: &mut Art) {
     }
 }
 
-pub(super) fn conveyor(art: &mut Art) {
+pub(crate) fn conveyor(art: &mut Art) {
     let (main, light) = (art.main(), art.main().light());
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), light);
     art.fill(Outline::rect(0.0, 0.0, 1.0, 0.1), main.shade());
@@ -117,13 +117,13 @@ pub(super) fn conveyor(art: &mut Art) {
     }
 }
 
-pub(super) fn floor(art: &mut Art) {
+pub(crate) fn floor(art: &mut Art) {
     let pale = art.main().mixed(GROUND, 70);
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), pale.mixed(INK, 10));
     art.fill(Outline::rect(0.02, 0.02, 0.96, 0.96), pale);
 }
 
-pub(super) fn spring(art: &mut Art) {
+pub(crate) fn spring(art: &mut Art) {
     let pale = art.main().mixed(GROUND, 40);
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), pale.mixed(INK, 20));
     art.fill(Outline::rect(0.02, 0.02, 0.96, 0.96), pale);

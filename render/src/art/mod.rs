@@ -3,14 +3,13 @@
 //! Harmful things have points, teeth or angry eyes; winning things have a star; permanent obstacles fill their cells;
 //! the avatar stands in a bright ring. Colour is only a secondary cue.
 
-mod creatures;
-mod ground;
-mod passages;
-mod shots;
-mod things;
+pub(crate) mod creatures;
+pub(crate) mod ground;
+pub(crate) mod passages;
+pub(crate) mod shots;
+pub(crate) mod things;
 
 use crate::colour::{Colour, INK, PAPER};
-use crate::glyph::Glyph;
 use crate::look::Look;
 use crate::shape::{Outline, Paint, Point, Shape};
 
@@ -20,60 +19,20 @@ const RIM: f32 = 0.045;
 
 /// Returns the tile of a look whose front points along `facing`, of unit length; looks without a front ignore it.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
-    use Glyph as G;
-    let mut art = Art { look, shapes: Vec::new() };
-    match look.glyph {
-        G::Avatar => creatures::avatar(&mut art, facing),
-        G::Craft => creatures::craft(&mut art, facing),
-        G::Fallen => creatures::fallen(&mut art),
-        G::Enemy => creatures::enemy(&mut art),
-        G::Charger => creatures::charger(&mut art),
-        G::Prey => creatures::prey(&mut art),
-        G::Friend => creatures::friend(&mut art),
-        G::Exit => passages::exit(&mut art),
-        G::Gate => passages::gate(&mut art),
-        G::Portal => passages::portal(&mut art),
-        G::PortalExit => passages::portal_exit(&mut art),
-        G::Nest => passages::nest(&mut art),
-        G::Maker => passages::maker(&mut art),
-        G::Socket => passages::socket(&mut art),
-        G::Treasure => things::treasure(&mut art),
-        G::Target => things::target(&mut art),
-        G::Peril => things::peril(&mut art),
-        G::Raft => things::raft(&mut art),
-        G::Ward => things::ward(&mut art),
-        G::Boulder => things::boulder(&mut art),
-        G::Crate => things::crossed_crate(&mut art),
-        G::Key => things::key(&mut art),
-        G::Switch => things::switch(&mut art),
-        G::Token => things::token(&mut art),
-        G::Gem => things::gem(&mut art),
-        G::Neutral => things::neutral(&mut art),
-        G::HostileShot => shots::hostile(&mut art),
-        G::Blade => shots::blade(&mut art),
-        G::Bolt => shots::bolt(&mut art),
-        G::Bomb => shots::bomb(&mut art),
-        G::Hazard => ground::hazard(&mut art),
-        G::Mire => ground::mire(&mut art),
-        G::Wall => ground::bricks(&mut art),
-        G::Breakable => ground::breakable(&mut art),
-        G::Soil => ground::soil(&mut art),
-        G::Cover => ground::cover(&mut art),
-        G::Refuge => ground::refuge(&mut art),
-        G::Conveyor => ground::conveyor(&mut art),
-        G::Spring => ground::spring(&mut art),
-        G::Floor => ground::floor(&mut art),
-    }
+    let mut art = Art { look, facing, shapes: Vec::new() };
+    look.glyph.draw(&mut art);
     if let (true, Some(direction)) = (look.glyph.turns(), facing) {
-        art.turn(direction);
+        art.turn(0, direction);
     }
     art.pips();
     art.shapes
 }
 
 /// A tile under construction.
-struct Art {
+pub(crate) struct Art {
     look: Look,
+    /// The direction of its front, of unit length.
+    facing: Option<Point>,
     shapes: Vec<Shape>,
 }
 
@@ -128,8 +87,9 @@ impl Art {
         }
     }
 
-    fn turn(&mut self, direction: Point) {
-        for shape in &mut self.shapes {
+    /// Turns the shapes from this one on.
+    fn turn(&mut self, first: usize, direction: Point) {
+        for shape in &mut self.shapes[first..] {
             let outline = std::mem::take(&mut shape.outline);
             shape.outline = outline.turned(direction);
         }

@@ -5,7 +5,7 @@ use crate::colour::{INK, PAPER};
 use crate::shape::{Outline, Segment};
 
 /// An arched leaf in a frame, with the star of winning.
-pub(super) fn exit(art: &mut Art) {
+pub(crate) fn exit(art: &mut Art) {
     let main = art.main();
     art.solid(arch(0.1, 0.03, 0.8), main.shade());
     art.solid(arch(0.2, 0.14, 0.6), main);
@@ -25,7 +25,7 @@ fn arch(x: f32, y: f32, width: f32) -> Outline {
     ])
 }
 
-pub(super) fn gate(art: &mut Art) {
+pub(crate) fn gate(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.04, 0.04, 0.92, 0.92, 0.06), main.shade());
     for x in [0.12, 0.33, 0.54, 0.75] {
@@ -37,7 +37,7 @@ pub(super) fn gate(art: &mut Art) {
 }
 
 /// A spiral of three turns.
-pub(super) fn portal(art: &mut Art) {
+pub(crate) fn portal(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::circle(0.5, 0.5, 0.46), main.shade());
     let point = |at: u8| {
@@ -48,7 +48,7 @@ pub(super) fn portal(art: &mut Art) {
     art.stroke(Outline::line(&(0..52).map(point).collect::<Vec<_>>()), main.light(), 0.085);
 }
 
-pub(super) fn portal_exit(art: &mut Art) {
+pub(crate) fn portal_exit(art: &mut Art) {
     let main = art.main();
     art.stroke(Outline::circle(0.5, 0.5, 0.4), INK, 0.16);
     art.stroke(Outline::circle(0.5, 0.5, 0.4), main, 0.08);
@@ -57,7 +57,7 @@ pub(super) fn portal_exit(art: &mut Art) {
 }
 
 /// A dark mouth in a mound, with eyes in it.
-pub(super) fn nest(art: &mut Art) {
+pub(crate) fn nest(art: &mut Art) {
     let main = art.main();
     let mound = Outline::path("M.03,.95 C.06,.2,.3,.05,.5,.05 C.7,.05,.94,.2,.97,.95 Z");
     art.solid(mound, main);
@@ -69,7 +69,7 @@ pub(super) fn nest(art: &mut Art) {
     art.eyes([0.5, 0.74], 0.24, 0.085, true);
 }
 
-pub(super) fn maker(art: &mut Art) {
+pub(crate) fn maker(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.06, 0.06, 0.88, 0.88, 0.18), main);
     art.solid(Outline::circle(0.5, 0.5, 0.32), main.light());
@@ -79,7 +79,7 @@ pub(super) fn maker(art: &mut Art) {
 }
 
 /// Sunk into the ground: dark at the top, where the rim throws its shadow.
-pub(super) fn socket(art: &mut Art) {
+pub(crate) fn socket(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.1), main.shade());
     art.fill(Outline::rounded(0.14, 0.2, 0.72, 0.66, 0.06), main.mixed(INK, 15));

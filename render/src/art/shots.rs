@@ -5,7 +5,7 @@ use crate::colour::{INK, PAPER};
 use crate::shape::Outline;
 
 /// Barbed at the head and jagged at the tail.
-pub(super) fn hostile(art: &mut Art) {
+pub(crate) fn hostile(art: &mut Art) {
     let main = art.main();
     let tail =
         Outline::path("M.02,.3 L.3,.4 L.5,.4 L.42,.16 L.97,.5 L.42,.84 L.5,.6 L.3,.6 L.02,.7 L.14,.5 Z");
@@ -13,7 +13,7 @@ pub(super) fn hostile(art: &mut Art) {
     art.fill(Outline::polygon(&[[0.56, 0.36], [0.8, 0.5], [0.56, 0.64]]), PAPER);
 }
 
-pub(super) fn bolt(art: &mut Art) {
+pub(crate) fn bolt(art: &mut Art) {
     let main = art.main();
     for y in [0.34, 0.66] {
         art.stroke(Outline::line(&[[0.06, y], [0.3, y]]), main.shade(), 0.05);
@@ -23,7 +23,7 @@ pub(super) fn bolt(art: &mut Art) {
     art.fill(Outline::rounded(0.34, 0.42, 0.34, 0.07, 0.03), PAPER);
 }
 
-pub(super) fn blade(art: &mut Art) {
+pub(crate) fn blade(art: &mut Art) {
     let main = art.main();
     let crescent = Outline::path("M.24,.04 C1.14,.1,1.14,.9,.24,.96 C.74,.76,.74,.24,.24,.04 Z");
     art.solid(crescent, main);
@@ -32,7 +32,7 @@ pub(super) fn blade(art: &mut Art) {
     }
 }
 
-pub(super) fn bomb(art: &mut Art) {
+pub(crate) fn bomb(art: &mut Art) {
     let fuse = Outline::path("M.62,.3 C.64,.1,.78,.08,.84,.18");
     art.stroke(fuse, INK, 0.06);
     art.fill(Outline::star(0.85, 0.18, 6, 0.13, 0.06), super::GOLD);

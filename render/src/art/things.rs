@@ -5,7 +5,7 @@ use crate::colour::{Colour, INK, PAPER};
 use crate::shape::Outline;
 
 /// A star of the thing's own colour: flat, with a round middle or many-pointed.
-pub(super) fn treasure(art: &mut Art) {
+pub(crate) fn treasure(art: &mut Art) {
     let main = art.main();
     let (points, inner) = match art.look.variant {
         0 => (5, 0.21),
@@ -17,7 +17,7 @@ pub(super) fn treasure(art: &mut Art) {
     art.fill(Outline::circle(0.44, 0.45, 0.05), PAPER);
 }
 
-pub(super) fn target(art: &mut Art) {
+pub(crate) fn target(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::circle(0.5, 0.5, 0.45), main);
     art.fill(Outline::circle(0.5, 0.5, 0.34), PAPER);
@@ -26,7 +26,7 @@ pub(super) fn target(art: &mut Art) {
 }
 
 /// A target among spikes.
-pub(super) fn peril(art: &mut Art) {
+pub(crate) fn peril(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::star(0.5, 0.5, 12, 0.49, 0.36), main);
     art.fill(Outline::circle(0.5, 0.5, 0.31), PAPER);
@@ -34,7 +34,7 @@ pub(super) fn peril(art: &mut Art) {
     art.star(0.5, 0.51, 0.24);
 }
 
-pub(super) fn raft(art: &mut Art) {
+pub(crate) fn raft(art: &mut Art) {
     let main = art.main();
     for y in [0.12, 0.38, 0.64] {
         art.solid(Outline::rounded(0.03, y, 0.94, 0.24, 0.1), main);
@@ -42,7 +42,7 @@ pub(super) fn raft(art: &mut Art) {
     }
 }
 
-pub(super) fn ward(art: &mut Art) {
+pub(crate) fn ward(art: &mut Art) {
     let main = art.main();
     let shield = Outline::path(
         "M.5,.04 C.62,.14,.78,.16,.9,.15 C.92,.56,.8,.8,.5,.96 C.2,.8,.08,.56,.1,.15 \
@@ -55,7 +55,7 @@ pub(super) fn ward(art: &mut Art) {
     art.solid(heart, PAPER);
 }
 
-pub(super) fn boulder(art: &mut Art) {
+pub(crate) fn boulder(art: &mut Art) {
     let main = art.main();
     let rock = Outline::path("M.3,.08 L.66,.05 L.92,.3 L.96,.66 L.74,.93 L.34,.96 L.06,.74 L.06,.36 Z");
     art.solid(rock, main);
@@ -67,7 +67,7 @@ pub(super) fn boulder(art: &mut Art) {
 }
 
 /// Planks across, from corner to corner.
-pub(super) fn crossed_crate(art: &mut Art) {
+pub(crate) fn crossed_crate(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.05), main);
     art.fill(Outline::rect(0.19, 0.19, 0.62, 0.62), main.shade());
@@ -87,7 +87,7 @@ pub(super) fn crossed_crate(art: &mut Art) {
     art.stroke(Outline::rect(0.19, 0.19, 0.62, 0.62), INK, 0.03);
 }
 
-pub(super) fn key(art: &mut Art) {
+pub(crate) fn key(art: &mut Art) {
     let main = art.main();
     let shaft = Outline::path(
         "M.48,.44 L.97,.44 L.97,.72 L.86,.72 L.86,.56 L.78,.56 L.78,.67 L.68,.67 L.68,.56 L.48,.56 Z",
@@ -97,7 +97,7 @@ pub(super) fn key(art: &mut Art) {
     art.solid(art.emblem(0.29, 0.5, 0.1), PAPER);
 }
 
-pub(super) fn switch(art: &mut Art) {
+pub(crate) fn switch(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.08, 0.62, 0.84, 0.3, 0.08), Colour([0x8a, 0x90, 0x9c]));
     let button = Outline::path("M.24,.62 C.26,.2,.74,.2,.76,.62 Z");
@@ -105,7 +105,7 @@ pub(super) fn switch(art: &mut Art) {
     art.fill(Outline::ellipse(0.42, 0.42, 0.06, 0.05), PAPER);
 }
 
-pub(super) fn token(art: &mut Art) {
+pub(crate) fn token(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::circle(0.5, 0.5, 0.36), main);
     art.stroke(Outline::circle(0.5, 0.5, 0.26), main.shade(), 0.05);
@@ -118,7 +118,7 @@ pub(super) fn token(art: &mut Art) {
 }
 
 /// Cut stones of four outlines.
-pub(super) fn gem(art: &mut Art) {
+pub(crate) fn gem(art: &mut Art) {
     let main = art.main();
     let (cut, facet) = match art.look.variant {
         0 => ("M.28,.16 L.72,.16 L.93,.4 L.5,.92 L.07,.4 Z", "M.28,.16 L.37,.4 L.5,.92 L.63,.4 L.72,.16"),
@@ -135,7 +135,7 @@ pub(super) fn gem(art: &mut Art) {
     art.fill(Outline::star(0.34, 0.32, 4, 0.11, 0.04), PAPER);
 }
 
-pub(super) fn neutral(art: &mut Art) {
+pub(crate) fn neutral(art: &mut Art) {
     let main = art.main();
     let pebble =
         Outline::path("M.18,.62 C.2,.3,.6,.22,.74,.36 C.94,.54,.86,.8,.5,.8 C.28,.8,.18,.76,.18,.62 Z");
