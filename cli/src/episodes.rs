@@ -29,10 +29,10 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
             // The error of the untagged enum only says that no kind fits; that of an episode is more helpful.
             let error = serde_json::from_str::<Episode>(&text).err();
             let why = error.map_or(String::new(), |error| format!(" ({error})"));
-            Err(Failure::malformed(format!(
+            Err(malformed!(
                 "{}: not an episode{why}; `arcade play --record FILE` and `arcade validate --witness FILE` write such files",
                 path.display()
-            )))
+            ))
         }
     }
 }
@@ -63,9 +63,7 @@ pub(crate) fn level(
     let Some(episode) = episode else {
         let first = levels.into_iter().next().ok_or_else(|| {
             let name = &input.source.name;
-            Failure::malformed(format!(
-                "{name}: the game has no levels of its own; name a level file after it"
-            ))
+            malformed!("{name}: the game has no levels of its own; name a level file after it")
         })?;
         return checked(first);
     };
@@ -73,20 +71,20 @@ pub(crate) fn level(
     let mut fitting = levels.into_iter().filter_map(|named| Some((game.level(&named.text).ok()?, named)));
     let found = fitting.find(|(level, _)| level.digest() == episode.level);
     found.map(|(level, named)| (named, level)).ok_or_else(|| {
-        Failure::malformed(format!(
+        malformed!(
             "the episode was recorded on level {}, which is not one of the {count} levels of {}; name the level's file after the game",
             episode.level, input.title
-        ))
+        )
     })
 }
 
 /// Checks that the episode belongs to this game and level, and that it replays.
 pub(crate) fn check(path: &Path, episode: &Episode, game: &Game, level: &Level) -> Result<(), Failure> {
     let help = |error: engine::Divergence| {
-        Failure::malformed(format!(
+        malformed!(
             "{}: {error}; name the game and level that it was recorded on, or record it again",
             path.display()
-        ))
+        )
     };
     episode.replay(game, level).map(|_| ()).map_err(help)
 }

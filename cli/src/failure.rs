@@ -2,6 +2,9 @@
 
 use crate::diagnostics::Problems;
 use serde_json::{Value, json};
+use snapshots::mint::{MergeError, MintError};
+use snapshots::proof::ProofError;
+use snapshots::{AncestryError, RegenerateError, RevealError};
 use std::fmt;
 use std::io::{self, ErrorKind};
 use std::path::Path;
@@ -22,6 +25,16 @@ pub(crate) enum Failure {
     Environment(anyhow::Error),
 }
 
+/// The failure of a malformed question, with a message as `format!` takes it.
+macro_rules! malformed {
+    ($($message:tt)*) => { $crate::failure::Failure::malformed(format_args!($($message)*)) };
+}
+
+/// Ends a function with the failure of a malformed question.
+macro_rules! bail {
+    ($($message:tt)*) => { return Err(malformed!($($message)*)) };
+}
+
 /// The answer of a verb: yes, no, or a failure.
 pub(crate) type Answer = Result<bool, Failure>;
 
@@ -39,14 +52,12 @@ impl Failure {
         let name = path.display();
         match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => {
-                Failure::malformed(format_args!("{name}: there is no such file"))
+                malformed!("{name}: there is no such file")
             }
             ErrorKind::InvalidFilename => {
-                Failure::malformed(format_args!("{name}: there is no such file, and the name is invalid"))
+                malformed!("{name}: there is no such file, and the name is invalid")
             }
-            ErrorKind::IsADirectory => {
-                Failure::malformed(format_args!("{name} is a folder: name a file in it"))
-            }
+            ErrorKind::IsADirectory => malformed!("{name} is a folder: name a file in it"),
             _ => Failure::environment(error, format_args!("cannot read `{name}`")),
         }
     }
@@ -55,15 +66,13 @@ impl Failure {
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
         let name = path.display();
         match error.kind() {
-            ErrorKind::NotFound | ErrorKind::NotADirectory => Failure::malformed(format_args!(
+            ErrorKind::NotFound | ErrorKind::NotADirectory => malformed!(
                 "cannot write `{name}`: its folder does not exist; create it first, or name another file"
-            )),
-            ErrorKind::InvalidFilename => Failure::malformed(format_args!(
-                "cannot write `{name}`: the name is invalid; choose a shorter one"
-            )),
-            ErrorKind::IsADirectory => {
-                Failure::malformed(format_args!("cannot write `{name}`: it is a folder; name a file in it"))
+            ),
+            ErrorKind::InvalidFilename => {
+                malformed!("cannot write `{name}`: the name is invalid; choose a shorter one")
             }
+            ErrorKind::IsADirectory => malformed!("cannot write `{name}`: it is a folder; name a file in it"),
             _ => Failure::environment(error, format_args!("cannot write `{name}`")),
         }
     }
@@ -90,6 +99,21 @@ impl Failure {
         json!({ "error": document })
     }
 }
+
+/// Errors about a release: malformed questions, unless the snapshot itself is at fault.
+macro_rules! from_snapshot_errors {
+    ($($error:ident),*) => {$(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Failure {
+                match error {
+                    $error::Snapshot(error) => error.into(),
+                    other => Failure::Malformed(other.into()),
+                }
+            }
+        }
+    )*};
+}
+from_snapshot_errors!(AncestryError, MergeError, MintError, ProofError, RegenerateError, RevealError);
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -158,7 +182,7 @@ mod tests {
             source: ErrorKind::PermissionDenied.into(),
         };
         check(
-            &crate::verbs::verify::failure(of_snapshots),
+            &of_snapshots.into(),
             ENVIRONMENT,
             "cannot write `a.gif`: permission denied; check the permissions of the file and of the folders above it",
         );
@@ -166,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_failure_is_a_document() {
-        let document = Failure::malformed("name a game").document();
+        let document = malformed!("name a game").document();
         assert_eq!(
             document,
             json!({ "error": { "status": 2, "kind": "malformed", "message": "name a game" } })

@@ -53,7 +53,7 @@ impl LevelInput {
                 if is_game(&text) {
                     let help =
                         "this is a game, not a level; a level is rows of the characters of the LevelMapping";
-                    return Err(Failure::malformed(format!("{name}: {help}")));
+                    bail!("{name}: {help}");
                 }
                 Ok(Named { name, text })
             }
@@ -103,9 +103,9 @@ impl GameInput {
                         format!("levels {}", numbers.join(", "))
                     }
                 };
-                Err(Failure::malformed(format!("{title} has {there}: no `{name}`")))
+                Err(malformed!("{title} has {there}: no `{name}`"))
             }
-            None => Err(Failure::malformed(format!("{name}: there is no such file"))),
+            None => Err(malformed!("{name}: there is no such file")),
         }
     }
 }
@@ -124,9 +124,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     if found.is_some() {
         let text = read_text(path, MAX_SOURCE)?;
         if is_level(&text) {
-            return Err(Failure::malformed(format!(
-                "{name}: this is a level, not a game; name its game first: arcade validate GAME {name}"
-            )));
+            bail!("{name}: this is a level, not a game; name its game first: arcade validate GAME {name}");
         }
         let whole_folder = path.file_stem().is_some_and(|stem| stem == "game");
         let folder = path.parent().unwrap_or(Path::new("."));
@@ -145,7 +143,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
             Some(near) => format!("there is no such file, folder or corpus game; did you mean {near}?"),
             None => "there is no such file, folder or corpus game".to_owned(),
         };
-        return Err(Failure::malformed(format!("{name}: {help}")));
+        bail!("{name}: {help}");
     };
     let level = |(number, text): (usize, &String)| {
         LevelInput::Text(Named { name: format!("{name}/lvl{number}.txt"), text: text.clone() })
@@ -192,12 +190,12 @@ fn no_game_in(folder: &Path) -> Failure {
     let below = folder.join("games");
     let games = sorted_entries(&below).unwrap_or_default();
     match games.iter().find(|game| game.join("game.vgdl").is_file()) {
-        Some(first) => Failure::malformed(format!(
+        Some(first) => malformed!(
             "{name}: this folder contains no game, but {} does: name that folder to use all its games, or one game, such as {}",
             below.display(),
             first.display()
-        )),
-        None => Failure::malformed(format!("{name}: no game.vgdl or game.txt in this folder")),
+        ),
+        None => malformed!("{name}: no game.vgdl or game.txt in this folder"),
     }
 }
 
@@ -238,9 +236,7 @@ fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
     let text = read_text(&path, MAX_SOURCE)?;
     if is_level(&text) {
         let name = path.display();
-        return Err(Failure::malformed(format!(
-            "{name}: this is a level, not a game; put the game here, and the level beside it as lvl0.txt"
-        )));
+        bail!("{name}: this is a level, not a game; put the game here, and the level beside it as lvl0.txt");
     }
     let title =
         folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
@@ -275,7 +271,7 @@ fn level_files(folder: &Path) -> Result<Vec<LevelInput>, Failure> {
 pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
-            Failure::malformed(format!("{}: there is no such folder", folder.display()))
+            malformed!("{}: there is no such folder", folder.display())
         }
         _ => Failure::read(folder, error),
     };
@@ -298,22 +294,18 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
     read.map_err(|error| Failure::read(path, error))?;
     if bytes.starts_with(&ZSTD) {
-        return Err(Failure::malformed(format!(
+        bail!(
             "{name}: this is an archive, not a text file; unpack it (tar -xf {name}), and name a file or folder in it"
-        )));
+        );
     }
     if bytes.len() > limit {
-        return Err(Failure::malformed(format!(
-            "{name}: larger than {limit} bytes, the limit for such a file"
-        )));
+        bail!("{name}: larger than {limit} bytes, the limit for such a file");
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
         let help = "save it as UTF-8";
-        Failure::malformed(format!(
-            "{name}: not a text file (byte {at} is not UTF-8, in line {line}); {help}"
-        ))
+        malformed!("{name}: not a text file (byte {at} is not UTF-8, in line {line}); {help}")
     })
 }
 

@@ -5,6 +5,9 @@
     reason = "comments on arguments are the words of the help, brackets and all"
 )]
 
+#[macro_use]
+mod failure;
+
 mod conformance;
 mod console;
 mod counted;
@@ -12,7 +15,6 @@ mod diagnostics;
 mod embedded;
 mod episodes;
 mod evaluation_report;
-mod failure;
 mod input;
 mod interrupt;
 mod manual;

@@ -39,7 +39,7 @@ pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
         || "`arcade docs` lists all pages".to_owned(),
         |near| format!("did you mean `{near}`? `arcade docs` lists all pages"),
     );
-    Err(Failure::malformed(format_args!("there is no page `{wanted}`; {help}")))
+    Err(malformed!("there is no page `{wanted}`; {help}"))
 }
 
 fn find(pages: &[Page], wanted: &str) -> Option<usize> {

@@ -17,11 +17,11 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
         let is_paper = below.components().next() == Some(Component::Normal(OsStr::new("papers")));
         let is_held = folder.ends_with("held") && is_release(&folder.with_file_name("public"));
         if is_held || (!is_paper && is_release(folder)) {
-            return Err(Failure::malformed(format_args!(
+            bail!(
                 "`{}` is in the release itself, {}, which would no longer verify: choose a folder outside it",
                 place.display(),
                 shell::quoted(folder)
-            )));
+            );
         }
     }
     Ok(())
@@ -43,7 +43,7 @@ fn is_release(folder: &Path) -> bool {
 /// Starts the draft of a folder or file outside any release.
 pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
-    Draft::create(out).map_err(crate::verbs::verify::failure)
+    Draft::create(out).map_err(Failure::from)
 }
 
 /// Returns the absolute path, with links followed as far as it exists.

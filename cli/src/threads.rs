@@ -21,7 +21,7 @@ pub(crate) fn start() -> Result<(), Failure> {
 /// Runs the work on this number of threads; by default on one for each core.
 pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     if jobs == Some(0) {
-        return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
+        bail!("--jobs takes a number of threads, at least 1");
     }
     if let Some(jobs) = jobs.filter(|&jobs| jobs > MAX_THREADS) {
         WARNED.call_once(|| {

@@ -7,7 +7,6 @@ mod sections;
 mod told;
 
 use crate::failure::Failure;
-use crate::verbs::verify::failure;
 use evaluation::study::Study;
 use evaluation::{Entrant, Evaluation};
 use serde::Serialize;
@@ -73,8 +72,8 @@ pub(crate) fn write_evaluation_report(draft: Draft, results: &Results<'_>) -> Re
         files.push((format!("tables/{}.tex", table.id), table.to_latex()));
     }
     for (name, text) in &files {
-        draft.write(name, text.as_bytes()).map_err(failure)?;
+        draft.write(name, text.as_bytes())?;
     }
-    draft.commit().map_err(failure)?;
+    draft.commit()?;
     Ok(files.into_iter().map(|(name, _)| name).collect())
 }

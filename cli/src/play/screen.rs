@@ -18,18 +18,19 @@ const IDLE: Duration = Duration::from_millis(500);
 /// Plays until the user quits. Draws on standard error, so that standard output holds only the answer.
 pub(crate) fn play(session: &mut Session, view: &View) -> Result<(), Failure> {
     if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
-        return Err(Failure::malformed(
+        bail!(
             "there is no terminal to play in (standard input and standard error must be one); \
-             `arcade render` draws boards and episodes without one",
-        ));
+             `arcade render` draws boards and episodes without one"
+        );
     }
     let failed = |error: std::io::Error| Failure::environment(error, "the terminal cannot be used");
     let (width, height) = terminal::size().map_err(failed)?;
     if width < MIN_SIZE.0 || height < MIN_SIZE.1 {
-        return Err(Failure::malformed(format!(
+        bail!(
             "the terminal has {width} columns and {height} rows; make it {} by {} at least",
-            MIN_SIZE.0, MIN_SIZE.1
-        )));
+            MIN_SIZE.0,
+            MIN_SIZE.1
+        );
     }
     let mut screen = Screen::open().map_err(failed)?;
     screen.run(session, view).map_err(failed)

@@ -10,7 +10,6 @@ pub(crate) use levels::{Pictures, level_report};
 
 use crate::failure::Failure;
 use crate::page::Figure;
-use crate::verbs::verify::failure;
 use render::{Picture, RenderError, png, sheet};
 use report::SetReport;
 use serde::Serialize;
@@ -65,9 +64,9 @@ fn write(draft: Draft, report: &SetReport, showcase: &Showcase<'_>) -> Result<()
     for (name, bytes) in
         [("report.json", json.as_bytes()), ("report.html", html.as_bytes()), ("sheet.png", &sheet)]
     {
-        draft.write(name, bytes).map_err(failure)?;
+        draft.write(name, bytes)?;
     }
-    draft.commit().map_err(failure)
+    draft.commit().map_err(Failure::from)
 }
 
 /// The side of a cell in pixels where a board's longer side is about so many pixels.

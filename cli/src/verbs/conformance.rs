@@ -99,10 +99,7 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
             let known: Vec<String> = names.iter().map(|path| name_of(path)).collect();
             let near = engine::nearest(wanted, known.iter().map(String::as_str));
             let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-            return Err(Failure::malformed(format!(
-                "{} has no game `{wanted}`{help}",
-                args.traces.display()
-            )));
+            bail!("{} has no game `{wanted}`{help}", args.traces.display());
         }
     }
     let mut traces = Vec::new();
@@ -116,7 +113,7 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
     }
     if traces.is_empty() {
         let folder = args.traces.display();
-        return Err(Failure::malformed(format!("{folder}: no trace in it; expected <game>/*.jsonl.gz")));
+        bail!("{folder}: no trace in it; expected <game>/*.jsonl.gz");
     }
     Ok(traces)
 }
@@ -143,8 +140,7 @@ fn replay(
     name: &str,
     path: &Path,
 ) -> Result<(usize, Option<Episode>), Failure> {
-    let trace =
-        Trace::read(path).map_err(|error| Failure::malformed(format!("{}: {error}", path.display())))?;
+    let trace = Trace::read(path).map_err(|error| malformed!("{}: {error}", path.display()))?;
     let shown = path.strip_prefix(&args.traces).unwrap_or(path).display().to_string();
     let refused =
         |why: String| Ok((0, Some(Episode { trace: shown.clone(), refused: Some(why), difference: None })));

@@ -75,24 +75,22 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     protected::check(&args.out)?;
     let Some(format) = args.format.of_export() else { return archive(args, console) };
     if args.solutions && matches!(args.format, FormatName::Games) {
-        return Err(Failure::malformed(
-            "folders of games contain no solutions: omit --solutions, or choose --format jsonl",
-        ));
+        bail!("folders of games contain no solutions: omit --solutions, or choose --format jsonl");
     }
     // A folder that is taken is reported before the work.
-    let draft = Draft::create(&args.out).map_err(verify::failure)?;
+    let draft = Draft::create(&args.out)?;
     let released = match in_pool(args.jobs, || Released::read(&args.snapshot))? {
         Ok(released) => released,
         Err(error) => return unsound(error, console),
     };
     verify::remark_unreplayed(&released.manifest, console);
     let wanted = Export { format, solutions: args.solutions, twin: args.twin };
-    let exported = in_pool(args.jobs, || export(&released, &wanted))?.map_err(failure)?;
+    let exported = in_pool(args.jobs, || export(&released, &wanted))??;
     let Exported { files, games, levels, left_out } = &exported;
     for (path, content) in files {
-        draft.write(path, content).map_err(verify::failure)?;
+        draft.write(path, content)?;
     }
-    draft.commit().map_err(verify::failure)?;
+    draft.commit()?;
     let manifest = &released.manifest;
     let names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).collect();
     let left_out: Vec<_> =
@@ -122,9 +120,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 /// Writes the release itself, as one file.
 fn archive(args: &Args, console: &Console) -> Answer {
     if args.twin.is_some() || args.solutions {
-        return Err(Failure::malformed(
-            "an archive is the whole release, with its solutions: omit --twin and --solutions, or choose another --format",
-        ));
+        bail!(
+            "an archive is the whole release, with its solutions: omit --twin and --solutions, or choose another --format"
+        );
     }
     let Packed { root, digest, unpacked, size } = match pack(&args.snapshot, &args.out) {
         Ok(packed) => packed,
@@ -133,7 +131,7 @@ fn archive(args: &Args, console: &Console) -> Answer {
             console.say(&error);
             return Ok(false);
         }
-        Err(error) => return Err(verify::failure(error)),
+        Err(error) => return Err(error.into()),
     };
     console.document(&json!({
         "out": args.out.display().to_string(), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
@@ -153,15 +151,17 @@ pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
             console.say(format_args!("{}: does NOT verify", verification.name));
             Ok(false)
         }
-        ReleasedError::Snapshot(error) => Err(verify::failure(error)),
+        ReleasedError::Snapshot(error) => Err(error.into()),
         error => Err(Failure::Environment(error.into())),
     }
 }
 
-fn failure(error: ExportError) -> Failure {
-    match error {
-        #[cfg(feature = "parquet")]
-        error @ ExportError::Parquet(_) => Failure::Environment(error.into()),
-        error => Failure::malformed(error.to_string()),
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Failure {
+        match error {
+            #[cfg(feature = "parquet")]
+            error @ ExportError::Parquet(_) => Failure::Environment(error.into()),
+            error => Failure::malformed(error.to_string()),
+        }
     }
 }

@@ -4,9 +4,8 @@ use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::protected;
-use crate::verbs::release::{FinishedMint, in_pool, mint_failure, read_secret_file};
-use crate::verbs::verify::failure;
-use snapshots::mint::{MergeError, Plan, Shards};
+use crate::verbs::release::{FinishedMint, in_pool, read_secret_file};
+use snapshots::mint::{Plan, Shards};
 use std::path::PathBuf;
 
 /// Joins the shards of a release: the result is bit for bit the snapshot of a mint in one piece.
@@ -30,27 +29,18 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     protected::check(&args.out)?;
-    let shards = Shards::open(&args.shards).map_err(merge_failure)?;
+    let shards = Shards::open(&args.shards)?;
     let corpus = embedded::corpus()?;
     let secret = args.secret.as_deref().map(read_secret_file).transpose()?;
-    let plan = Plan::new(shards.recipe(), secret.as_ref(), &corpus).map_err(mint_failure)?;
-    if !shards.are_of(&plan).map_err(failure)? {
-        return Err(Failure::malformed(
-            "the shards were not made from the recipe that they name: mint them again",
-        ));
+    let plan = Plan::new(shards.recipe(), secret.as_ref(), &corpus)?;
+    if !shards.are_of(&plan)? {
+        bail!("the shards were not made from the recipe that they name: mint them again");
     }
-    in_pool(args.jobs, || shards.check(&plan))?.map_err(merge_failure)?;
+    in_pool(args.jobs, || shards.check(&plan))??;
     let draft = protected::draft(&args.out)?;
     if plan.is_sealed() {
-        draft.keep_private().map_err(failure)?;
+        draft.keep_private()?;
     }
     let finished = FinishedMint { plan: &plan, secret: secret.as_ref(), store: &shards, out: &args.out };
     finished.publish(draft, None, args.jobs, console)
-}
-
-fn merge_failure(error: MergeError) -> Failure {
-    match error {
-        MergeError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    }
 }

@@ -74,11 +74,10 @@ fn text_of(name: &str) -> Result<&'static str, Failure> {
         let near = engine::nearest(name, known.iter().map(String::as_str));
         let all = || format!("there are {}", known.join(", "));
         let help = near.map_or_else(all, |near| format!("did you mean `{near}`?"));
-        Failure::malformed(format_args!("no recipe named `{name}`; {help}"))
+        malformed!("no recipe named `{name}`; {help}")
     })
 }
 
 fn parsed(name: &str, text: &str) -> Result<Recipe, Failure> {
-    Recipe::from_toml(text)
-        .map_err(|error| Failure::malformed(format_args!("{name}.toml in this binary: {error}")))
+    Recipe::from_toml(text).map_err(|error| malformed!("{name}.toml in this binary: {error}"))
 }

@@ -3,15 +3,14 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::embedded;
-use crate::failure::{Answer, Failure};
+use crate::failure::Answer;
 use crate::interrupt;
 use crate::protected;
 use crate::shell;
-use crate::verbs::release::{ProgressBars, in_pool, mint_failure};
-use crate::verbs::verify::failure;
+use crate::verbs::release::{ProgressBars, in_pool};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
-use snapshots::{Draft, MANIFEST_FILE, RegenerateError, Regeneration};
+use snapshots::{Draft, MANIFEST_FILE, Regeneration};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -47,17 +46,14 @@ impl Args {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     args.out.as_deref().map_or(Ok(()), protected::check)?;
     let corpus = embedded::corpus()?;
-    let release = Regeneration::of(&args.snapshot).map_err(|error| match error {
-        RegenerateError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    })?;
-    let plan = release.plan(&corpus).map_err(mint_failure)?;
+    let release = Regeneration::of(&args.snapshot)?;
+    let plan = release.plan(&corpus)?;
     let open = if args.resume { Draft::resume } else { Draft::create };
-    let draft = args.out.as_deref().map(open).transpose().map_err(failure)?;
+    let draft = args.out.as_deref().map(open).transpose()?;
     let store: Box<dyn JobStore> = match &draft {
         Some(draft) => {
-            let digest = plan.digest().map_err(failure)?;
-            Box::new(JobFolder::open(&draft.jobs(), digest).map_err(failure)?)
+            let digest = plan.digest()?;
+            Box::new(JobFolder::open(&draft.jobs(), digest)?)
         }
         None => Box::new(Memory::default()),
     };
@@ -72,17 +68,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             None => Ok(()),
         };
         release.compare(&plan, &*store, embedded::lockfile(), &mut also)
-    })?
-    .map_err(mint_failure)?;
+    })??;
     bars.finish();
     interrupt::defer();
     if let Some(draft) = draft {
-        let manifest = result.minted.manifest.to_bytes().map_err(failure)?;
-        draft.write(MANIFEST_FILE, &manifest).map_err(failure)?;
+        let manifest = result.minted.manifest.to_bytes()?;
+        draft.write(MANIFEST_FILE, &manifest)?;
         for (path, text) in result.minted.papers() {
-            draft.write(&path, text.as_bytes()).map_err(failure)?;
+            draft.write(&path, text.as_bytes())?;
         }
-        draft.commit().map_err(failure)?;
+        draft.commit()?;
     }
     let identical = result.differences.is_empty();
     let root = result.minted.manifest.root;

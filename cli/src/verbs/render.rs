@@ -83,10 +83,10 @@ impl Format {
             Some("png") => Ok(Format::Png),
             Some("svg") => Ok(Format::Svg),
             Some("gif") => Ok(Format::Gif),
-            _ => Err(Failure::malformed(format!(
+            _ => Err(malformed!(
                 "{}: unknown picture format; use a file name that ends in .png, .svg, .gif or .txt",
                 path.display()
-            ))),
+            )),
         }
     }
 
@@ -189,17 +189,15 @@ fn shown<'a>(
     let help = format!("add --episode FILE, or --planner NAME ({})", PLANNERS.join(", "));
     match (episode, args.tick) {
         (None, Some(0)) if format != Format::Gif => Ok(&[]),
-        (None, Some(_)) => Err(Failure::malformed(format!("--tick is a tick of an episode; {help}"))),
+        (None, Some(_)) => Err(malformed!("--tick is a tick of an episode; {help}")),
         (None, None) if format == Format::Gif => {
-            Err(Failure::malformed(format!("{}: a GIF shows an episode; {help}", args.out.display())))
+            Err(malformed!("{}: a GIF shows an episode; {help}", args.out.display()))
         }
         (None, None) => Ok(&[]),
         (Some(episode), None) => Ok(&episode.actions),
         (Some(episode), Some(tick)) => episode.actions.get(..tick).ok_or_else(|| {
             let last = episode.actions.len();
-            Failure::malformed(format!(
-                "--tick {tick}: the episode ends after tick {last}; name that or an earlier one"
-            ))
+            malformed!("--tick {tick}: the episode ends after tick {last}; name that or an earlier one")
         }),
     }
 }
@@ -255,9 +253,9 @@ impl Subject<'_> {
 fn failed(error: RenderError) -> Failure {
     let help = "--scale sets the pixels of a cell";
     match error {
-        RenderError::Cell { .. } => Failure::malformed(format!("--scale: {error}")),
+        RenderError::Cell { .. } => malformed!("--scale: {error}"),
         RenderError::TooLarge { .. } | RenderError::TooLargeForGif { .. } => {
-            Failure::malformed(format!("{error}: {help}"))
+            malformed!("{error}: {help}")
         }
         error => Failure::environment(error, "the picture cannot be written"),
     }

@@ -4,7 +4,6 @@ use crate::console::Console;
 use crate::evaluation_report::{Results, write_evaluation_report};
 use crate::failure::{Answer, Failure};
 use crate::protected;
-use crate::verbs::evaluate::failure;
 use crate::verbs::release::in_pool;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
@@ -38,12 +37,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let draft = protected::draft(&args.out)?;
     let open = |folder: &PathBuf| Evaluation::open(folder);
     let evaluations = args.results.iter().map(open).collect::<Result<Vec<_>, EvaluationError>>();
-    let evaluations = evaluations.map_err(failure)?;
-    let study = in_pool(args.jobs, || Study::read(&args.results))?.map_err(failure)?;
+    let evaluations = evaluations?;
+    let study = in_pool(args.jobs, || Study::read(&args.results))??;
     if study.episodes.is_empty() {
-        return Err(Failure::malformed(
-            "no episode was played yet in these results; `arcade evaluate … --resume` plays them",
-        ));
+        bail!("no episode was played yet in these results; `arcade evaluate … --resume` plays them");
     }
     let results = Results { study: &study, evaluations: &evaluations, replays: args.replays };
     let files = write_evaluation_report(draft, &results)?;

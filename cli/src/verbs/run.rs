@@ -162,9 +162,9 @@ fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failur
         let looks_ahead = !matches!(planner.name(), "do-nothing" | "random" | "random-with-nil");
         let key = (planner.name(), looks_ahead.then(|| budget(args, planner)));
         if let Some(first) = seen.insert(key, planner) {
-            return Err(Failure::malformed(format!(
+            bail!(
                 "--planner: `{first}` and `{planner}` are the same player; name it once, or with different budgets"
-            )));
+            );
         }
     }
     Ok(())
@@ -189,7 +189,7 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
             let levels =
                 input.levels()?.iter().map(|named| named.level(&game)).collect::<Result<Vec<_>, _>>()?;
             if levels.is_empty() {
-                return Err(Failure::malformed(format!("{}: the game has no levels", input.source.name)));
+                bail!("{}: the game has no levels", input.source.name);
             }
             subjects.push(Subject { title: input.title, game, levels });
         }

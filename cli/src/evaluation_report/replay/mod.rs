@@ -172,7 +172,7 @@ impl Replay {
     /// Replays and draws an episode; none if nothing was played.
     fn of(candidate: &Candidate<'_>, tiles: &mut Tiles) -> Result<Option<Replay>, Failure> {
         let Candidate { evaluation, task } = candidate;
-        let log = evaluation.events(task).map_err(crate::verbs::evaluate::failure)?;
+        let log = evaluation.events(task)?;
         let steps: Vec<(Action, Validity)> = log
             .iter()
             .filter_map(|event| match event {

@@ -1,7 +1,6 @@
 //! Files and folders that interrupted runs left behind, each recognised by something that only arcade makes.
 
 use crate::failure::Failure;
-use crate::verbs::verify::failure;
 use crate::whole_file::UNFINISHED;
 use itertools::Itertools;
 use snapshots::Abandoned;
@@ -48,7 +47,7 @@ impl Leftover {
             unfinished_file(path).map(LeftoverKind::File)
         } else if !found.is_dir() {
             None
-        } else if let Some(draft) = Abandoned::at(path).map_err(failure)? {
+        } else if let Some(draft) = Abandoned::at(path)? {
             Some(if draft.finished_jobs() == 0 {
                 LeftoverKind::Unfinished(draft)
             } else {
@@ -91,7 +90,7 @@ impl Leftover {
     pub(super) fn remove(self) -> Result<(), Failure> {
         let removed = match self.kind {
             LeftoverKind::Unfinished(draft) | LeftoverKind::Interrupted(draft) => {
-                return draft.remove().map_err(failure);
+                return draft.remove().map_err(Failure::from);
             }
             LeftoverKind::Shard(_) | LeftoverKind::Scratch => fs::remove_dir_all(&self.path),
             LeftoverKind::File(_) => fs::remove_file(&self.path),

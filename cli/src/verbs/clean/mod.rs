@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut found = Vec::new();
     for folder in folders {
         if !paths::metadata(folder)?.is_some_and(|found| found.is_dir()) {
-            return Err(Failure::malformed(format_args!("{}: there is no such folder", folder.display())));
+            bail!("{}: there is no such folder", folder.display());
         }
         search(folder, console, &mut found)?;
     }

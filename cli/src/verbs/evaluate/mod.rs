@@ -107,10 +107,10 @@ enum ConnectedPlayer {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.runs == 0 || args.max_steps == 0 {
-        return Err(Failure::malformed("--runs and --max-steps take a number, at least 1"));
+        bail!("--runs and --max-steps take a number, at least 1");
     }
     if args.jobs == Some(0) {
-        return Err(Failure::malformed("--jobs takes a number of episodes at a time, at least 1"));
+        bail!("--jobs takes a number of episodes at a time, at least 1");
     }
     let requested = requested_player(args)?;
     reject_unused_flags(args, &requested)?;
@@ -128,19 +128,19 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         max_steps: args.max_steps,
         games: Evaluation::entries(&subjects.games),
     };
-    settings.check().map_err(|problem| {
-        Failure::malformed(format!("{problem}; see --runs, --max-steps, --games and --levels"))
-    })?;
+    settings
+        .check()
+        .map_err(|problem| malformed!("{problem}; see --runs, --max-steps, --games and --levels"))?;
     if args.dry_run {
         return forecast(&requested, &settings, &subjects.games, console);
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
     protected::check(&folder)?;
     if args.resume && !Evaluation::is_begun(&folder) {
-        return Err(Failure::malformed(format!(
+        bail!(
             "there is nothing to resume in {}; name the folder of the evaluation with --out, or omit --resume to start one",
             folder.display()
-        )));
+        );
     }
     let connected = requested.connect(args, &subjects.games)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
@@ -148,7 +148,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     } else {
         Evaluation::create(&folder, settings, subjects.games)
     };
-    let evaluation = evaluation.map_err(failure)?;
+    let evaluation = evaluation?;
     connected.charge_logged(&evaluation)?;
     let hint = format!(
         "interrupted: finished episodes are in {}; run the same command with --resume to continue",
@@ -161,7 +161,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let tally =
         in_pool(Some(connected.threads(args, episodes, console)), || evaluation.run(contestant, &bar));
     interrupt::defer();
-    let tally = tally?.map_err(|error| match failure(error) {
+    let tally = tally?.map_err(|error| match Failure::from(error) {
         Failure::Environment(error) => Failure::environment(
             error,
             "the evaluation was stopped by an error; fix it and continue with --resume",
@@ -271,7 +271,7 @@ impl ConnectedPlayer {
     fn charge_logged(&self, evaluation: &Evaluation) -> Result<(), Failure> {
         if let ConnectedPlayer::Model(model) = self {
             for task in evaluation.tasks() {
-                model.caps.charge_logged(&evaluation.events(&task).map_err(failure)?);
+                model.caps.charge_logged(&evaluation.events(&task)?);
             }
         }
         Ok(())
@@ -305,24 +305,22 @@ fn end_players() {
 fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if matches!(requested, RequestedPlayer::Model(_)) {
         return match args.jobs {
-            Some(_) => Err(Failure::malformed(
-                "--jobs does not apply to models; set the number of concurrent requests with --concurrency",
+            Some(_) => Err(malformed!(
+                "--jobs does not apply to models; set the number of concurrent requests with --concurrency"
             )),
             None => Ok(()),
         };
     }
     let player = args.player.as_deref().unwrap_or_default();
     if let Some(flag) = args.model.unused_without_model() {
-        return Err(Failure::malformed(format!(
-            "{flag} applies to language models (--model) only; remove it for the player `{player}`"
-        )));
+        bail!("{flag} applies to language models (--model) only; remove it for the player `{player}`");
     }
     let is_shown_prompts = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Prompted(..));
     if !is_shown_prompts && args.model.prompt.settings()? != PromptSettings::default() {
-        return Err(Failure::malformed(format!(
+        bail!(
             "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
              player `{player}`"
-        )));
+        );
     }
     Ok(())
 }
@@ -332,10 +330,10 @@ fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
         return Ok(RequestedPlayer::Model(Box::new(model::RequestedModel::new(id, &args.model)?)));
     }
     let Some(player) = args.player.as_deref() else {
-        return Err(Failure::malformed(
+        bail!(
             "no player is given: name one with --player (`random`, `mcts:100`, \"cmd:python3 my_agent.py\"), or a language model with \
-             --model (`openai:ID`)",
-        ));
+             --model (`openai:ID`)"
+        );
     };
     if let Some(file) = player.strip_prefix("replay:") {
         let episode = crate::episodes::read(Path::new(file))?;
@@ -418,11 +416,13 @@ fn print_results(
     }
 }
 
-pub(crate) fn failure(error: EvaluationError) -> Failure {
-    match error {
-        EvaluationError::Io { action: "read", path, source } => Failure::read(&path, source),
-        error @ EvaluationError::Io { .. } => Failure::Environment(error.into()),
-        error => Failure::Malformed(error.into()),
+impl From<EvaluationError> for Failure {
+    fn from(error: EvaluationError) -> Failure {
+        match error {
+            EvaluationError::Io { action: "read", path, source } => Failure::read(&path, source),
+            error @ EvaluationError::Io { .. } => Failure::Environment(error.into()),
+            error => Failure::Malformed(error.into()),
+        }
     }
 }
 

@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use crate::input::read_text;
-use crate::verbs::evaluate::failure;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
@@ -173,7 +172,7 @@ impl PromptArgs {
         };
         if let Some(both) = self.with.iter().find(|aid| self.without.contains(aid)) {
             let name = both.name();
-            return Err(Failure::malformed(format!("`{name}` is named both --with and --without")));
+            bail!("`{name}` is named both --with and --without");
         }
         for (aids, on) in [(&self.with, true), (&self.without, false)] {
             for aid in aids {
@@ -226,9 +225,10 @@ impl ModelArgs {
 
     fn options(&self, model: &str) -> Result<ModelOptions, Failure> {
         let cost = match self.max_cost {
-            Some(dollars) => Some(Usd::from_dollars(dollars).ok_or_else(|| {
-                Failure::malformed(format!("--max-cost takes an amount in US dollars, not {dollars}"))
-            })?),
+            Some(dollars) => Some(
+                Usd::from_dollars(dollars)
+                    .ok_or_else(|| malformed!("--max-cost takes an amount in US dollars, not {dollars}"))?,
+            ),
             None => None,
         };
         Ok(ModelOptions {
@@ -259,7 +259,7 @@ pub(crate) type Prompters = BTreeMap<String, Arc<Prompter>>;
 
 pub(crate) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Result<Prompters, Failure> {
     let prompter = |subject: &Subject| {
-        let prompter = Prompter::new(subject, settings.clone()).map_err(failure)?;
+        let prompter = Prompter::new(subject, settings.clone())?;
         Ok((subject.id.clone(), Arc::new(prompter)))
     };
     subjects.iter().map(prompter).collect()
@@ -309,8 +309,8 @@ pub(crate) struct Forecast {
 impl RequestedModel {
     pub(crate) fn new(model: &str, args: &ModelArgs) -> Result<RequestedModel, Failure> {
         let options = args.options(model)?;
-        let settings = client::settings(&options).map_err(failure)?;
-        client::price(&options).map_err(failure)?;
+        let settings = client::settings(&options)?;
+        client::price(&options)?;
         let (prompts, reasks) = (args.prompt.settings()?, args.reasks);
         Ok(RequestedModel { options, settings, prompts, reasks })
     }
@@ -337,12 +337,12 @@ impl RequestedModel {
     }
 
     fn prompter(&self, subject: &Subject) -> Result<Prompter, Failure> {
-        Prompter::new(subject, self.prompts.clone()).map_err(failure)
+        Prompter::new(subject, self.prompts.clone()).map_err(Failure::from)
     }
 
     /// Connects without sending a request: a missing key is reported before anything is written.
     pub(crate) fn connect(&self, subjects: &[Subject]) -> Result<ConnectedModel, Failure> {
-        let connection = client::connect(&self.options).map_err(failure)?;
+        let connection = client::connect(&self.options)?;
         Ok(ConnectedModel {
             model: Arc::from(connection.model),
             prompters: prompters(subjects, &self.prompts)?,
@@ -355,7 +355,7 @@ impl RequestedModel {
 
     /// Estimates the cost if each of these episodes takes all its steps and no request is repeated.
     pub(crate) fn forecast(&self, tasks: &[Task<'_>]) -> Result<Forecast, Failure> {
-        let price = client::price(&self.options).map_err(failure)?;
+        let price = client::price(&self.options)?;
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
         let mut batches = Vec::new();

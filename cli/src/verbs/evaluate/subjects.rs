@@ -4,7 +4,6 @@ use crate::diagnostics;
 use crate::embedded;
 use crate::failure::Failure;
 use crate::input::{self, GameInput, Named, read_text};
-use crate::verbs::verify;
 use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
 use evaluation::{Subject, SubjectFacts, Unreadable};
 use forge::card::Card;
@@ -39,9 +38,7 @@ pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Fa
         let place = Path::new(name);
         if is_snapshot(place) {
             if names.len() > 1 {
-                return Err(Failure::malformed(format!(
-                    "{name}: a snapshot is evaluated alone; remove the other games"
-                )));
+                bail!("{name}: a snapshot is evaluated alone; remove the other games");
             }
             let (root, found) = of_snapshot(place, choice)?;
             (snapshot, games) = (Some(root), found);
@@ -53,18 +50,15 @@ pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Fa
     }
     let mut ids = BTreeSet::new();
     if let Some(twice) = games.iter().find(|subject| !ids.insert(&subject.id)) {
-        return Err(Failure::malformed(format!(
-            "two games have the id `{}`; name only one of them",
-            twice.id
-        )));
+        bail!("two games have the id `{}`; name only one of them", twice.id);
     }
     if let Some(unknown) = choice.games.iter().find(|id| !ids.contains(*id)) {
         let help = help_with(unknown, &games);
-        return Err(Failure::malformed(format!("--games: there is no `{unknown}` among them; {help}")));
+        bail!("--games: there is no `{unknown}` among them; {help}");
     }
     games.retain(|subject| choice.games.is_empty() || choice.games.contains(&subject.id));
     if games.iter().all(|subject| subject.levels.is_empty()) {
-        return Err(Failure::malformed("there is no level to play; see --levels"));
+        bail!("there is no level to play; see --levels");
     }
     Ok(Subjects { snapshot, games })
 }
@@ -79,10 +73,10 @@ fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, F
     };
     let named = input.levels()?;
     if named.is_empty() {
-        return Err(Failure::malformed(format!(
+        bail!(
             "{}: the game has no levels; put lvl0.txt and so on beside a game.vgdl, and name the folder",
             input.source.name
-        )));
+        );
     }
     let wanted = named.iter().enumerate().filter(|(number, _)| choice.wants(*number));
     let levels: Vec<_> = wanted.map(|(number, level)| (number, level.text.clone(), None)).collect();
@@ -129,9 +123,9 @@ impl<'a> Files<'a> {
     /// Opens the release at `place`, and returns its problems too.
     fn open(place: &'a Path) -> Result<(Integrity, Files<'a>), Failure> {
         if place.is_dir() {
-            return Ok((check_integrity(place).map_err(verify::failure)?, Files::Folder(place)));
+            return Ok((check_integrity(place)?, Files::Folder(place)));
         }
-        let archive = Archive::open(place).map_err(verify::failure)?;
+        let archive = Archive::open(place)?;
         Ok((archive.integrity.clone(), Files::Archive(Box::new(archive))))
     }
 
@@ -141,7 +135,7 @@ impl<'a> Files<'a> {
             Files::Folder(root) => return read_text(&root.join(path), limit),
             Files::Archive(archive) => archive,
         };
-        let wrong = |what: &str| Failure::malformed(format!("{path}, in the archive: {what}"));
+        let wrong = |what: &str| malformed!("{path}, in the archive: {what}");
         let bytes = archive.file(path).ok_or_else(|| wrong("there is no such file"))?;
         if bytes.len() > limit {
             return Err(wrong(&format!("larger than {limit} bytes, the limit for such a file")));
@@ -154,9 +148,7 @@ fn of_snapshot(place: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject
     let (integrity, files) = Files::open(place)?;
     if let Some(problem) = integrity.problems.first() {
         let place = place.display();
-        return Err(Failure::malformed(format!(
-            "{place}: does not verify: {problem}; `arcade verify` lists all problems"
-        )));
+        bail!("{place}: does not verify: {problem}; `arcade verify` lists all problems");
     }
     let manifest = &integrity.manifest;
     let ids = manifest.items.iter().filter_map(|item| {
@@ -169,7 +161,7 @@ fn of_snapshot(place: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject
         let shown = |file: &str| place.join(path(file)).display().to_string();
         let card = files.text(&path("card.json"), MAX_CARD)?;
         let card: Card = serde_json::from_str(&card)
-            .map_err(|error| Failure::malformed(format!("{}: not a card: {error}", shown("card.json"))))?;
+            .map_err(|error| malformed!("{}: not a card: {error}", shown("card.json")))?;
         let source = files.text(&path("game.vgdl"), MAX_SOURCE)?;
         let mut levels = Vec::new();
         for (number, level) in card.levels.iter().enumerate().filter(|(number, _)| choice.wants(*number)) {

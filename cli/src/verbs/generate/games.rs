@@ -7,7 +7,6 @@ use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::set_report::game_report;
 use crate::verbs::release::in_pool;
-use crate::verbs::verify::failure;
 use engine::{Digest, Game, Level, Seed};
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
@@ -100,8 +99,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     for game in &set.games {
         write(&draft, game)?;
     }
-    draft.write("games.json", &pretty(&document(args, &set))?).map_err(failure)?;
-    draft.commit().map_err(failure)?;
+    draft.write("games.json", &pretty(&document(args, &set))?)?;
+    draft.commit()?;
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(set.games.len() as u64, "report");
@@ -125,9 +124,9 @@ fn order(args: &Args) -> GameOrder {
 fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     let compile = |game: &snapshots::CorpusGame| {
         let compiled = Game::from_source(&game.source);
-        compiled.map(|compiled| (game.name.clone(), compiled)).map_err(|problems| {
-            Failure::malformed(format!("the corpus game `{}` does not compile: {problems}", game.name))
-        })
+        compiled
+            .map(|compiled| (game.name.clone(), compiled))
+            .map_err(|problems| malformed!("the corpus game `{}` does not compile: {problems}", game.name))
     };
     embedded::corpus()?.games.iter().map(compile).collect()
 }
@@ -188,14 +187,14 @@ impl Progress for Bar {
 /// Writes a game, its card, its levels and the episodes that win them.
 fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     let folder = &made.card.id;
-    draft.write(&format!("{folder}/game.vgdl"), made.text.as_bytes()).map_err(failure)?;
-    draft.write(&format!("{folder}/card.json"), &pretty(&made.card)?).map_err(failure)?;
+    draft.write(&format!("{folder}/game.vgdl"), made.text.as_bytes())?;
+    draft.write(&format!("{folder}/card.json"), &pretty(&made.card)?)?;
     for (number, (level, episode)) in made.levels.iter().zip(&made.witnesses).enumerate() {
         let text = level.level.to_string();
-        draft.write(&format!("{folder}/lvl{number}.txt"), text.as_bytes()).map_err(failure)?;
+        draft.write(&format!("{folder}/lvl{number}.txt"), text.as_bytes())?;
         let witness =
             Witness { canary: made.card.canary.clone(), episode: episode.clone(), path: Vec::new() };
-        draft.write(&format!("{folder}/witness/lvl{number}.json"), &pretty(&witness)?).map_err(failure)?;
+        draft.write(&format!("{folder}/witness/lvl{number}.json"), &pretty(&witness)?)?;
     }
     Ok(())
 }

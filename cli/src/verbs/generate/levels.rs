@@ -7,7 +7,6 @@ use crate::input::{self, GameInput};
 use crate::protected;
 use crate::set_report::{Pictures, level_report};
 use crate::verbs::release::in_pool;
-use crate::verbs::verify::failure;
 use engine::{Analysis, Game, Level, Seed, SpriteType};
 use forge::levels::report::{LevelSetReport, Sample};
 use forge::levels::{
@@ -119,11 +118,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             console.remark(format_args!("{}: {error}; {advice}", args.game));
             return Ok(false);
         }
-        Err(error) => return Err(Failure::malformed(format!("{}: {error}", args.game))),
+        Err(error) => bail!("{}: {error}", args.game),
     };
     write(&draft, &input, &set)?;
-    draft.write("levels.json", &pretty(&document(args, &game, &set))?).map_err(failure)?;
-    draft.commit().map_err(failure)?;
+    draft.write("levels.json", &pretty(&document(args, &game, &set))?)?;
+    draft.commit()?;
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(0, "report");
@@ -154,7 +153,7 @@ fn order(args: &Args, examples: &[Level], game: &Game) -> Result<LevelOrder, Fai
     let analysis = Analysis::of(game);
     let rule = |text: &String| RuleRef::parse(&analysis, text);
     let uses = args.uses.iter().map(rule).collect::<Result<_, _>>();
-    let uses = uses.map_err(|error| Failure::malformed(format!("--uses: {error}")))?;
+    let uses = uses.map_err(|error| malformed!("--uses: {error}"))?;
     let counts = args.with.iter().map(|(name, count)| Ok((stype(game, name)?, *count)));
     let counts = counts.collect::<Result<_, Failure>>()?;
     Ok(LevelOrder {
@@ -169,7 +168,7 @@ fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
     game.sprite_type(name).ok_or_else(|| {
         let near = engine::nearest(name, game.sprite_types().map(|stype| game.name(stype)));
         let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-        Failure::malformed(format!("--with: the game has no sprite type `{name}`{help}"))
+        malformed!("--with: the game has no sprite type `{name}`{help}")
     })
 }
 
@@ -235,13 +234,13 @@ impl Progress for Bar {
 
 /// Writes the game, its levels and the episodes that win them.
 fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure> {
-    draft.write("game.vgdl", input.source.text.as_bytes()).map_err(failure)?;
+    draft.write("game.vgdl", input.source.text.as_bytes())?;
     for (number, made) in set.levels.iter().enumerate() {
         let text = made.level.to_string();
-        draft.write(&format!("lvl{number}.txt"), text.as_bytes()).map_err(failure)?;
+        draft.write(&format!("lvl{number}.txt"), text.as_bytes())?;
         if let Some(witness) = made.report.as_ref().and_then(|report| report.witness.as_ref()) {
             let path = format!("witness/lvl{number}.json");
-            draft.write(&path, &pretty(witness)?).map_err(failure)?;
+            draft.write(&path, &pretty(witness)?)?;
         }
     }
     Ok(())

@@ -14,11 +14,10 @@ use crate::paths;
 use crate::protected;
 use crate::shell;
 pub(crate) use crate::threads::in_pool;
-use crate::verbs::verify::failure;
 pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::read as read_secret_file;
 use serde_json::json;
-use snapshots::mint::{JobFolder, JobStore, MintError, Plan, Shard, lay_out, make_jobs};
+use snapshots::mint::{JobFolder, JobStore, Plan, Shard, lay_out, make_jobs};
 use snapshots::version::CURRENT;
 use snapshots::{
     Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Secret, check_integrity, follow,
@@ -103,7 +102,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut recipe = find_recipe(args.recipe(), |text| sealed::recipe(text, secret.as_ref()))?;
     let corpus = embedded::corpus()?;
     match &args.parent {
-        Some(parent) => follow_parent(&mut recipe, parent)?,
+        Some(parent) => follow(&mut recipe, parent)?,
         None if recipe.parent.is_some() => {
             let help = "the recipe names a parent: give its folder with --parent, so that no content is minted twice";
             return Err(Failure::malformed(help));
@@ -113,13 +112,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let out = match (&args.out, args.shard) {
         (Some(out), _) => out.clone(),
         (None, None) => Path::new("releases").join(&recipe.name),
-        (None, Some(_)) => return Err(Failure::malformed("--shard needs --out: a folder for the shard")),
+        (None, Some(_)) => bail!("--shard needs --out: a folder for the shard"),
     };
     protected::check(&out)?;
     if args.dry_run && recipe.seed.is_none() && secret.is_none() {
         return outline::without_secret(&recipe, console);
     }
-    let plan = Plan::new(&recipe, secret.as_ref(), &corpus).map_err(mint_failure)?;
+    let plan = Plan::new(&recipe, secret.as_ref(), &corpus)?;
     let jobs = args.shard.map_or_else(|| plan.jobs().to_vec(), |shard| shard.jobs(&plan));
     if args.resume && complete(&plan, &recipe, args.shard, &out)? {
         let place = out.display().to_string();
@@ -134,10 +133,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return outline::outline(&plan, &jobs, &recipe, &out, args.resume, console);
     }
     // Check the place to write to before minutes of minting.
-    let mut draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }.map_err(failure)?;
+    let mut draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }?;
     match (plan.is_sealed(), args.shard) {
-        (true, Some(_)) => draft.keep_secret().map_err(failure)?,
-        (true, None) => draft.keep_private().map_err(failure)?,
+        (true, Some(_)) => draft.keep_secret()?,
+        (true, None) => draft.keep_private()?,
         (false, _) => {}
     }
     let minted = mint(args, &plan, &jobs, secret.as_ref(), draft, &out, console);
@@ -154,13 +153,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 /// Returns `true` if `out` already holds the result of this plan, or of this shard of it.
 fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) -> Result<bool, Failure> {
     if let Some(shard) = shard {
-        return shard.is_whole(plan, out).map_err(failure);
+        return shard.is_whole(plan, out).map_err(Failure::from);
     }
     let root = if plan.is_sealed() { out.join("public") } else { out.to_owned() };
     if paths::metadata(&root.join(MANIFEST_FILE))?.is_none() {
         return Ok(false);
     }
-    let found = check_integrity(&root).map_err(failure)?;
+    let found = check_integrity(&root)?;
     let minted_from: Option<Recipe> = serde_json::from_value(found.manifest.recipe.clone()).ok();
     let minted_by = found.manifest.minted_by();
     Ok(found.problems.is_empty()
@@ -178,10 +177,10 @@ fn mint(
     out: &Path,
     console: &Console,
 ) -> Answer {
-    let digest = plan.digest().map_err(failure)?;
-    let mut store = JobFolder::open(&draft.jobs(), digest).map_err(failure)?;
+    let digest = plan.digest()?;
+    let mut store = JobFolder::open(&draft.jobs(), digest)?;
     if plan.is_sealed() {
-        store.keep_secret().map_err(failure)?;
+        store.keep_secret()?;
     }
     if plan.seconds(jobs) >= LONG {
         console.remark(format_args!("if interrupted, continue with: {}", args.resumed(out)));
@@ -189,12 +188,12 @@ fn mint(
     interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     let bars = ProgressBars::new(console);
     let started = Stopwatch::start();
-    in_pool(args.jobs, || make_jobs(plan, jobs, &store, &bars))?.map_err(mint_failure)?;
+    in_pool(args.jobs, || make_jobs(plan, jobs, &store, &bars))??;
     bars.finish();
     interrupt::defer();
     if let Some(shard) = args.shard {
-        shard.write(plan, &store, &draft).map_err(mint_failure)?;
-        draft.commit().map_err(failure)?;
+        shard.write(plan, &store, &draft)?;
+        draft.commit()?;
         let place = out.display().to_string();
         console.document(&json!({ "out": place, "shard": shard.to_string(), "lots": jobs.len() }))?;
         console.say(format_args!(
@@ -238,14 +237,13 @@ impl FinishedMint<'_> {
         let minted = in_pool(jobs, || {
             let mut write = |path: &str, content: &[u8]| draft.write(&place(path), content);
             lay_out(self.plan, self.secret, self.store, embedded::lockfile(), &mut write)
-        })?
-        .map_err(mint_failure)?;
-        let manifest = minted.manifest.to_bytes().map_err(failure)?;
-        draft.write(&place(MANIFEST_FILE), &manifest).map_err(failure)?;
+        })??;
+        let manifest = minted.manifest.to_bytes()?;
+        draft.write(&place(MANIFEST_FILE), &manifest)?;
         for (path, text) in minted.papers() {
-            draft.write(&place(&path), text.as_bytes()).map_err(failure)?;
+            draft.write(&place(&path), text.as_bytes())?;
         }
-        draft.commit().map_err(failure)?;
+        draft.commit()?;
         console.document(&json!({
             "out": self.out.display().to_string(),
             "root": minted.manifest.root,
@@ -255,14 +253,6 @@ impl FinishedMint<'_> {
         console.say(summary(&minted, self.out, seconds).trim_end());
         Ok(true)
     }
-}
-
-/// Makes a recipe the successor of the release in a folder.
-fn follow_parent(recipe: &mut Recipe, parent: &Path) -> Result<(), Failure> {
-    follow(recipe, parent).map_err(|error| match error {
-        snapshots::AncestryError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    })
 }
 
 /// Returns `true` if a recipe is a file, not the name of one that the binary carries.
@@ -286,14 +276,7 @@ fn find_recipe(path: &Path, read: impl Fn(&str) -> Result<Recipe, RecipeError>) 
             Some(near) => format!("did you mean `{near}`? Or name a .toml file"),
             None => format!("there are {}, or name a .toml file", known.join(", ")),
         };
-        return Err(Failure::malformed(format!("no recipe named `{name}`; {help}")));
+        bail!("no recipe named `{name}`; {help}");
     };
-    read(&text).map_err(|error| Failure::malformed(format!("{shown}: {error}")))
-}
-
-pub(crate) fn mint_failure(error: MintError) -> Failure {
-    match error {
-        MintError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    }
+    read(&text).map_err(|error| malformed!("{shown}: {error}"))
 }

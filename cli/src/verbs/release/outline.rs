@@ -1,12 +1,10 @@
 //! `arcade release --dry-run`: the contents and the cost of a mint.
 
-use super::mint_failure;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::Answer;
-use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::mint::{Job, JobFolder, MintError, Plan};
+use snapshots::mint::{Job, JobFolder, Plan};
 use snapshots::{Draft, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
@@ -76,7 +74,7 @@ pub(super) fn outline(
         Some(SnapshotError::Occupied { .. }) => {
             console.say(format_args!("which exists: choose another --out, or remove it"));
         }
-        Some(other) => return Err(failure(other)),
+        Some(other) => return Err(other.into()),
         None if there > 0 && !resume => {
             console.say(format_args!(
                 "which holds an interrupted mint with {there} of the jobs finished: continue with --resume"
@@ -90,11 +88,11 @@ pub(super) fn outline(
 /// Returns, for each job, `true` if an interrupted mint has finished it.
 fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crate::failure::Failure> {
     let Some(folder) = Draft::jobs_of(out) else { return Ok(vec![false; names.len()]) };
-    let digest = plan.digest().map_err(failure)?;
+    let digest = plan.digest()?;
     match JobFolder::there(&folder, digest, names) {
         // A mint into this place would fail; a plan is not a mint.
         Err(SnapshotError::OtherPlan { .. }) => Ok(vec![false; names.len()]),
-        there => there.map_err(|error| mint_failure(MintError::Snapshot(error))),
+        there => Ok(there?),
     }
 }
 

@@ -1,14 +1,13 @@
 //! Sealed releases: committing to a secret, and revealing it.
 
-use super::{find_recipe, follow_parent, is_file};
+use super::{find_recipe, is_file};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
 use crate::protected;
 use crate::shell;
-use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::{MANIFEST_FILE, Recipe, RecipeError, RevealError, Secret, read_secret};
+use snapshots::{MANIFEST_FILE, Recipe, RecipeError, RevealError, Secret, follow, read_secret};
 use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Write};
@@ -18,7 +17,7 @@ use std::path::{Path, PathBuf};
 pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, console: &Console) -> Answer {
     let mut recipe = find_recipe(file, Recipe::to_commit)?;
     if let Some(parent) = parent {
-        follow_parent(&mut recipe, parent)?;
+        follow(&mut recipe, parent)?;
     }
     let name = &recipe.name;
     let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
@@ -26,9 +25,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     let chance =
         entropy().map_err(|error| Failure::environment(error, "the system provides no random bytes"))?;
     let secret = Secret::draw(name, recipe.committed(), chance);
-    secret
-        .check()
-        .map_err(|what| Failure::malformed(format!("the secret that was drawn: {what}; draw again")))?;
+    secret.check().map_err(|what| malformed!("the secret that was drawn: {what}; draw again"))?;
     let commitment = secret.commitment();
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
     let shown = out.display().to_string();
@@ -40,9 +37,9 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         fill(options.open(&out)?, &out, text.as_bytes())
     };
     write().map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => Failure::malformed(format!(
-            "`{shown}` exists: a secret is never overwritten; choose another --out",
-        )),
+        std::io::ErrorKind::AlreadyExists => {
+            malformed!("`{shown}` exists: a secret is never overwritten; choose another --out",)
+        }
         _ => Failure::environment(error, format!("cannot write `{shown}`")),
     })?;
     console.document(&json!({
@@ -84,7 +81,7 @@ fn entropy() -> std::io::Result<[u8; 64]> {
 }
 
 pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
-    read_secret(file).map_err(failure)
+    read_secret(file).map_err(Failure::from)
 }
 
 /// Reads a recipe to be minted. If it has neither seed nor commitment and a secret is given, it gets the commitment
@@ -111,9 +108,7 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
         return Err(Failure::malformed(help));
     };
     let Some(out) = out else {
-        return Err(Failure::malformed(format!(
-            "--reveal needs --out, a folder for the whole release: {usage}"
-        )));
+        bail!("--reveal needs --out, a folder for the whole release: {usage}");
     };
     // If both parts lie in one folder, the error names the folder.
     for (folder, part, file) in [(public, "public", MANIFEST_FILE), (held, "held", "secret.json")] {
@@ -126,15 +121,13 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
             false => format!("name the folder `{part}` that the release was minted into: {usage}"),
         };
         let folder = folder.display();
-        return Err(Failure::malformed(format!(
-            "`{folder}` is not the {part} part of a sealed release, because it has no {file}; {help}"
-        )));
+        bail!("`{folder}` is not the {part} part of a sealed release, because it has no {file}; {help}");
     }
     let draft = protected::draft(out)?;
     let place = out.display().to_string();
     match snapshots::reveal(public, held, &draft) {
         Ok(manifest) => {
-            draft.commit().map_err(failure)?;
+            draft.commit()?;
             console.document(
                 &json!({ "revealed": true, "out": place, "root": manifest.root, "problems": [] }),
             )?;
@@ -155,8 +148,7 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
             console.say("NOT revealed: the two parts do not match the commitment");
             Ok(false)
         }
-        Err(RevealError::Snapshot(error)) => Err(failure(error)),
-        Err(other) => Err(Failure::Malformed(other.into())),
+        Err(error) => Err(error.into()),
     }
 }
 

@@ -73,9 +73,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if levels.is_empty() {
         let name = &input.source.name;
         let help = "name a level file after it, or put lvl0.txt beside game.vgdl";
-        return Err(Failure::malformed(format!(
-            "{name}: the game compiles, but there is no level to judge; {help}"
-        )));
+        bail!("{name}: the game compiles, but there is no level to judge; {help}");
     }
     if args.witness.is_some() && levels.len() > 1 {
         let message = format!("--witness takes one level, not {}: name it after the game", levels.len());

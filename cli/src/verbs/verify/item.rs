@@ -1,13 +1,12 @@
 //! Proofs of single items: written from a snapshot, checked without it.
 
-use super::failure;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use engine::Digest;
 use serde_json::json;
 use snapshots::folder::{self, Limits};
-use snapshots::proof::{ItemProof, MAX_PROOF, ProofError};
+use snapshots::proof::{ItemProof, MAX_PROOF};
 use snapshots::{Manifest, SnapshotError};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -16,13 +15,12 @@ use std::path::Path;
 
 /// Writes the proof for an item of a snapshot that verifies, and returns a message.
 pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
-    let proof = ItemProof::of(manifest, id).map_err(malformed)?;
-    let bytes = proof.to_bytes().map_err(malformed)?;
+    let proof = ItemProof::of(manifest, id)?;
+    let bytes = proof.to_bytes()?;
     let mut open = File::create_new(file).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Failure::malformed(format_args!(
-            "`{}` exists: choose another --write-proof or remove it",
-            file.display()
-        )),
+        ErrorKind::AlreadyExists => {
+            malformed!("`{}` exists: choose another --write-proof or remove it", file.display())
+        }
         _ => Failure::write(file, error),
     })?;
     open.write_all(&bytes).and_then(|()| open.sync_all()).map_err(|error| {
@@ -36,13 +34,12 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
 /// Checks an item by its proof, against a root from another source.
 pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console: &Console) -> Answer {
     let bytes = read(file)?;
-    let proof = ItemProof::parse(&bytes)
-        .map_err(|error| Failure::malformed(format_args!("`{}`: {error}", file.display())))?;
+    let proof = ItemProof::parse(&bytes).map_err(|error| malformed!("`{}`: {error}", file.display()))?;
     if place.is_file() && proof.item == id && proof.files.iter().any(|file| file.path != id) {
         let count = count(proof.files.len(), "file");
-        return Err(Failure::malformed(format_args!("`{id}` is a game of {count}: name its folder")));
+        bail!("`{id}` is a game of {count}: name its folder");
     }
-    let problems = problems(place, id, &proof, root).map_err(failure)?;
+    let problems = problems(place, id, &proof, root)?;
     let sound = problems.is_empty();
     let paths: Vec<&str> = proof.files.iter().map(|file| file.path.as_str()).collect();
     console.document(&json!({ "item": id, "root": root, "files": paths, "problems": problems }))?;
@@ -100,20 +97,13 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
 /// Reads the proof, with a limit on its size.
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     let io = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => Failure::malformed(format_args!("`{}` does not exist", file.display())),
+        ErrorKind::NotFound => malformed!("`{}` does not exist", file.display()),
         _ => Failure::environment(error, format_args!("cannot read `{}`", file.display())),
     };
     if !fs::metadata(file).map_err(io)?.is_file() {
-        return Err(Failure::malformed(format_args!("`{}` is not a file", file.display())));
+        bail!("`{}` is not a file", file.display());
     }
     let mut bytes = Vec::new();
     File::open(file).and_then(|open| open.take(MAX_PROOF + 1).read_to_end(&mut bytes)).map_err(io)?;
     Ok(bytes)
-}
-
-fn malformed(error: ProofError) -> Failure {
-    match error {
-        ProofError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    }
 }

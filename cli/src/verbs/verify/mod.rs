@@ -78,18 +78,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return item::check(&args.snapshot, id, proof, root, console);
     }
     if args.item.is_some() && args.write_proof.is_none() {
-        return Err(Failure::malformed(
-            "--item needs --write-proof FILE, to write its proof, or --proof FILE and --root DIGEST, to check one",
-        ));
+        bail!(
+            "--item needs --write-proof FILE, to write its proof, or --proof FILE and --root DIGEST, to check one"
+        );
     }
     args.write_proof.as_deref().map_or(Ok(()), protected::check)?;
     let bounds = args.max_work.map_or(Bounds::RELEASE, |work| Bounds { work, work_per_level: 0 });
     let mut verification = match verify_within(&args.snapshot, &bounds) {
-        Ok(verification) => verification,
-        Err(error) => match damage(&error) {
-            true => return damaged(error, &args.snapshot, console),
-            false => return Err(failure(error)),
-        },
+        Err(error) if is_damage(&error) => return damaged(error, &args.snapshot, console),
+        verification => verification?,
     };
     if let Some(root) = args.root.filter(|root| *root != verification.root) {
         let problem = format!("{MANIFEST_FILE}: the root is {}, not {root}", verification.root);
@@ -97,7 +94,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let chain = match args.chain.as_slice() {
         [] => None,
-        folders => Some(follow(Link::of(&verification.manifest, &args.snapshot), folders).map_err(failure)?),
+        folders => Some(follow(Link::of(&verification.manifest, &args.snapshot), folders)?),
     };
     let broken = chain.as_ref().map_or(0, |chain| chain.problems.len());
     let unreplayed = matches!(verification.witnesses, Witnesses::NotReplayed { .. });
@@ -190,7 +187,7 @@ fn say_chain(chain: &Chain, console: &Console) {
 }
 
 /// Returns `true` if there is a manifest or an archive, but it is damaged: that is an answer.
-fn damage(error: &SnapshotError) -> bool {
+fn is_damage(error: &SnapshotError) -> bool {
     matches!(
         error,
         SnapshotError::Syntax { .. }
@@ -229,16 +226,18 @@ pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
 }
 
 /// A folder that is not a snapshot, or does not exist, is a malformed question; a disk failure is not.
-pub(crate) fn failure(error: SnapshotError) -> Failure {
-    match error {
-        SnapshotError::Io { action: "examine" | "list" | "open" | "read", ref path, ref source }
-            if matches!(source.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
-        {
-            absent(path)
+impl From<SnapshotError> for Failure {
+    fn from(error: SnapshotError) -> Failure {
+        match error {
+            SnapshotError::Io { action: "examine" | "list" | "open" | "read", ref path, ref source }
+                if matches!(source.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
+            {
+                absent(path)
+            }
+            SnapshotError::Io { .. } => Failure::Environment(error.into()),
+            SnapshotError::NotASnapshot { path } | SnapshotError::NotAFolder { path } => no_snapshot(&path),
+            _ => Failure::Malformed(error.into()),
         }
-        SnapshotError::Io { .. } => Failure::Environment(error.into()),
-        SnapshotError::NotASnapshot { path } | SnapshotError::NotAFolder { path } => no_snapshot(&path),
-        _ => Failure::Malformed(error.into()),
     }
 }
 
@@ -275,7 +274,7 @@ fn no_snapshot(path: &Path) -> Failure {
         Ok(_) if ends("toml") => "may be a recipe: mint it with `arcade release`",
         Ok(_) => "is a file, and not the archive of a snapshot",
     };
-    Failure::malformed(format_args!(
+    malformed!(
         "`{shown}` {what}; a snapshot is a folder with MANIFEST.json, or its .tar.zst from `arcade export`"
-    ))
+    )
 }
