@@ -202,15 +202,12 @@ impl Table {
         writer.write_record(header).expect("memory can be written");
         for row in &self.rows {
             let fields = row.iter().zip(&wide).flat_map(|(cell, wide)| {
+                let one = |field: String| [field, String::new(), String::new()];
                 let fields = match cell {
-                    TableCell::Missing => [String::new(), String::new(), String::new()],
-                    TableCell::Text(text) | TableCell::Figure(text) => {
-                        [in_csv(text), String::new(), String::new()]
-                    }
-                    TableCell::Count(count) => [count.to_string(), String::new(), String::new()],
-                    TableCell::Number { value, .. } | TableCell::Probability(value) => {
-                        [value.to_string(), String::new(), String::new()]
-                    }
+                    TableCell::Missing => one(String::new()),
+                    TableCell::Text(text) | TableCell::Figure(text) => one(in_csv(text)),
+                    TableCell::Count(count) => one(count.to_string()),
+                    TableCell::Number { value, .. } | TableCell::Probability(value) => one(value.to_string()),
                     TableCell::Interval { value, low, high, .. } => [value, low, high].map(f64::to_string),
                 };
                 fields.into_iter().take(if *wide { 3 } else { 1 })
@@ -284,10 +281,7 @@ fn latex(text: &str) -> String {
             '\\' => out += "\\textbackslash{}",
             '~' => out += "\\textasciitilde{}",
             '^' => out += "\\textasciicircum{}",
-            '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
-                out.push('\\');
-                out.push(character);
-            }
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => out.extend(['\\', character]),
             // At the start of a row, a bracket would be read as an option of the line above.
             '[' => out += "{[}",
             ']' => out += "{]}",

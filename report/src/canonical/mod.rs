@@ -73,9 +73,7 @@ impl std::error::Error for CanonicalError {}
 /// # Errors
 /// The first [`Fault`], in the order in which the value serialises itself.
 pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, CanonicalError> {
-    let mut text = String::new();
-    write_all(value, &mut text)?.expect("a string takes all that is written to it");
-    Ok(text)
+    Ok(Node::of(value)?.to_text())
 }
 
 /// Tests whether `bytes` are the canonical JSON of `value`. The text is not built, and the comparison ends at the
@@ -120,16 +118,19 @@ impl Write for Hashed {
 
 /// Writes the canonical JSON to `out`, and returns the result of `out`.
 fn write_all<T: Serialize + ?Sized>(value: &T, out: &mut impl Write) -> Result<fmt::Result, CanonicalError> {
-    let node = Node::of(value)?;
-    Ok(write_node(&node, 0, out).and_then(|()| out.write_str("\n")))
+    Ok(Node::of(value)?.write(out))
 }
 
 impl Node {
     /// The canonical JSON, with a line feed at the end.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
-        write_node(self, 0, &mut text).and_then(|()| text.write_str("\n")).expect("a string takes all");
+        self.write(&mut text).expect("a string takes all that is written to it");
         text
+    }
+
+    fn write(&self, out: &mut impl Write) -> fmt::Result {
+        write_node(self, 0, out).and_then(|()| out.write_str("\n"))
     }
 }
 
