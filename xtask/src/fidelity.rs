@@ -147,32 +147,25 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
         let Cell { game, agent, planner, theirs, ours, .. } = cell;
         let published = paper.iter().find(|(of, in_game, _)| of == agent && in_game == game);
         let published = published.map_or(String::new(), |(_, _, rate)| format!("{rate:.0} %"));
-        let scores = [ours, theirs].map(|results| mean(results, |result| result.score));
-        let ticks = [ours, theirs].map(|results| mean(results, |result| result.ticks));
-        let calls = [ours, theirs].map(|results| mean(results, |result| result.calls));
+        let means = |of: fn(&Result) -> f64| [ours, theirs].map(|results| mean(results, of));
+        let [score, their_score] = means(|result| result.score);
+        let [ticks, their_ticks] = means(|result| result.ticks);
+        let [calls, their_calls] = means(|result| result.calls);
         let by_level = |results: &[Result]| {
             let last = results.iter().map(|result| result.level).max().unwrap_or(0);
             let of = |level| results.iter().filter(|result| result.level == level && result.won).count();
             (0..=last).map(|level| of(level).to_string()).collect::<Vec<_>>().join(" ")
         };
-        let of = |results: &[Result]| format!("{} of {}", wins(results), results.len());
+        let [won, they_won] = [ours, theirs].map(|results| format!("{} of {}", wins(results), results.len()));
+        let [levels, their_levels] = [ours, theirs].map(|results| by_level(results));
         println!(
-            "{game:<12} {planner:<7} {:>9} {:>9} {p:>6.3} {q:>6.3} {published:>6}  {:>6.2} / {:>6.2}  {:>5.0} / {:>5.0}  {:>6.1} / {:>6.1}  {} / {}",
-            of(ours),
-            of(theirs),
-            scores[0],
-            scores[1],
-            ticks[0],
-            ticks[1],
-            calls[0],
-            calls[1],
-            by_level(ours),
-            by_level(theirs),
+            "{game:<12} {planner:<7} {won:>9} {they_won:>9} {p:>6.3} {q:>6.3} {published:>6}  {score:>6.2} / {their_score:>6.2}  \
+             {ticks:>5.0} / {their_ticks:>5.0}  {calls:>6.1} / {their_calls:>6.1}  {levels} / {their_levels}"
         );
         if *q <= FALSE_DISCOVERIES {
             faults.push(format!("{game}, {planner}: win rates differ, q = {q:.4}"));
         }
-        let apart = (scores[0] - scores[1]).abs() / scores[1].abs();
+        let apart = (score - their_score).abs() / their_score.abs();
         if SCORED_GAMES.contains(&game.as_str()) && apart > SCORE_DIFFERENCE {
             faults.push(format!("{game}, {planner}: mean scores differ by {:.0} %", 100.0 * apart));
         }
