@@ -16,14 +16,19 @@ impl Human {
     pub(crate) fn new(prompter: Arc<Prompter>) -> Human {
         Human { prompter, past: Vec::new() }
     }
+
+    /// Shows the rules before the first turn, and returns the prompt of a turn.
+    fn shown(&self, turn: &Turn<'_>) -> String {
+        if turn.number == 0 {
+            show(self.prompter.static_part());
+        }
+        self.prompter.prompt(turn, &self.past, &[]).shown
+    }
 }
 
 impl Agent for Human {
     fn act(&mut self, turn: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
-        let shown = self.prompter.prompt(turn, &self.past, &[]).shown;
-        if turn.number == 0 {
-            show(self.prompter.static_part());
-        }
+        let shown = self.shown(turn);
         show(&format!("\n{shown}"));
         let mut line = String::new();
         loop {
@@ -44,10 +49,7 @@ impl Agent for Human {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, choice: &Choice) -> Result<(), Halt> {
-        if turn.number == 0 {
-            show(self.prompter.static_part());
-        }
-        let shown = self.prompter.prompt(turn, &self.past, &[]).shown;
+        let shown = self.shown(turn);
         self.past.push(Past::new(shown, &[], choice.action));
         Ok(())
     }

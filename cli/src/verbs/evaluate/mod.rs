@@ -22,10 +22,11 @@ use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, 
 use human::Human;
 use indicatif::ProgressBar;
 use itertools::Itertools;
-use model::{ModelArgs, Prompters};
+use model::{ConnectedModel, ModelArgs};
 use serde_json::json;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -95,15 +96,8 @@ enum RequestedPlayer {
     Model(Box<model::RequestedModel>),
 }
 
-enum ConnectedPlayer {
-    Planner(PlannerSpec, Budget),
-    Replay(Replay),
-    Human(Prompters),
-    Prompted(PromptPlayer, Prompters),
-    /// A command line, and the seconds for an answer.
-    Process(String, u64),
-    Model(Box<model::ConnectedModel>),
-}
+/// Makes the player of an episode.
+type PlayerOf = Box<dyn Fn(&Task<'_>) -> Contestant + Sync>;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.runs == 0 || args.max_steps == 0 {
@@ -114,9 +108,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let requested = requested_player(args)?;
     reject_unused_flags(args, &requested)?;
-    let choice =
-        subjects::Choice { games: &args.games, levels: &args.levels, as_reference: args.as_reference };
-    let subjects = subjects::read(&args.subjects, &choice)?;
+    let subjects = subjects::read(args)?;
     let settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,
@@ -142,24 +134,29 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             folder.display()
         );
     }
-    let connected = requested.connect(args, &subjects.games)?;
+    let (contestant, model) = requested.connect(args, &subjects.games)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
     } else {
         Evaluation::create(&folder, settings, subjects.games)
     };
     let evaluation = evaluation?;
-    connected.charge_logged(&evaluation)?;
+    // The expenses of earlier runs of the evaluation count.
+    if let Some(model) = &model {
+        for task in evaluation.tasks() {
+            model.caps.charge_logged(&evaluation.events(&task)?);
+        }
+    }
     let hint = format!(
         "interrupted: finished episodes are in {}; run the same command with --resume to continue",
         folder.display()
     );
     interrupt::watch(end_players, hint);
     let episodes = evaluation.tasks().len();
-    let bar = Bar::new(console, episodes as u64);
-    let contestant = |task: &Task<'_>| Ok::<_, Halt>(connected.contestant(task));
-    let tally =
-        in_pool(Some(connected.threads(args, episodes, console)), || evaluation.run(contestant, &bar));
+    let bar = Bar { bar: console.progress(episodes as u64, "playing"), won: AtomicU64::new(0) };
+    let contestant = |task: &Task<'_>| Ok::<_, Halt>(contestant(task));
+    let threads = requested.threads(args, episodes, console);
+    let tally = in_pool(Some(threads), || evaluation.run(contestant, &bar));
     interrupt::defer();
     let tally = tally?.map_err(|error| match Failure::from(error) {
         Failure::Environment(error) => Failure::environment(
@@ -169,7 +166,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         other => other,
     })?;
     bar.bar.finish_and_clear();
-    print_results(console, &folder, &evaluation.settings.entrant, &tally, &connected)
+    print_results(console, &folder, &evaluation.settings.entrant, &tally, model.as_deref())
 }
 
 /// Prints the expected effort, and the differences that the evaluation could show.
@@ -229,59 +226,52 @@ impl RequestedPlayer {
         Ok(Entrant { name, mode: None, aids, details })
     }
 
-    fn connect(self, args: &Args, subjects: &[Subject]) -> Result<ConnectedPlayer, Failure> {
-        Ok(match self {
-            RequestedPlayer::Planner(spec) => ConnectedPlayer::Planner(spec, Budget(args.budget)),
-            RequestedPlayer::Replay(replay) => ConnectedPlayer::Replay(replay),
-            RequestedPlayer::Human(prompts) => ConnectedPlayer::Human(model::prompters(subjects, &prompts)?),
+    /// Returns the players of the episodes, and the language model, if it is one.
+    fn connect(
+        &self,
+        args: &Args,
+        subjects: &[Subject],
+    ) -> Result<(PlayerOf, Option<Arc<ConnectedModel>>), Failure> {
+        let contestant: PlayerOf = match self {
+            RequestedPlayer::Planner(spec) => {
+                let (spec, budget) = (spec.clone(), Budget(args.budget));
+                Box::new(move |_| Contestant::Planner { spec: spec.clone(), budget })
+            }
+            RequestedPlayer::Replay(replay) => {
+                let replay = replay.clone();
+                Box::new(move |_| Contestant::Agent(Box::new(replay.clone())))
+            }
+            RequestedPlayer::Human(prompts) => {
+                let prompters = model::prompters(subjects, prompts)?;
+                let player = move |task: &Task<'_>| Human::new(prompters[&task.subject.id].clone());
+                Box::new(move |task| Contestant::Agent(Box::new(player(task))))
+            }
             RequestedPlayer::Prompted(player, prompts) => {
-                ConnectedPlayer::Prompted(player, model::prompters(subjects, &prompts)?)
+                let (player, prompters) = (player.clone(), model::prompters(subjects, prompts)?);
+                let prompter = move |task: &Task<'_>| prompters[&task.subject.id].clone();
+                Box::new(move |task| {
+                    Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter(task))))
+                })
             }
-            RequestedPlayer::Process(process) => {
-                ConnectedPlayer::Process(process.command().to_owned(), args.model.timeout)
+            RequestedPlayer::Process(read) => {
+                let (command, timeout) = (read.command().to_owned(), args.model.timeout);
+                let process = move || process(&command, timeout).expect("it was read before");
+                Box::new(move |_| Contestant::Agent(Box::new(process())))
             }
-            RequestedPlayer::Model(model) => ConnectedPlayer::Model(Box::new(model.connect(subjects)?)),
-        })
-    }
-}
-
-impl ConnectedPlayer {
-    fn contestant(&self, task: &Task<'_>) -> Contestant {
-        match self {
-            ConnectedPlayer::Planner(spec, budget) => {
-                Contestant::Planner { spec: spec.clone(), budget: *budget }
+            RequestedPlayer::Model(model) => {
+                let model = Arc::new(model.connect(subjects)?);
+                let connected = model.clone();
+                return Ok((Box::new(move |task| connected.contestant(task)), Some(model)));
             }
-            ConnectedPlayer::Replay(replay) => Contestant::Agent(Box::new(replay.clone())),
-            ConnectedPlayer::Human(prompters) => {
-                Contestant::Agent(Box::new(Human::new(prompters[&task.subject.id].clone())))
-            }
-            ConnectedPlayer::Prompted(player, prompters) => {
-                let prompter = prompters[&task.subject.id].clone();
-                Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter)))
-            }
-            ConnectedPlayer::Process(command, timeout) => {
-                let process = process(command, *timeout).expect("it was read before");
-                Contestant::Agent(Box::new(process))
-            }
-            ConnectedPlayer::Model(model) => model.contestant(task),
-        }
-    }
-
-    /// Charges the expenses of earlier runs of the evaluation.
-    fn charge_logged(&self, evaluation: &Evaluation) -> Result<(), Failure> {
-        if let ConnectedPlayer::Model(model) = self {
-            for task in evaluation.tasks() {
-                model.caps.charge_logged(&evaluation.events(&task)?);
-            }
-        }
-        Ok(())
+        };
+        Ok((contestant, None))
     }
 
     /// Returns the number of concurrent episodes, at most their number. Episodes of models wait most of the time.
     fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
-            ConnectedPlayer::Model(_) => args.model.concurrency.get(),
-            ConnectedPlayer::Human(_) => 1,
+            RequestedPlayer::Model(_) => args.model.concurrency.get(),
+            RequestedPlayer::Human(_) => 1,
             _ => {
                 args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
             }
@@ -380,15 +370,12 @@ fn print_results(
     folder: &Path,
     entrant: &Entrant,
     tally: &Tally,
-    connected: &ConnectedPlayer,
+    model: Option<&ConnectedModel>,
 ) -> Answer {
-    let spent = match connected {
-        ConnectedPlayer::Model(model) => {
-            let spent = model.caps.spent();
-            Some((spent, model.is_priced.then(|| spent.cost.dollars())))
-        }
-        _ => None,
-    };
+    let spent = model.map(|model| {
+        let spent = model.caps.spent();
+        (spent, model.is_priced.then(|| spent.cost.dollars()))
+    });
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
@@ -430,12 +417,6 @@ impl From<EvaluationError> for Failure {
 struct Bar {
     bar: ProgressBar,
     won: AtomicU64,
-}
-
-impl Bar {
-    fn new(console: &Console, episodes: u64) -> Bar {
-        Bar { bar: console.progress(episodes, "playing"), won: AtomicU64::new(0) }
-    }
 }
 
 impl Progress for Bar {

@@ -255,9 +255,9 @@ impl ModelArgs {
 }
 
 /// The prompters of the games, by game id.
-pub(crate) type Prompters = BTreeMap<String, Arc<Prompter>>;
+type Prompters = BTreeMap<String, Arc<Prompter>>;
 
-pub(crate) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Result<Prompters, Failure> {
+pub(super) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Result<Prompters, Failure> {
     let prompter = |subject: &Subject| {
         let prompter = Prompter::new(subject, settings.clone())?;
         Ok((subject.id.clone(), Arc::new(prompter)))

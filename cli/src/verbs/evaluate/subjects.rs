@@ -1,5 +1,6 @@
 //! The subjects of an evaluation: the games of a snapshot, or games as the user names them.
 
+use super::Args;
 use crate::diagnostics;
 use crate::embedded;
 use crate::failure::Failure;
@@ -24,27 +25,20 @@ pub(crate) struct Subjects {
     pub(crate) games: Vec<Subject>,
 }
 
-/// The selected part of the named games.
-pub(crate) struct Choice<'a> {
-    pub(crate) games: &'a [String],
-    pub(crate) levels: &'a [usize],
-    pub(crate) as_reference: bool,
-}
-
 /// Reads the named subjects: a snapshot's folder, or games.
-pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Failure> {
+pub(super) fn read(args: &Args) -> Result<Subjects, Failure> {
     let (mut snapshot, mut games): (_, Vec<Subject>) = (None, Vec::new());
-    for name in names {
+    for name in &args.subjects {
         let place = Path::new(name);
         if is_snapshot(place) {
-            if names.len() > 1 {
+            if args.subjects.len() > 1 {
                 bail!("{name}: a snapshot is evaluated alone; remove the other games");
             }
-            let (root, found) = of_snapshot(place, choice)?;
+            let (root, found) = of_snapshot(place, args)?;
             (snapshot, games) = (Some(root), found);
         } else {
             for input in input::games(name)? {
-                games.extend(of_input(&input, choice)?);
+                games.push(of_input(&input, args)?);
             }
         }
     }
@@ -52,23 +46,23 @@ pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Fa
     if let Some(twice) = games.iter().find(|subject| !ids.insert(&subject.id)) {
         bail!("two games have the id `{}`; name only one of them", twice.id);
     }
-    if let Some(unknown) = choice.games.iter().find(|id| !ids.contains(*id)) {
+    if let Some(unknown) = args.games.iter().find(|id| !ids.contains(*id)) {
         let help = help_with(unknown, &games);
         bail!("--games: there is no `{unknown}` among them; {help}");
     }
-    games.retain(|subject| choice.games.is_empty() || choice.games.contains(&subject.id));
+    games.retain(|subject| args.games.is_empty() || args.games.contains(&subject.id));
     if games.iter().all(|subject| subject.levels.is_empty()) {
         bail!("there is no level to play; see --levels");
     }
     Ok(Subjects { snapshot, games })
 }
 
-fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, Failure> {
+fn of_input(input: &GameInput, args: &Args) -> Result<Subject, Failure> {
     let id = slug(&input.title);
     let title = embedded::corpus()?.find(&input.title).map(|known| known.card.title.clone());
     let facts = SubjectFacts {
         title: title.unwrap_or_else(|| id.clone()),
-        as_reference: choice.as_reference,
+        as_reference: args.as_reference,
         ..SubjectFacts::default()
     };
     let named = input.levels()?;
@@ -78,10 +72,10 @@ fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, F
             input.source.name
         );
     }
-    let wanted = named.iter().enumerate().filter(|(number, _)| choice.wants(*number));
+    let wanted = named.iter().enumerate().filter(|(number, _)| args.wants(*number));
     let levels: Vec<_> = wanted.map(|(number, level)| (number, level.text.clone(), None)).collect();
     let subject = Subject::read(&id, &input.source.text, &levels, facts);
-    subject.map(Some).map_err(|Unreadable { level, problems }| {
+    subject.map_err(|Unreadable { level, problems }| {
         let file = level.map_or(&input.source, |number| &named[number]);
         diagnostics::failure(file, &problems.0)
     })
@@ -144,7 +138,7 @@ impl<'a> Files<'a> {
     }
 }
 
-fn of_snapshot(place: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject>), Failure> {
+fn of_snapshot(place: &Path, args: &Args) -> Result<(Digest, Vec<Subject>), Failure> {
     let (integrity, files) = Files::open(place)?;
     if let Some(problem) = integrity.problems.first() {
         let place = place.display();
@@ -164,7 +158,7 @@ fn of_snapshot(place: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject
             .map_err(|error| malformed!("{}: not a card: {error}", shown("card.json")))?;
         let source = files.text(&path("game.vgdl"), MAX_SOURCE)?;
         let mut levels = Vec::new();
-        for (number, level) in card.levels.iter().enumerate().filter(|(number, _)| choice.wants(*number)) {
+        for (number, level) in card.levels.iter().enumerate().filter(|(number, _)| args.wants(*number)) {
             let text = files.text(&path(&level.file), MAX_LEVEL_TEXT)?;
             levels.push((number, text, level.optimal_ticks));
         }
@@ -181,7 +175,7 @@ fn of_snapshot(place: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject
     Ok((manifest.root, games))
 }
 
-impl Choice<'_> {
+impl Args {
     fn wants(&self, level: usize) -> bool {
         self.levels.is_empty() || self.levels.contains(&level)
     }
