@@ -79,6 +79,11 @@ impl GameInput {
         self.levels.iter().map(LevelInput::read).collect()
     }
 
+    /// Returns the levels that come with the game, checked.
+    pub(crate) fn checked_levels(&self, game: &Game) -> Result<Vec<Level>, Failure> {
+        self.levels()?.iter().map(|named| named.level(game)).collect()
+    }
+
     /// Returns a level as the user names it: a file, or the number of one that comes with the game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
         let path = Path::new(name);
@@ -257,14 +262,10 @@ pub(crate) fn first_file(folder: &Path, names: [&str; 2]) -> Result<Option<PathB
 
 fn level_files(folder: &Path) -> Result<Vec<LevelInput>, Failure> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let number = |path: &PathBuf| {
-        let stem = path.file_name()?.to_str()?.strip_prefix("lvl")?.strip_suffix(".txt")?;
-        stem.parse::<u32>().ok()
-    };
-    let mut files: Vec<(u32, PathBuf)> =
-        sorted_entries(folder)?.into_iter().filter_map(|path| Some((number(&path)?, path))).collect();
-    files.sort();
-    Ok(files.into_iter().map(|(_, path)| LevelInput::File(path)).collect())
+    let mut files: Vec<LevelInput> = sorted_entries(folder)?.into_iter().map(LevelInput::File).collect();
+    files.retain(|file| file.number().is_some());
+    files.sort_by_key(LevelInput::number);
+    Ok(files)
 }
 
 /// Returns the entries of a folder, sorted by name.

@@ -110,11 +110,8 @@ impl Panel {
             Measure::Steps => |value| format!("{value:.0}"),
             _ => two_digits,
         };
-        let heads = |share: &str| {
-            if shown == Measure::WinRate { format!("{share}\u{a0}%") } else { share.to_owned() }
-        };
         let (low, high) = match shown {
-            Measure::WinRate => (heads("0"), heads("100")),
+            Measure::WinRate => (words::whole_percent(0.0), words::whole_percent(1.0)),
             Measure::Steps => ("0".to_owned(), words::grouped(scale[1] as u64)),
             _ => ("0".to_owned(), "1".to_owned()),
         };

@@ -10,8 +10,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use minijinja::Environment;
 use minijinja::value::{Serde, Value};
+use render::{Picture, RenderError, png};
 use serde::Serialize;
-use std::borrow::Cow;
 
 /// The templates that a page may include or import.
 const SHARED: [(&str, &str); 4] = [
@@ -22,22 +22,19 @@ const SHARED: [(&str, &str); 4] = [
 ];
 
 #[derive(Serialize)]
-pub(crate) struct Figure<'a> {
+pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
-    head: Cow<'a, str>,
-    line: Cow<'a, str>,
+    head: String,
+    /// Empty; the nonce of a page covers it.
+    line: &'static str,
 }
 
-impl<'a> Figure<'a> {
-    /// A PNG of this size, with its caption.
-    pub(crate) fn new(
-        png: &[u8],
-        size: [u32; 2],
-        head: impl Into<Cow<'a, str>>,
-        line: impl Into<Cow<'a, str>>,
-    ) -> Figure<'a> {
-        Figure { png: STANDARD.encode(png), size, head: head.into(), line: line.into() }
+impl Figure {
+    /// A picture as a PNG, with its caption.
+    pub(crate) fn of(picture: &Picture, head: String) -> Result<Figure, RenderError> {
+        let size = [picture.width(), picture.height()];
+        Ok(Figure { png: STANDARD.encode(png(picture)?), size, head, line: "" })
     }
 
     /// Returns the size of its PNG in bytes.

@@ -1,8 +1,8 @@
 //! A set of games as a page.
 
-use super::{MOST, Sheet, Shot, Showcase, cell, failed, figure, made_in, write};
+use super::{MOST, Sheet, Shot, Showcase, cell, failed, made_in, write};
 use crate::failure::Failure;
-use crate::page::words;
+use crate::page::{Figure, words};
 use engine::{Analysis, Level, Seed, State};
 use forge::games::report::GameSetReport;
 use forge::survey::SurveyedGame;
@@ -23,9 +23,10 @@ pub(crate) fn game_report(
     let (mut entries, mut shots) = (Vec::new(), Vec::new());
     for ((at, game), entry) in games.iter().enumerate().zip(&report.games) {
         let drawn = if at < MOST { drawn(game)? } else { None };
+        let figure = drawn.as_ref().map(|picture| Figure::of(picture, entry.title.clone()));
         let chips = entry.levels.iter().enumerate().map(|(number, level)| chip(number, level.label));
         shots.push(Shot {
-            figure: drawn.as_ref().map(|picture| figure(picture, &entry.title)).transpose()?,
+            figure: figure.transpose().map_err(failed)?,
             head: entry.title.clone(),
             goal: entry.goal.clone(),
             line: entry.remark(),
@@ -78,16 +79,9 @@ fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
 }
 
 /// The mark of a level: its class and its words.
-fn chip(number: usize, label: Option<Difficulty>) -> (&'static str, String) {
-    let class = match label {
-        Some(Difficulty::VeryEasy) => "d0",
-        Some(Difficulty::Easy) => "d1",
-        Some(Difficulty::Medium) => "d2",
-        Some(Difficulty::Hard) => "d3",
-        Some(Difficulty::VeryHard) => "d4",
-        Some(Difficulty::Unbeaten) => "d5",
-        None => "dx",
-    };
+fn chip(number: usize, label: Option<Difficulty>) -> (String, String) {
+    // From `d0`, very easy, to `d5`, unbeaten.
+    let class = label.map_or("dx".to_owned(), |label| format!("d{}", label as usize));
     let label = label.map_or("not measured".to_owned(), |label| label.to_string());
     (class, format!("level {number}: {label}"))
 }

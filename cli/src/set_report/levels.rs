@@ -1,37 +1,25 @@
 //! A set of levels as a page.
 
-use super::{MOST, Sheet, Shot, Showcase, cell, failed, figure, made_in, write};
+use super::{MOST, Sheet, Shot, Showcase, cell, failed, made_in, write};
 use crate::failure::Failure;
-use crate::page::{plots, words};
+use crate::page::{Figure, plots, words};
 use engine::{Analysis, Level, Seed};
 use forge::levels::report::{BINS, LevelSetReport};
 use render::{Looks, Picture, Style, picture};
 use snapshots::Draft;
 
-/// The parts of a page on levels that the report does not hold.
-pub(crate) struct Pictures<'a> {
-    /// The game, as people call it.
-    pub(crate) title: &'a str,
-    pub(crate) method: &'a str,
-    /// The meaning of the game's rules.
-    pub(crate) analysis: &'a Analysis,
-    /// The levels, in the order of the report's rows.
-    pub(crate) levels: &'a [Level],
-    /// The game's own levels.
-    pub(crate) examples: &'a [Level],
-    /// The time of making; shown on the page, and nowhere in the JSON.
-    pub(crate) seconds: Option<f64>,
-}
-
 /// Pixels of the longer side of a board, about.
 const SIDE: u32 = 320;
 
+/// Writes the report on a set of levels, which are in the order of its rows, beside the game's own; `title` is the game as
+/// people call it. The time of making is shown on the page, and nowhere in the JSON.
 pub(crate) fn level_report(
     draft: Draft,
     report: &LevelSetReport,
-    pictures: &Pictures<'_>,
+    analysis: &Analysis,
+    [levels, own]: [&[Level]; 2],
+    (title, method, seconds): (&str, &str, Option<f64>),
 ) -> Result<(), Failure> {
-    let Pictures { title, method, analysis, seconds, .. } = *pictures;
     let (looks, game) = (Looks::of(analysis), analysis.game());
     // As they are in the first tick.
     let drawn = |level: &Level| -> Result<Picture, Failure> {
@@ -40,11 +28,11 @@ pub(crate) fn level_report(
     };
     let shot = |level: &Level, head: String, line: String| -> Result<(Picture, Shot), Failure> {
         let picture = drawn(level)?;
-        let figure = Some(figure(&picture, &format!("{head}: {line}"))?);
+        let figure = Some(Figure::of(&picture, format!("{head}: {line}")).map_err(failed)?);
         Ok((picture, Shot { figure, head, goal: String::new(), line, chips: Vec::new() }))
     };
     let (mut entries, mut shots) = (Vec::new(), Vec::new());
-    for ((at, row), level) in report.levels.iter().enumerate().zip(pictures.levels).take(MOST) {
+    for ((at, row), level) in report.levels.iter().enumerate().zip(levels).take(MOST) {
         let difficulty = row.difficulty();
         let comma = if difficulty.is_empty() { "" } else { ", " };
         let (picture, shot) = shot(level, format!("{at}{comma}{difficulty}"), row.remark(true))?;
@@ -56,7 +44,7 @@ pub(crate) fn level_report(
         let line = format!("{} × {}", level.columns(), level.rows());
         Ok(shot(level, format!("level {at}"), line)?.1)
     };
-    let examples = pictures.examples.iter().enumerate().map(example).collect::<Result<_, Failure>>()?;
+    let examples = own.iter().enumerate().map(example).collect::<Result<_, Failure>>()?;
     let ranges = report.ranges.iter().map(|range| {
         let caption = format!("{} of {} cells hold a level", range.occupied, BINS * BINS);
         (plots::range(range), caption)

@@ -6,7 +6,7 @@ mod levels;
 mod page;
 
 pub(crate) use games::game_report;
-pub(crate) use levels::{Pictures, level_report};
+pub(crate) use levels::level_report;
 
 use crate::failure::Failure;
 use crate::page::Figure;
@@ -43,13 +43,13 @@ struct Sheet(Vec<(Picture, String)>, usize, u32);
 /// A level or a game in a picture.
 #[derive(Serialize)]
 struct Shot {
-    figure: Option<Figure<'static>>,
+    figure: Option<Figure>,
     head: String,
     /// The way to win a game.
     goal: String,
     line: String,
     /// The difficulties of a game's levels: class and words.
-    chips: Vec<(&'static str, String)>,
+    chips: Vec<(String, String)>,
 }
 
 /// Items that are drawn at most; the tables tell of all.
@@ -73,11 +73,6 @@ fn write(draft: Draft, report: &SetReport, showcase: &Showcase<'_>) -> Result<()
 fn cell(level: &engine::Level, side: u32, most: u32) -> u32 {
     let longest = u32::try_from(level.columns().max(level.rows())).unwrap_or(u32::MAX);
     (side / longest.max(1)).clamp(8, most)
-}
-
-fn figure(picture: &Picture, alt: &str) -> Result<Figure<'static>, Failure> {
-    let bytes = png(picture).map_err(failed)?;
-    Ok(Figure::new(&bytes, [picture.width(), picture.height()], alt.to_owned(), ""))
 }
 
 fn failed(error: RenderError) -> Failure {

@@ -68,6 +68,8 @@ struct Entry<'a> {
 /// A played episode: a line of `--csv`.
 #[derive(Serialize)]
 struct Line<'a> {
+    #[serde(skip)]
+    entry: &'a Entry<'a>,
     game: &'a str,
     planner: &'a str,
     budget: u64,
@@ -136,7 +138,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         played.collect()
     })?;
     bar.finish_and_clear();
-    speeds(console, &planners, &entries, &lines, started.seconds());
+    speeds(console, &planners, &lines, started.seconds());
 
     let report = Report {
         semantics: SEMANTICS,
@@ -144,7 +146,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         runs: args.runs,
         max_ticks: args.max_ticks,
         as_reference: args.as_reference,
-        rows: rows(args, &subjects, &planners, &entries, &lines),
+        rows: rows(args, &subjects, &planners, &lines),
     };
     // Print the answer first: it is not lost if the file cannot be written.
     console.document(&report)?;
@@ -186,8 +188,7 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
     for name in &args.games {
         for input in input::games(name)? {
             let game = input.compile(args.as_reference)?;
-            let levels =
-                input.levels()?.iter().map(|named| named.level(&game)).collect::<Result<Vec<_>, _>>()?;
+            let levels = input.checked_levels(&game)?;
             if levels.is_empty() {
                 bail!("{}: the game has no levels", input.source.name);
             }
@@ -199,7 +200,7 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
 
 /// Plays an episode. Its seed depends only on game, level, planner and run: adding a game or a planner changes no
 /// other episode.
-fn play_entry<'a>(args: &Args, entry: &Entry<'a>) -> Line<'a> {
+fn play_entry<'a>(args: &Args, entry: &'a Entry<'a>) -> Line<'a> {
     let Entry { subject, level, planner, run } = *entry;
     let seed = Seed::from_text(&args.seed)
         .child(&subject.game.digest().to_string(), 0)
@@ -212,6 +213,7 @@ fn play_entry<'a>(args: &Args, entry: &Entry<'a>) -> Line<'a> {
     let chance = seed.child("chance", 0);
     let played = play(&subject.game, &subject.levels[level], &mut player, Budget(budget), chance, limits);
     Line {
+        entry,
         game: &subject.title,
         planner: planner.name(),
         budget,
@@ -236,20 +238,14 @@ fn budget(args: &Args, planner: &PlannerSpec) -> u64 {
 }
 
 /// Reports the speed of each planner: calls in a second of one thread.
-fn speeds(
-    console: &Console,
-    planners: &[PlannerSpec],
-    entries: &[Entry<'_>],
-    lines: &[Line<'_>],
-    seconds: f64,
-) {
+fn speeds(console: &Console, planners: &[PlannerSpec], lines: &[Line<'_>], seconds: f64) {
     let calls: u64 = lines.iter().map(|line| line.calls).sum();
     let rate = calls as f64 / seconds;
     console.remark(format_args!("{} episodes, {calls} forward-model calls, {rate:.0} calls/s", lines.len()));
     for planner in planners.iter().filter(|_| planners.len() > 1) {
-        let own = entries.iter().zip(lines).filter(|(entry, _)| entry.planner == planner);
+        let own = lines.iter().filter(|line| line.entry.planner == planner);
         let (calls, seconds) =
-            own.fold((0, 0.0), |(calls, seconds), (_, line)| (calls + line.calls, seconds + line.seconds));
+            own.fold((0, 0.0), |(calls, seconds), line| (calls + line.calls, seconds + line.seconds));
         let rate = calls as f64 / seconds;
         console.remark(format_args!("  {planner}: {calls} calls, {rate:.0} calls/s in a thread"));
     }
@@ -259,16 +255,15 @@ fn rows<'a>(
     args: &Args,
     subjects: &'a [Subject],
     planners: &'a [PlannerSpec],
-    entries: &[Entry<'a>],
     lines: &[Line<'a>],
 ) -> Vec<Row<'a>> {
     let row = |subject: Option<&'a Subject>, level: Option<usize>, planner: &'a PlannerSpec| {
-        let own = entries.iter().zip(lines).filter(|(entry, _)| {
-            entry.planner == planner
-                && subject.is_none_or(|subject| std::ptr::eq(subject, entry.subject))
-                && level.is_none_or(|level| level == entry.level)
-        });
-        let lines: Vec<&Line<'_>> = own.map(|(_, line)| line).collect();
+        let is_own = |line: &&Line<'_>| {
+            line.entry.planner == planner
+                && subject.is_none_or(|subject| std::ptr::eq(subject, line.entry.subject))
+                && level.is_none_or(|level| level == line.level)
+        };
+        let lines: Vec<&Line<'_>> = lines.iter().filter(is_own).collect();
         let count = |outcome| lines.iter().filter(|line| line.outcome == outcome).count() as u64;
         let mean = |of: fn(&Line<'_>) -> f64| {
             let values: Vec<f64> = lines.iter().map(|line| of(line)).collect();

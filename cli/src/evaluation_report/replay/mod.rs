@@ -10,7 +10,7 @@ use evaluation::log::Event;
 use evaluation::run::Task;
 use evaluation::{Evaluation, Validity};
 use frames::{Boards, Tiles};
-use render::{Looks, RenderError, Style, picture, png};
+use render::{Looks, RenderError, Style, picture};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use talk::{Talk, talks};
@@ -48,7 +48,7 @@ struct Replay {
     size: [u32; 2],
     /// The data of the script: tiles, changes from board to board, the text below each.
     data: String,
-    stills: Vec<Figure<'static>>,
+    stills: Vec<Figure>,
     /// Every action, with equal ones in a row counted.
     actions: String,
     /// The prompt before the player's first decision.
@@ -268,13 +268,12 @@ fn still(decision: usize, steps: usize) -> Option<&'static str> {
     between.then_some("")
 }
 
-fn figure(looks: &Looks, state: &State, head: &'static str, at: usize) -> Result<Figure<'static>, Failure> {
+fn figure(looks: &Looks, state: &State, head: &'static str, at: usize) -> Result<Figure, Failure> {
     let (columns, rows) = state.size();
     let cell = (STILL / columns.max(rows).max(1).cast_unsigned()).clamp(4, 24);
     let drawn = picture(looks, state, &Style::bare(cell)).map_err(failed)?;
-    let size = [drawn.width(), drawn.height()];
     let head = if head.is_empty() { format!("step {at}") } else { head.to_owned() };
-    Ok(Figure::new(&png(&drawn).map_err(failed)?, size, head, ""))
+    Figure::of(&drawn, head).map_err(failed)
 }
 
 fn failed(error: RenderError) -> Failure {

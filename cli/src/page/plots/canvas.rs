@@ -2,6 +2,7 @@
 
 use super::{Label, shortened};
 use crate::page::facts::number;
+use render::escaped;
 use std::fmt::Write;
 
 /// The most letters of a row's name.
@@ -120,8 +121,4 @@ fn way(points: &[[f64; 2]]) -> String {
         format!("{}{} {}", if at == 0 { 'M' } else { 'L' }, number(*x), number(*y))
     };
     points.iter().enumerate().map(point).collect()
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

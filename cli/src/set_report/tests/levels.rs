@@ -1,6 +1,6 @@
 use super::page;
 use crate::input;
-use crate::set_report::{Pictures, level_report};
+use crate::set_report::level_report;
 use engine::{Analysis, Level, Seed};
 use forge::levels::Cost;
 use forge::levels::report::{LevelSetReport, Sample};
@@ -38,15 +38,9 @@ fn write(name: &str, dir: &Path) -> LevelSetReport {
         pool: &[Difficulty::Easy, Difficulty::Hard, Difficulty::Hard],
         cost: &cost,
     });
-    let pictures = Pictures {
-        title: name,
-        method: "constructive",
-        analysis: &analysis,
-        levels: &levels,
-        examples: &levels[..1],
-        seconds: Some(3.5),
-    };
-    level_report(Draft::create(dir).unwrap(), &report, &pictures).unwrap();
+    let draft = Draft::create(dir).unwrap();
+    let made = (name, "constructive", Some(3.5));
+    level_report(draft, &report, &analysis, [&levels, &levels[..1]], made).unwrap();
     report
 }
 

@@ -224,21 +224,17 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
         let _ = writeln!(text, "  {:<width$}  {goal}", "");
         let _ = writeln!(text, "  {:<width$}  {id}", "");
     }
-    let tally = &set.tally;
+    let GameSet { games, looks, tally, .. } = set;
+    let (made, asked, judged, tried) = (games.len(), args.count, tally.games_tried, tally.levels_tried);
+    let millions = tally.calls as f64 / 1e6;
     let _ = writeln!(
         text,
-        "\n{} of {} games in {seconds:.1} s; {} inspected, {} judged, {} levels tried; {:.1} million forward-model calls",
-        set.games.len(),
-        args.count,
-        set.looks,
-        tally.games_tried,
-        tally.levels_tried,
-        tally.calls as f64 / 1e6
+        "\n{made} of {asked} games in {seconds:.1} s; {looks} inspected, {judged} judged, {tried} levels tried; {millions:.1} million forward-model calls"
     );
     if !tally.rejections.is_empty() {
         let _ = writeln!(text, "rejected: {}", tally.reasons());
     }
-    let missing = args.count as usize - set.games.len();
+    let missing = asked as usize - made;
     if missing > 0 {
         let _ = writeln!(text, "{missing} could not be made: request less, other kinds, or use another seed");
     }

@@ -5,7 +5,7 @@ use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
 use crate::protected;
-use crate::set_report::{Pictures, level_report};
+use crate::set_report::level_report;
 use crate::verbs::release::in_pool;
 use engine::{Analysis, Game, Level, Seed, SpriteType};
 use forge::levels::report::{LevelSetReport, Sample};
@@ -95,7 +95,7 @@ fn count(text: &str) -> Result<(String, usize), String> {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
-    let examples = examples(&input, &game)?;
+    let examples = input.checked_levels(&game)?;
     let order = order(args, &examples, &game)?;
     // Check the place to write to before minutes of work.
     let draft = protected::draft(&args.out)?;
@@ -107,15 +107,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bar.0.finish_and_clear();
     let set = match made {
         Ok(set) => set,
-        Err(error @ LevelsError::NoneAccepted { .. }) => {
-            console.document(&none(&error))?;
-            console.remark(format_args!("{}: {error}", args.game));
-            return Ok(false);
-        }
-        Err(error @ LevelsError::NoBoard(_)) => {
-            console.document(&none(&error))?;
-            let advice = "request fewer sprites (--with), or larger boards (--size)";
-            console.remark(format_args!("{}: {error}; {advice}", args.game));
+        Err(error @ (LevelsError::NoneAccepted { .. } | LevelsError::NoBoard(_))) => {
+            let advice = match error {
+                LevelsError::NoBoard(_) => "; request fewer sprites (--with), or larger boards (--size)",
+                _ => "",
+            };
+            console.document(&json!({ "levels": [], "reason": error.to_string() }))?;
+            console.remark(format_args!("{}: {error}{advice}", args.game));
             return Ok(false);
         }
         Err(error) => bail!("{}: {error}", args.game),
@@ -132,15 +130,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.document(&document(args, &game, &set))?;
     console.say(summary(args, &set, seconds).trim_end());
     Ok(set.levels.len() == args.count as usize)
-}
-
-/// Returns the answer for programs if no level was made.
-fn none(error: &LevelsError) -> serde_json::Value {
-    json!({ "levels": [], "reason": error.to_string() })
-}
-
-fn examples(input: &GameInput, game: &Game) -> Result<Vec<Level>, Failure> {
-    input.levels()?.iter().map(|named| named.level(game)).collect()
 }
 
 fn order(args: &Args, examples: &[Level], game: &Game) -> Result<LevelOrder, Failure> {
@@ -209,15 +198,8 @@ fn report(
         pool: &pool,
         cost: &set.cost,
     });
-    let pictures = Pictures {
-        title: &args.game,
-        method: args.method.name(),
-        analysis: &analysis,
-        levels: &levels,
-        examples,
-        seconds: Some(seconds),
-    };
-    level_report(draft, &report, &pictures)
+    let made = (args.game.as_str(), args.method.name(), Some(seconds));
+    level_report(draft, &report, &analysis, [&levels, examples], made)
 }
 
 struct Bar(ProgressBar);
@@ -295,17 +277,13 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
         }
         text.push('\n');
     }
-    let missing = args.count as usize - set.levels.len();
-    let cost = &set.cost;
+    let (made, asked, cost) = (set.levels.len(), args.count, &set.cost);
+    let (looks, judged, millions) = (cost.looks, cost.judged, cost.calls as f64 / 1e6);
     let _ = writeln!(
         text,
-        "{} of {} levels in {seconds:.1} s; {} inspected, {} judged; {:.1} million forward-model calls",
-        set.levels.len(),
-        args.count,
-        cost.looks,
-        cost.judged,
-        cost.calls as f64 / 1e6
+        "{made} of {asked} levels in {seconds:.1} s; {looks} inspected, {judged} judged; {millions:.1} million forward-model calls"
     );
+    let missing = asked as usize - made;
     if !cost.rejections.is_empty() {
         let _ = writeln!(text, "rejected: {}", cost.reasons());
     }
