@@ -16,16 +16,17 @@ pub(crate) const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 /// If that fails, or if the process is killed, the previous content is untouched. Links are followed. Devices and
 /// pipes (`/dev/stdout`) are written in place.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    write_with(path, |file| file.write_all(bytes))
+    protected::check(path)?;
+    replace(path, |file| file.write_all(bytes)).map_err(|error| Failure::write(path, error))
 }
 
-/// Like [`write()`], for content that is written in pieces.
-pub(crate) fn write_with(
-    path: &Path,
-    content: impl FnOnce(&mut File) -> io::Result<()>,
-) -> Result<(), Failure> {
-    protected::check(path)?;
-    replace(path, content).map_err(|error| Failure::write(path, error))
+/// Writes a new file; if it cannot be written completely, it is removed, so that it is not in the way.
+pub(crate) fn create(options: &mut OpenOptions, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    fill(options.write(true).create_new(true).open(path)?, path, bytes)
+}
+
+fn fill(mut file: File, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    file.write_all(bytes).and_then(|()| file.sync_all()).inspect_err(|_| drop(fs::remove_file(path)))
 }
 
 fn replace(path: &Path, content: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
@@ -101,21 +102,34 @@ mod tests {
         listed.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect()
     }
 
+    /// An empty secret would have to be removed by hand, because a secret is never overwritten.
+    #[test]
+    fn partial_new_files_are_removed() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let place = home.path().join("new.secret.json");
+        fs::write(&place, "").expect("written");
+        let unwritable = File::open(&place).expect("there");
+        assert!(fill(unwritable, &place, b"secret").is_err());
+        assert!(!place.exists());
+        create(&mut OpenOptions::new(), &place, b"secret").expect("written");
+        assert_eq!(fs::read(&place).expect("there"), b"secret");
+    }
+
     #[test]
     fn failed_writes_keep_the_old_file() {
         let home = tempfile::tempdir().expect("temporary folder");
         let path = home.path().join("win.json");
         write(&path, b"old").expect("written");
         // Simulates a disk that is full after some bytes.
-        let cut = write_with(&path, |file| {
+        let cut = replace(&path, |file| {
             file.write_all(b"ne")?;
             Err(ErrorKind::StorageFull.into())
         });
-        let error = cut.expect_err("cut");
+        let error = Failure::write(&path, cut.expect_err("cut"));
         assert_eq!(error.code(), crate::failure::ENVIRONMENT);
         assert_eq!(fs::read(&path).expect("there"), b"old");
         assert_eq!(names(home.path()), ["win.json"]);
-        let cut = write_with(&home.path().join("other"), |_| Err(ErrorKind::StorageFull.into()));
+        let cut = replace(&home.path().join("other"), |_| Err(ErrorKind::StorageFull.into()));
         assert!(cut.is_err());
         assert_eq!(names(home.path()), ["win.json"]);
         write(&path, b"new").expect("written");

@@ -7,10 +7,10 @@ use crate::failure::Answer;
 use crate::interrupt;
 use crate::protected;
 use crate::shell;
-use crate::verbs::release::{ProgressBars, in_pool};
+use crate::verbs::release::{ProgressBars, commit, in_pool};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
-use snapshots::{Draft, MANIFEST_FILE, Regeneration};
+use snapshots::{Draft, Regeneration};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -72,12 +72,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bars.finish();
     interrupt::defer();
     if let Some(draft) = draft {
-        let manifest = result.minted.manifest.to_bytes()?;
-        draft.write(MANIFEST_FILE, &manifest)?;
-        for (path, text) in result.minted.papers() {
-            draft.write(&path, text.as_bytes())?;
-        }
-        draft.commit()?;
+        commit(draft, &result.minted, str::to_owned)?;
     }
     let identical = result.differences.is_empty();
     let root = result.minted.manifest.root;

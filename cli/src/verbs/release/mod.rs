@@ -17,7 +17,7 @@ pub(crate) use crate::threads::in_pool;
 pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::read as read_secret_file;
 use serde_json::json;
-use snapshots::mint::{JobFolder, JobStore, Plan, Shard, lay_out, make_jobs};
+use snapshots::mint::{JobFolder, JobStore, Minted, Plan, Shard, lay_out, make_jobs};
 use snapshots::version::CURRENT;
 use snapshots::{
     Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Secret, check_integrity, follow,
@@ -104,8 +104,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match &args.parent {
         Some(parent) => follow(&mut recipe, parent)?,
         None if recipe.parent.is_some() => {
-            let help = "the recipe names a parent: give its folder with --parent, so that no content is minted twice";
-            return Err(Failure::malformed(help));
+            bail!(
+                "the recipe names a parent: give its folder with --parent, so that no content is minted twice"
+            );
         }
         None => {}
     }
@@ -238,12 +239,7 @@ impl FinishedMint<'_> {
             let mut write = |path: &str, content: &[u8]| draft.write(&place(path), content);
             lay_out(self.plan, self.secret, self.store, embedded::lockfile(), &mut write)
         })??;
-        let manifest = minted.manifest.to_bytes()?;
-        draft.write(&place(MANIFEST_FILE), &manifest)?;
-        for (path, text) in minted.papers() {
-            draft.write(&place(&path), text.as_bytes())?;
-        }
-        draft.commit()?;
+        commit(draft, &minted, place)?;
         console.document(&json!({
             "out": self.out.display().to_string(),
             "root": minted.manifest.root,
@@ -253,6 +249,15 @@ impl FinishedMint<'_> {
         console.say(summary(&minted, self.out, seconds).trim_end());
         Ok(true)
     }
+}
+
+/// Completes a draft, which holds the files of the release, by its manifest and its papers; `place` maps their paths.
+pub(crate) fn commit(draft: Draft, minted: &Minted, place: impl Fn(&str) -> String) -> Result<(), Failure> {
+    draft.write(&place(MANIFEST_FILE), &minted.manifest.to_bytes()?)?;
+    for (path, text) in minted.papers() {
+        draft.write(&place(&path), text.as_bytes())?;
+    }
+    Ok(draft.commit()?)
 }
 
 /// Returns `true` if a recipe is a file, not the name of one that the binary carries.

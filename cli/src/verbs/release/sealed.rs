@@ -6,11 +6,12 @@ use crate::failure::{Answer, Failure};
 use crate::paths;
 use crate::protected;
 use crate::shell;
+use crate::whole_file;
 use serde_json::json;
 use snapshots::{MANIFEST_FILE, Recipe, RecipeError, RevealError, Secret, follow, read_secret};
 use std::ffi::OsStr;
-use std::fs::{self, File, OpenOptions};
-use std::io::{Read, Write};
+use std::fs::{File, OpenOptions};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Draws a secret for a recipe and writes it to a file that only its owner can read.
@@ -29,14 +30,10 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     let commitment = secret.commitment();
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
     let shown = out.display().to_string();
-    let write = || {
-        let mut options = OpenOptions::new();
-        options.write(true).create_new(true);
-        #[cfg(unix)]
-        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-        fill(options.open(&out)?, &out, text.as_bytes())
-    };
-    write().map_err(|error| match error.kind() {
+    let mut options = OpenOptions::new();
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    whole_file::create(&mut options, &out, text.as_bytes()).map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => {
             malformed!("`{shown}` exists: a secret is never overwritten; choose another --out",)
         }
@@ -66,11 +63,6 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         "keep {shown} private and do not lose it: the release cannot be minted without it",
     ));
     Ok(true)
-}
-
-/// Writes the new file at `place`; if it cannot be written completely, it is removed, so that it is not in the way.
-fn fill(mut file: File, place: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    file.write_all(bytes).and_then(|()| file.sync_all()).inspect_err(|_| drop(fs::remove_file(place)))
 }
 
 /// Returns random bytes of the operating system.
@@ -103,9 +95,7 @@ pub(super) fn recipe(text: &str, secret: Option<&Secret>) -> Result<Recipe, Reci
 pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, console: &Console) -> Answer {
     let usage = "arcade release PUBLIC --reveal HELD --out DIR";
     let Some(public) = public else {
-        let help =
-            format!("--reveal needs the public folder of the release besides the withheld one: {usage}");
-        return Err(Failure::malformed(help));
+        bail!("--reveal needs the public folder of the release besides the withheld one: {usage}");
     };
     let Some(out) = out else {
         bail!("--reveal needs --out, a folder for the whole release: {usage}");
@@ -149,23 +139,5 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
             Ok(false)
         }
         Err(error) => Err(error.into()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// An empty secret would have to be removed by hand, because a secret is never overwritten.
-    #[test]
-    fn partial_secrets_are_removed() {
-        let home = tempfile::tempdir().expect("temporary folder");
-        let place = home.path().join("new.secret.json");
-        fs::write(&place, "").expect("written");
-        let unwritable = File::open(&place).expect("there");
-        assert!(fill(unwritable, &place, b"secret").is_err());
-        assert!(!place.exists());
-        fill(File::create_new(&place).expect("vacant"), &place, b"secret").expect("written");
-        assert_eq!(fs::read(&place).expect("there"), b"secret");
     }
 }

@@ -3,6 +3,7 @@
 use crate::counted::count;
 use crate::shell;
 use forge::card::{Card, Origin};
+use itertools::Itertools;
 use snapshots::mint::Minted;
 use std::ffi::OsStr;
 use std::fmt::Write;
@@ -14,28 +15,18 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
     let tally = &card.tally;
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
     let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "{}: {}, {}, every one with a winning episode\n",
-        manifest.name,
-        count(cards.len(), "game"),
-        count(levels, "level")
-    );
+    let (made, with) = (count(cards.len(), "game"), count(levels, "level"));
+    let _ = writeln!(text, "{}: {made}, {with}, every one with a winning episode\n", manifest.name);
     let width = cards.iter().map(|card| card.title.chars().count()).max().unwrap_or(0);
     for card in cards {
         let origin = match card.origin {
             Origin::Generated { .. } => "new game",
             Origin::Corpus { .. } => "new levels",
         };
-        let ticks: Vec<String> = card.levels.iter().map(|level| level.witness_ticks.to_string()).collect();
-        let _ = writeln!(
-            text,
-            "  {:<width$}  {:<18} {origin:<11} won in {} ticks",
-            card.title,
-            card.kind,
-            ticks.join(", ")
-        );
-        let _ = writeln!(text, "  {:<width$}  {}", "", card.goal);
+        let Card { title, kind, goal, levels, .. } = card;
+        let ticks = levels.iter().map(|level| level.witness_ticks).join(", ");
+        let _ = writeln!(text, "  {title:<width$}  {kind:<18} {origin:<11} won in {ticks} ticks");
+        let _ = writeln!(text, "  {:<width$}  {goal}", "");
     }
     if let Some(board) = example_board(minted, out) {
         let _ = writeln!(text, "\n{board}");
@@ -43,12 +34,11 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
     for bin in &card.planned {
         let _ = writeln!(text, "{}: {} (planned {} to {})", bin.name, bin.there, bin.least, bin.most);
     }
+    let time = seconds.map_or(String::new(), |seconds| format!("{seconds:.0} s; "));
+    let (games, tried) = (tally.games_tried, tally.levels_tried);
     let _ = writeln!(
         text,
-        "\n{}{} games and {} levels tried for {} and {levels}; {:.1} million forward-model calls",
-        seconds.map_or(String::new(), |seconds| format!("{seconds:.0} s; ")),
-        tally.games_tried,
-        tally.levels_tried,
+        "\n{time}{games} games and {tried} levels tried for {} and {levels}; {:.1} million forward-model calls",
         cards.len(),
         tally.calls as f64 / 1e6,
     );

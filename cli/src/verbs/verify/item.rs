@@ -3,30 +3,26 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::whole_file;
 use engine::Digest;
 use serde_json::json;
 use snapshots::folder::{self, Limits};
 use snapshots::proof::{ItemProof, MAX_PROOF};
 use snapshots::{Manifest, SnapshotError};
 use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{ErrorKind, Read, Write};
+use std::fs::{self, File, OpenOptions};
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// Writes the proof for an item of a snapshot that verifies, and returns a message.
 pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
     let proof = ItemProof::of(manifest, id)?;
     let bytes = proof.to_bytes()?;
-    let mut open = File::create_new(file).map_err(|error| match error.kind() {
+    whole_file::create(&mut OpenOptions::new(), file, &bytes).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => {
             malformed!("`{}` exists: choose another --write-proof or remove it", file.display())
         }
         _ => Failure::write(file, error),
-    })?;
-    open.write_all(&bytes).and_then(|()| open.sync_all()).map_err(|error| {
-        // An incomplete proof is useless.
-        drop(fs::remove_file(file));
-        Failure::write(file, error)
     })?;
     Ok(format!("proof of {} written to {}", count(proof.files.len(), "file"), file.display()))
 }

@@ -85,7 +85,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     args.write_proof.as_deref().map_or(Ok(()), protected::check)?;
     let bounds = args.max_work.map_or(Bounds::RELEASE, |work| Bounds { work, work_per_level: 0 });
     let mut verification = match verify_within(&args.snapshot, &bounds) {
-        Err(error) if is_damage(&error) => return damaged(error, &args.snapshot, console),
+        // There is a manifest or an archive, but it is damaged: that is an answer.
+        Err(
+            error @ (SnapshotError::Syntax { .. }
+            | SnapshotError::Manifest { .. }
+            | SnapshotError::Archive { .. }
+            | SnapshotError::Link { .. }
+            | SnapshotError::ReleaseKind { .. }
+            | SnapshotError::TooLarge { .. }),
+        ) => return damaged(error, &args.snapshot, console),
         verification => verification?,
     };
     if let Some(root) = args.root.filter(|root| *root != verification.root) {
@@ -184,19 +192,6 @@ fn say_chain(chain: &Chain, console: &Console) {
     if chain.others > 0 {
         console.say(format_args!("  not part of this chain: {} more of those given", chain.others));
     }
-}
-
-/// Returns `true` if there is a manifest or an archive, but it is damaged: that is an answer.
-fn is_damage(error: &SnapshotError) -> bool {
-    matches!(
-        error,
-        SnapshotError::Syntax { .. }
-            | SnapshotError::Manifest { .. }
-            | SnapshotError::Archive { .. }
-            | SnapshotError::Link { .. }
-            | SnapshotError::ReleaseKind { .. }
-            | SnapshotError::TooLarge { .. }
-    )
 }
 
 fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
