@@ -44,8 +44,28 @@ pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
     whole_file::write(path, text.as_bytes())
 }
 
+/// Reads the recorded episode, if there is one, and finds the level to show; the episode must replay on it.
+pub(crate) fn recorded(
+    input: &GameInput,
+    game: &Game,
+    level_name: Option<&str>,
+    file: Option<&Path>,
+) -> Result<(Named, Level, Option<Episode>), Failure> {
+    let episode = file.map(read).transpose()?;
+    let (named, level) = level(input, game, level_name, episode.as_ref())?;
+    if let (Some(path), Some(episode)) = (file, &episode) {
+        episode.replay(game, &level).map_err(|error| {
+            malformed!(
+                "{}: {error}; name the game and level that it was recorded on, or record it again",
+                path.display()
+            )
+        })?;
+    }
+    Ok((named, level, episode))
+}
+
 /// Finds the level to show: the named one, or else the one that the episode was recorded on, or else the first.
-pub(crate) fn level(
+fn level(
     input: &GameInput,
     game: &Game,
     name: Option<&str>,
@@ -76,15 +96,4 @@ pub(crate) fn level(
             episode.level, input.title
         )
     })
-}
-
-/// Checks that the episode belongs to this game and level, and that it replays.
-pub(crate) fn check(path: &Path, episode: &Episode, game: &Game, level: &Level) -> Result<(), Failure> {
-    let help = |error: engine::Divergence| {
-        malformed!(
-            "{}: {error}; name the game and level that it was recorded on, or record it again",
-            path.display()
-        )
-    };
-    episode.replay(game, level).map(|_| ()).map_err(help)
 }

@@ -64,11 +64,8 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
-    let recorded = args.replay.as_deref().map(episodes::read).transpose()?;
-    let (named, level) = episodes::level(&input, &game, args.level.as_deref(), recorded.as_ref())?;
-    if let (Some(path), Some(episode)) = (&args.replay, &recorded) {
-        episodes::check(path, episode, &game, &level)?;
-    }
+    let (named, level, recorded) =
+        episodes::recorded(&input, &game, args.level.as_deref(), args.replay.as_deref())?;
     let own = Seed::from_text(&args.seed).child(&level.digest().to_string(), 0);
     let seed = recorded.as_ref().map_or(own.child("chance", 0), |episode| episode.seed);
     let player = match (recorded, &args.planner) {

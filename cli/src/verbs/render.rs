@@ -4,8 +4,10 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::{episodes, input, paths, whole_file};
 use agents::{Budget, Limits, PLANNERS, PlannerSpec, play};
+use clap::ValueEnum;
 use engine::{Analysis, Episode, Game, Level, Seed, State};
 use render::{Animation, Looks, RenderError, Style, Symbols};
+use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -64,8 +66,10 @@ pub(crate) struct Args {
     out: PathBuf,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "lowercase")]
 enum Format {
+    #[value(name = "txt")]
     Text,
     Png,
     Svg,
@@ -77,26 +81,13 @@ impl Format {
         if path == Path::new("-") {
             return Ok(Format::Text);
         }
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-        match ending.as_deref() {
-            Some("txt") => Ok(Format::Text),
-            Some("png") => Ok(Format::Png),
-            Some("svg") => Ok(Format::Svg),
-            Some("gif") => Ok(Format::Gif),
-            _ => Err(malformed!(
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        Format::from_str(&ending, true).map_err(|_| {
+            malformed!(
                 "{}: unknown picture format; use a file name that ends in .png, .svg, .gif or .txt",
                 path.display()
-            )),
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Format::Text => "text",
-            Format::Png => "png",
-            Format::Svg => "svg",
-            Format::Gif => "gif",
-        }
+            )
+        })
     }
 }
 
@@ -116,11 +107,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         args.planner.as_ref().map(|name| name.parse()).transpose().map_err(Failure::malformed)?;
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
-    let recorded = args.episode.as_deref().map(episodes::read).transpose()?;
-    let (named, level) = episodes::level(&input, &game, args.level.as_deref(), recorded.as_ref())?;
-    if let (Some(path), Some(episode)) = (&args.episode, &recorded) {
-        episodes::check(path, episode, &game, &level)?;
-    }
+    let (named, level, recorded) =
+        episodes::recorded(&input, &game, args.level.as_deref(), args.episode.as_deref())?;
     let seed = Seed::from_text(&args.seed).child(&level.digest().to_string(), 0);
     let episode = spec.map(|spec| played(args, &spec, &game, &level, seed)).or(recorded);
     let actions = shown(args, format, episode.as_ref())?;
@@ -150,7 +138,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "game": input.source.name,
         "level": named.name,
         "file": paths::in_json(&args.out),
-        "format": format.name(),
+        "format": format,
         "bytes": bytes.len(),
         "ticks": subject.actions.len(),
         "score": last.score(),
