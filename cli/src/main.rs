@@ -52,32 +52,47 @@ struct Cli {
     quiet: bool,
 }
 
-#[derive(Subcommand)]
-enum Verb {
-    Release(verbs::release::Args),
-    Merge(verbs::merge::Args),
-    Regenerate(verbs::regenerate::Args),
-    Verify(verbs::verify::Args),
-    Validate(verbs::validate::Args),
-    Generate(verbs::generate::Args),
-    Run(verbs::run::Args),
-    Evaluate(Box<verbs::evaluate::Args>),
-    ServePlayer(verbs::serve_player::Args),
+/// Declares the verbs in one place, in the order of the help: the variant, and the module with its `Args` and `run`.
+macro_rules! verbs {
+    ($($(#[$attribute:meta])* $verb:ident: $module:ident),* $(,)?) => {
+        #[derive(Subcommand)]
+        enum Verb { $($(#[$attribute])* $verb(Box<verbs::$module::Args>)),* }
+
+        fn answer(verb: &Verb, console: &Console) -> Answer {
+            // The guard of a player runs without a pool of threads.
+            if !matches!(verb, Verb::PlayerGuard(_)) {
+                threads::start()?;
+            }
+            match verb { $(Verb::$verb(args) => verbs::$module::run(args, console)),* }
+        }
+    };
+}
+
+verbs! {
+    Release: release,
+    Merge: merge,
+    Regenerate: regenerate,
+    Verify: verify,
+    Validate: validate,
+    Generate: generate,
+    Run: run,
+    Evaluate: evaluate,
+    ServePlayer: serve_player,
     #[command(hide = true)]
-    PlayerGuard(verbs::player_guard::Args),
-    Report(verbs::report::Args),
-    Diff(verbs::diff::Args),
-    Export(verbs::export::Args),
-    Play(verbs::play::Args),
-    Render(verbs::render::Args),
-    Describe(verbs::describe::Args),
-    Fmt(verbs::fmt::Args),
-    Conformance(verbs::conformance::Args),
-    Clean(verbs::clean::Args),
-    Recipes(verbs::recipes::Args),
-    Docs(verbs::docs::Args),
-    Completions(verbs::completions::Args),
-    Man(verbs::man::Args),
+    PlayerGuard: player_guard,
+    Report: report,
+    Diff: diff,
+    Export: export,
+    Play: play,
+    Render: render,
+    Describe: describe,
+    Fmt: fmt,
+    Conformance: conformance,
+    Clean: clean,
+    Recipes: recipes,
+    Docs: docs,
+    Completions: completions,
+    Man: man,
 }
 
 fn main() -> ExitCode {
@@ -87,37 +102,5 @@ fn main() -> ExitCode {
         Err(status) => return ExitCode::from(status),
     };
     let console = Console::new(cli.json, cli.quiet);
-    ExitCode::from(console.finish(answer(cli.verb, &console)))
-}
-
-fn answer(verb: Verb, console: &Console) -> Answer {
-    if let Verb::PlayerGuard(args) = &verb {
-        verbs::player_guard::run(args) // without a pool of threads
-    }
-    threads::start()?;
-    match verb {
-        Verb::Release(args) => verbs::release::run(&args, console),
-        Verb::Merge(args) => verbs::merge::run(&args, console),
-        Verb::Regenerate(args) => verbs::regenerate::run(&args, console),
-        Verb::Verify(args) => verbs::verify::run(&args, console),
-        Verb::Validate(args) => verbs::validate::run(&args, console),
-        Verb::Generate(args) => verbs::generate::run(&args, console),
-        Verb::Run(args) => verbs::run::run(&args, console),
-        Verb::Evaluate(args) => verbs::evaluate::run(&args, console),
-        Verb::ServePlayer(args) => verbs::serve_player::run(&args, console),
-        Verb::PlayerGuard(_) => unreachable!("it has run above"),
-        Verb::Report(args) => verbs::report::run(&args, console),
-        Verb::Diff(args) => verbs::diff::run(&args, console),
-        Verb::Export(args) => verbs::export::run(&args, console),
-        Verb::Play(args) => verbs::play::run(&args, console),
-        Verb::Render(args) => verbs::render::run(&args, console),
-        Verb::Describe(args) => verbs::describe::run(&args, console),
-        Verb::Fmt(args) => verbs::fmt::run(&args, console),
-        Verb::Conformance(args) => verbs::conformance::run(&args, console),
-        Verb::Clean(args) => verbs::clean::run(&args, console),
-        Verb::Recipes(args) => verbs::recipes::run(&args, console),
-        Verb::Docs(args) => verbs::docs::run(&args, console),
-        Verb::Completions(args) => verbs::completions::run(&args, console),
-        Verb::Man(args) => verbs::man::run(&args, console),
-    }
+    ExitCode::from(console.finish(answer(&cli.verb, &console)))
 }

@@ -1,5 +1,7 @@
 //! `arcade player-guard`: supervises a player's program for `arcade evaluate`. Not for people.
 
+use crate::console::Console;
+use crate::failure::Answer;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -26,7 +28,7 @@ pub(crate) fn command() -> Vec<OsString> {
 }
 
 /// Never returns.
-pub(crate) fn run(args: &Args) -> ! {
+pub(crate) fn run(args: &Args, _: &Console) -> Answer {
     #[cfg(unix)]
     {
         let (program, arguments) = args.command.split_first().expect("there is one at least");
