@@ -1,8 +1,8 @@
 //! The answer for programs; `docs/validate.md` is its schema.
 
-use crate::diagnostics::{self, Placed};
+use crate::diagnostics::Placed;
 use crate::input::Named;
-use engine::{Diagnostic, Digest, Episode, line_and_column};
+use engine::{Digest, Episode, line_and_column};
 use serde::Serialize;
 use validators::{Criteria, Finding, Judgement, Report};
 
@@ -19,18 +19,6 @@ pub(super) struct Document<'a> {
     pub(super) judgements: &'a [Judgement],
 }
 
-impl Document<'_> {
-    /// Returns the answer for a game that does not compile, with the certain problems of its levels.
-    pub(super) fn of_malformed(
-        source: &Named,
-        problems: &[Diagnostic],
-        levels: Vec<LevelDocument<'static>>,
-    ) -> Document<'static> {
-        let problems = diagnostics::placed(source, problems);
-        Document { game: source.name.clone(), problems, levels, ..Document::default() }
-    }
-}
-
 #[derive(Default, Serialize)]
 pub(super) struct LevelDocument<'a> {
     pub(super) level: String,
@@ -44,14 +32,6 @@ pub(super) struct LevelDocument<'a> {
     #[serde(flatten)]
     pub(super) report: Option<&'a Report>,
     pub(super) witness: Option<&'a Episode>,
-}
-
-impl LevelDocument<'_> {
-    /// Returns the problems of a level that are certain although its game does not compile.
-    pub(super) fn of_malformed_game(level: &Named, problems: &[Diagnostic]) -> LevelDocument<'static> {
-        let problems = diagnostics::placed(level, problems);
-        LevelDocument { level: level.name.clone(), problems, ..LevelDocument::default() }
-    }
 }
 
 /// Fills in the line numbers of the rules in evidence.

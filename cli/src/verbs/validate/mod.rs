@@ -52,16 +52,6 @@ struct JudgedLevel<'a> {
     report: Option<Report>,
 }
 
-impl<'a> JudgedLevel<'a> {
-    /// Judges a level. The seed depends on the level, so that it gets the same answer alone and among others.
-    fn of(game: &Game, named: &'a Named, panel: &Panel, seed: Seed) -> JudgedLevel<'a> {
-        let level = game.level(&named.text);
-        let judge = |level: &Level| panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
-        let report = level.as_ref().ok().map(judge);
-        JudgedLevel { named, level, report }
-    }
-}
-
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
     let load = if args.as_reference { Game::from_source_as_reference } else { Game::from_source };
@@ -76,18 +66,21 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         bail!("{name}: the game compiles, but there is no level to judge; {help}");
     }
     if args.witness.is_some() && levels.len() > 1 {
-        let message = format!("--witness takes one level, not {}: name it after the game", levels.len());
-        return Err(Failure::malformed(message));
+        bail!("--witness takes one level, not {}: name it after the game", levels.len());
     }
     let criteria = Criteria { budget: args.budget, ..Criteria::full() };
     let panel = Panel::bounded(&criteria, args.budget).map_err(Failure::malformed)?;
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
-    let mut judged: Vec<JudgedLevel<'_>> = levels
-        .par_iter()
-        .map(|named| JudgedLevel::of(&game, named, &panel, seed))
-        .inspect(|_| bar.inc(1))
-        .collect();
+    // The seed depends on the level, so that it gets the same answer alone and among others.
+    let judge = |level: &Level| panel.judge(&game, level, seed.child(&level.digest().to_string(), 0));
+    let judged = levels.par_iter().map(|named| {
+        let level = game.level(&named.text);
+        let report = level.as_ref().ok().map(judge);
+        bar.inc(1);
+        JudgedLevel { named, level, report }
+    });
+    let mut judged: Vec<JudgedLevel<'_>> = judged.collect();
     let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
     let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
     // Criteria of the game over all its levels need all of them.
@@ -119,13 +112,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     console.document(&document)?;
     console.say(text::review(&document, &input.source).trim_end());
-    for warning in game.warnings() {
-        console.say(format_args!("\n{}", diagnostics::one_in_words(&input.source, warning).trim_end()));
-    }
-    for judged in &judged {
-        for warning in judged.level.iter().flat_map(Level::warnings) {
-            console.say(format_args!("\n{}", diagnostics::one_in_words(judged.named, warning).trim_end()));
-        }
+    let warnings = game.warnings().iter().map(|warning| (&input.source, warning));
+    let of_levels = judged.iter().flat_map(|judged| {
+        let warnings = judged.level.iter().flat_map(Level::warnings);
+        warnings.map(|warning| (judged.named, warning))
+    });
+    for (source, warning) in warnings.chain(of_levels) {
+        console.say(format_args!("\n{}", diagnostics::one_in_words(source, warning).trim_end()));
     }
     if !malformed.is_empty() {
         return Err(Failure::malformed(malformed.join("\n")));
@@ -167,9 +160,11 @@ fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diag
         if Diagnostics::has_errors(&problems) {
             told.push(diagnostics::in_words(level, &problems));
         }
-        documents.push(LevelDocument::of_malformed_game(level, &problems));
+        let problems = diagnostics::placed(level, &problems);
+        documents.push(LevelDocument { level: level.name.clone(), problems, ..LevelDocument::default() });
     }
-    match console.document(&Document::of_malformed(&input.source, problems, documents)) {
+    let (game, problems) = (input.source.name.clone(), diagnostics::placed(&input.source, problems));
+    match console.document(&Document { game, problems, levels: documents, ..Document::default() }) {
         Ok(()) => Failure::malformed(told.join("\n")),
         Err(failure) => failure,
     }

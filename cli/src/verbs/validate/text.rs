@@ -3,7 +3,7 @@
 use super::document::{Document, LevelDocument};
 use crate::input::Named;
 use std::fmt::Write;
-use validators::{Board, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Report, Verdict};
+use validators::{Board, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
 
 /// The widest board to show.
 const MAX_WIDTH: usize = 100;
@@ -41,7 +41,16 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
     for level in &document.levels {
         if let Some(report) = level.report {
             let _ = writeln!(text, "\n{}", level.level);
-            reasons(&mut text, report, level, source);
+            if !report.passes() {
+                board(&mut text, &level.board);
+            }
+            let mut boards = 0;
+            for judgement in &report.judgements {
+                criterion(&mut text, judgement, source, &mut boards);
+                if let Some(ladder) = &judgement.finding.ladder {
+                    ladder_results(&mut text, ladder);
+                }
+            }
         }
     }
     if !document.judgements.is_empty() {
@@ -74,19 +83,6 @@ fn obstacle(Judgement { criterion, finding }: &Judgement) -> String {
     match &finding.verdict {
         Verdict::Fail { reason, .. } => format!("FAILS {criterion}: {}", reason.0),
         _ => format!("not shown to pass {criterion}: {}", answer(criterion, finding)),
-    }
-}
-
-fn reasons(text: &mut String, report: &Report, level: &LevelDocument<'_>, source: &Named) {
-    if !report.passes() {
-        board(text, &level.board);
-    }
-    let mut boards = 0;
-    for judgement in &report.judgements {
-        criterion(text, judgement, source, &mut boards);
-        if let Some(ladder) = &judgement.finding.ladder {
-            ladder_results(text, ladder);
-        }
     }
 }
 
