@@ -56,12 +56,11 @@ impl Excerpt {
             excerpt.push(&source[above..from - 1], 0);
         }
         let marked = source[start..end.min(to)].chars().count();
-        let (offset, shown) = excerpt.push(&source[from..to], column - 1);
+        let shown = excerpt.push(&source[from..to], column - 1);
         // The visible characters of the line from the position on.
         let visible = excerpt.text[shown..].trim_end_matches('\n');
         let length = visible.chars().take(marked).map(char::len_utf8).sum();
         excerpt.span = (shown, length);
-        debug_assert!(offset <= shown, "the place is in its line");
         if to < source.len() {
             let below = source[to + 1..].find('\n').map_or(source.len(), |newline| to + 1 + newline);
             if below > to + 1 {
@@ -71,11 +70,9 @@ impl Excerpt {
         excerpt
     }
 
-    /// Adds a line, cropped around a column: returns the start of the line in the text, and the position of that
-    /// column.
-    fn push(&mut self, line: &str, column: usize) -> (usize, usize) {
+    /// Adds a line, cropped around a column, and returns the position of that column in the text.
+    fn push(&mut self, line: &str, column: usize) -> usize {
         let line = line.strip_suffix('\r').unwrap_or(line);
-        let offset = self.text.len();
         let skipped = if column >= MAX_WIDTH - BEFORE { column - BEFORE } else { 0 };
         if skipped > 0 {
             self.text.push(CUT);
@@ -99,7 +96,7 @@ impl Excerpt {
         let place = place.unwrap_or(self.text.len());
         self.text.push('\n');
         self.count += 1;
-        (offset, place)
+        place
     }
 
     /// Returns the position of the problem in the text that is shown.

@@ -122,9 +122,7 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
 fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> {
     let folder = games.join(name);
     let Some(path) = input::first_file(&folder, ["game.txt", "game.vgdl"])? else {
-        let message =
-            format!("{}: no game.txt or game.vgdl, but there are traces of `{name}`", folder.display());
-        return Err(Failure::malformed(message));
+        bail!("{}: no game.txt or game.vgdl, but there are traces of `{name}`", folder.display());
     };
     let source = input::read_text(&path, engine::MAX_SOURCE)?;
     Ok(Game::from_source_as_reference(&source).map_err(|problems| {
@@ -145,9 +143,7 @@ fn replay(
     let refused =
         |why: String| Ok((0, Some(Episode { trace: shown.clone(), refused: Some(why), difference: None })));
     if trace.header.game != name {
-        let message =
-            format!("{}: a trace of `{}` in the folder of `{name}`", path.display(), trace.header.game);
-        return Err(Failure::malformed(message));
+        bail!("{}: a trace of `{}` in the folder of `{name}`", path.display(), trace.header.game);
     }
     // A game that the reference could not load must not load here either, or must stop before it starts.
     let broken = trace.header.engine_error.is_some();

@@ -7,7 +7,7 @@ use crate::verbs::export::unsound;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::remark_unreplayed;
 use report::Quantiles;
-use snapshots::diff::{Change, Changes, Diff, Neighbours, NumberShift, Shift, Side, Status};
+use snapshots::diff::{Change, Changes, Diff, Neighbours, NumberShift, Share, Shift, Side, Status};
 use snapshots::released::Released;
 use snapshots::rungs::RungDifference;
 use std::path::PathBuf;
@@ -115,19 +115,11 @@ fn shift(shift: &Shift, console: &Console) {
     console.say(format_args!("\n{}: {}", shift.name, verdict(shift.distance, shift.p)));
     let mut shares: Vec<_> = shift.shares.iter().collect();
     shares.sort_by_key(|share| std::cmp::Reverse(share.before + share.after));
-    let total =
-        |of: fn(&snapshots::diff::Share) -> usize| shift.shares.iter().map(of).sum::<usize>().max(1) as f64;
+    let total = |of: fn(&Share) -> usize| shift.shares.iter().map(of).sum::<usize>().max(1) as f64;
     let (before, after) = (total(|share| share.before), total(|share| share.after));
-    for share in shares.iter().take(MAX_LISTED) {
-        let percent = |count: usize, all: f64| 100.0 * count as f64 / all;
-        console.say(format_args!(
-            "  {:<32} {:>4} {:>3.0} %  → {:>4} {:>3.0} %",
-            share.value,
-            share.before,
-            percent(share.before, before),
-            share.after,
-            percent(share.after, after),
-        ));
+    for Share { value, before: was, after: is } in shares.iter().take(MAX_LISTED) {
+        let (old, new) = (100.0 * *was as f64 / before, 100.0 * *is as f64 / after);
+        console.say(format_args!("  {value:<32} {was:>4} {old:>3.0} %  → {is:>4} {new:>3.0} %"));
     }
     if shares.len() > MAX_LISTED {
         console.say(format_args!("  and {} more; --json lists all", shares.len() - MAX_LISTED));
@@ -141,13 +133,8 @@ fn number(shift: &NumberShift, console: &Console) {
         }
         None => "–".to_owned(),
     };
-    console.say(format_args!(
-        "{}: {} → {}; {}",
-        shift.name,
-        told(&shift.before),
-        told(&shift.after),
-        verdict(shift.distance, shift.p)
-    ));
+    let (before, after) = (told(&shift.before), told(&shift.after));
+    console.say(format_args!("{}: {before} → {after}; {}", shift.name, verdict(shift.distance, shift.p)));
 }
 
 /// Rounds a figure to three digits, or to all digits before its point, without trailing zeros.
@@ -186,25 +173,19 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
 
 fn near(neighbours: &Neighbours, console: &Console) {
     console.say("\ndistance of each later game's rules to the nearest earlier ones (0 identical, 1 nothing in common):");
-    let lines = [
-        ("across", &neighbours.across),
-        ("across, generated", &neighbours.across_generated),
-        ("within the later", &neighbours.within),
-    ];
-    for (what, quantiles) in lines {
+    let Neighbours { across, across_generated, within, closest, near, near_generated } = neighbours;
+    for (what, quantiles) in
+        [("across", across), ("across, generated", across_generated), ("within the later", within)]
+    {
         if let Some(Quantiles { min, lower, median, upper, max, .. }) = quantiles {
             console.say(format_args!(
                 "  {what:<18} least {min:.2}, quarter {lower:.2}, median {median:.2}, three quarters {upper:.2}, most {max:.2}"
             ));
         }
     }
-    console.say(format_args!(
-        "  nearer than {:.1}: {}, of which both generated: {}",
-        validators::novelty::NEAR,
-        neighbours.near,
-        neighbours.near_generated
-    ));
-    for pair in &neighbours.closest {
+    let limit = validators::novelty::NEAR;
+    console.say(format_args!("  nearer than {limit:.1}: {near}, of which both generated: {near_generated}"));
+    for pair in closest {
         console.say(format_args!("  {:.2}  {}  {}", pair.distance, pair.after, pair.before));
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::embedded;
-use crate::failure::{Answer, Failure};
+use crate::failure::Answer;
 use crate::protected;
 use crate::verbs::release::{FinishedMint, in_pool, read_secret_file};
 use snapshots::mint::{Plan, Shards};

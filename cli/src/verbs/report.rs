@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::evaluation_report::{Results, write_evaluation_report};
-use crate::failure::{Answer, Failure};
+use crate::failure::Answer;
 use crate::protected;
 use crate::verbs::release::in_pool;
 use evaluation::study::Study;

@@ -27,18 +27,6 @@ pub(super) enum LeftoverKind {
     Scratch,
 }
 
-impl LeftoverKind {
-    pub(super) fn name(&self) -> &'static str {
-        match self {
-            LeftoverKind::Unfinished(_) => "unfinished",
-            LeftoverKind::Interrupted(_) => "interrupted",
-            LeftoverKind::Shard(_) => "shard",
-            LeftoverKind::File(_) => "file",
-            LeftoverKind::Scratch => "scratch",
-        }
-    }
-}
-
 impl Leftover {
     /// Returns the leftover at this path; none if it is anything else, or in use.
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
@@ -59,15 +47,16 @@ impl Leftover {
         Ok(kind.map(|kind| Leftover { path: path.to_path_buf(), kind }))
     }
 
-    pub(super) fn in_words(&self) -> String {
+    /// Returns its kind for programs, and in words.
+    pub(super) fn described(&self) -> (&'static str, String) {
         match &self.kind {
-            LeftoverKind::Unfinished(_) => "unfinished work".to_owned(),
+            LeftoverKind::Unfinished(_) => ("unfinished", "unfinished work".to_owned()),
             LeftoverKind::Interrupted(draft) => {
-                format!("an interrupted mint with {} finished jobs", draft.finished_jobs())
+                ("interrupted", format!("an interrupted mint with {} finished jobs", draft.finished_jobs()))
             }
-            LeftoverKind::Shard(shard) => shard.clone(),
-            LeftoverKind::File(_) => "an unfinished file".to_owned(),
-            LeftoverKind::Scratch => "temporary files of a player".to_owned(),
+            LeftoverKind::Shard(shard) => ("shard", shard.clone()),
+            LeftoverKind::File(_) => ("file", "an unfinished file".to_owned()),
+            LeftoverKind::Scratch => ("scratch", "temporary files of a player".to_owned()),
         }
     }
 

@@ -50,9 +50,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     found.extend(leftover::scratch());
     let (mut entries, mut removed, mut freed) = (Vec::new(), 0_usize, 0);
     for leftover in found {
-        let (path, bytes, kind) = (leftover.path.clone(), leftover.bytes(), leftover.kind.name());
+        let (path, bytes, (kind, what)) = (leftover.path.clone(), leftover.bytes(), leftover.described());
         let kept = kept(args, &leftover.kind);
-        let what = leftover.in_words();
         if kept.is_none() {
             if !args.dry_run {
                 leftover.remove()?;
