@@ -35,11 +35,8 @@ pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
         return Ok(pages.swap_remove(found));
     }
     let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
-    let help = near.map_or_else(
-        || "`arcade docs` lists all pages".to_owned(),
-        |near| format!("did you mean `{near}`? `arcade docs` lists all pages"),
-    );
-    Err(malformed!("there is no page `{wanted}`; {help}"))
+    let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+    Err(malformed!("there is no page `{wanted}`; {near}`arcade docs` lists all pages"))
 }
 
 fn find(pages: &[Page], wanted: &str) -> Option<usize> {

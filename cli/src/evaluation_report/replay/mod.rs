@@ -80,11 +80,8 @@ struct Data<'a> {
     captions: &'a [String],
 }
 
-/// An episode that may be shown.
-struct Candidate<'a> {
-    evaluation: &'a Evaluation,
-    task: Task<'a>,
-}
+/// An episode that may be shown, and its evaluation.
+type Candidate<'a> = (&'a Evaluation, Task<'a>);
 
 impl Replays {
     /// Returns the first run of `levels` levels for each player, the same levels for all if they were played: the
@@ -104,7 +101,7 @@ impl Replays {
                     continue;
                 }
                 let count = tiles.len();
-                let digest = candidate.task.subject.game.digest().to_string();
+                let digest = candidate.1.subject.game.digest().to_string();
                 let tiles = tiles.entry(digest).or_insert_with(|| Tiles::new(format!("t{count}-")));
                 if let Some(replay) = Replay::of(candidate, tiles)? {
                     bytes += replay.bytes();
@@ -160,7 +157,7 @@ fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Can
         for task in evaluation.tasks() {
             let key = (task.level.number, task.subject.id.as_str());
             if wanted.contains(&key) {
-                player.entry(key).or_insert(Candidate { evaluation, task });
+                player.entry(key).or_insert((evaluation, task));
             }
         }
     }
@@ -170,8 +167,7 @@ fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Can
 
 impl Replay {
     /// Replays and draws an episode; none if nothing was played.
-    fn of(candidate: &Candidate<'_>, tiles: &mut Tiles) -> Result<Option<Replay>, Failure> {
-        let Candidate { evaluation, task } = candidate;
+    fn of((evaluation, task): &Candidate<'_>, tiles: &mut Tiles) -> Result<Option<Replay>, Failure> {
         let log = evaluation.events(task)?;
         let steps: Vec<(Action, Validity)> = log
             .iter()

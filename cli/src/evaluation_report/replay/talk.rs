@@ -55,6 +55,7 @@ impl Answer {
             ReplyClass::Refused => "refused",
             ReplyClass::Truncated => "truncated",
         };
+        let reasoning = reply.reasoning.as_ref().map(|text| cut(text, REASONING));
         let mut cost = Vec::new();
         let usage = &reply.usage;
         if let (Some(input), Some(output)) = (usage.input_tokens, usage.output_tokens) {
@@ -68,11 +69,7 @@ impl Answer {
         }
         Answer {
             text: cut(&reply.text, ANSWER),
-            reasoning: reply
-                .reasoning
-                .as_ref()
-                .map(|text| cut(text, REASONING))
-                .filter(|text| !text.is_empty()),
+            reasoning: reasoning.filter(|text| !text.is_empty()),
             class,
             cost: cost.join(", "),
         }

@@ -16,10 +16,8 @@ pub(super) struct Leftover {
 }
 
 pub(super) enum LeftoverKind {
-    /// The folder of a release, report or export that was not finished.
-    Unfinished(Abandoned),
-    /// An interrupted mint with finished jobs.
-    Interrupted(Abandoned),
+    /// The folder of a release, report or export that was not finished: with finished jobs, an interrupted mint.
+    Draft(Abandoned),
     /// A shard of a release, with its description.
     Shard(String),
     /// An unfinished file; while it is open, no other process considers it abandoned.
@@ -36,11 +34,7 @@ impl Leftover {
         } else if !found.is_dir() {
             None
         } else if let Some(draft) = Abandoned::at(path)? {
-            Some(if draft.finished_jobs() == 0 {
-                LeftoverKind::Unfinished(draft)
-            } else {
-                LeftoverKind::Interrupted(draft)
-            })
+            Some(LeftoverKind::Draft(draft))
         } else {
             Shard::at(path).map(|(shard, recipe)| LeftoverKind::Shard(format!("shard {shard} of `{recipe}`")))
         };
@@ -50,8 +44,10 @@ impl Leftover {
     /// Returns its kind for programs, and in words.
     pub(super) fn described(&self) -> (&'static str, String) {
         match &self.kind {
-            LeftoverKind::Unfinished(_) => ("unfinished", "unfinished work".to_owned()),
-            LeftoverKind::Interrupted(draft) => {
+            LeftoverKind::Draft(draft) if draft.finished_jobs() == 0 => {
+                ("unfinished", "unfinished work".to_owned())
+            }
+            LeftoverKind::Draft(draft) => {
                 ("interrupted", format!("an interrupted mint with {} finished jobs", draft.finished_jobs()))
             }
             LeftoverKind::Shard(shard) => ("shard", shard.clone()),
@@ -78,9 +74,7 @@ impl Leftover {
 
     pub(super) fn remove(self) -> Result<(), Failure> {
         let removed = match self.kind {
-            LeftoverKind::Unfinished(draft) | LeftoverKind::Interrupted(draft) => {
-                return draft.remove().map_err(Failure::from);
-            }
+            LeftoverKind::Draft(draft) => return draft.remove().map_err(Failure::from),
             LeftoverKind::Shard(_) | LeftoverKind::Scratch => fs::remove_dir_all(&self.path),
             LeftoverKind::File(_) => fs::remove_file(&self.path),
         };
