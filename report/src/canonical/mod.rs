@@ -83,7 +83,7 @@ pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, Can
 /// As for [`to_canonical_json`].
 pub fn is_canonical_json<T: Serialize + ?Sized>(value: &T, bytes: &[u8]) -> Result<bool, CanonicalError> {
     let mut rest = Rest(bytes);
-    Ok(write_all(value, &mut rest)?.is_ok() && rest.0.is_empty())
+    Ok(Node::of(value)?.write(&mut rest).is_ok() && rest.0.is_empty())
 }
 
 /// The digest of the canonical JSON of `value`, computed without building the text.
@@ -92,7 +92,7 @@ pub fn is_canonical_json<T: Serialize + ?Sized>(value: &T, bytes: &[u8]) -> Resu
 /// As for [`to_canonical_json`].
 pub fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, CanonicalError> {
     let mut hashed = Hashed(blake3::Hasher::new());
-    write_all(value, &mut hashed)?.expect("a hasher takes all that is written to it");
+    Node::of(value)?.write(&mut hashed).expect("a hasher takes all that is written to it");
     Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))
 }
 
@@ -116,11 +116,6 @@ impl Write for Hashed {
     }
 }
 
-/// Writes the canonical JSON to `out`, and returns the result of `out`.
-fn write_all<T: Serialize + ?Sized>(value: &T, out: &mut impl Write) -> Result<fmt::Result, CanonicalError> {
-    Ok(Node::of(value)?.write(out))
-}
-
 impl Node {
     /// The canonical JSON, with a line feed at the end.
     pub fn to_text(&self) -> String {
@@ -129,6 +124,7 @@ impl Node {
         text
     }
 
+    /// Writes the canonical JSON to `out`, and returns the result of `out`.
     fn write(&self, out: &mut impl Write) -> fmt::Result {
         write_node(self, 0, out).and_then(|()| out.write_str("\n"))
     }
