@@ -54,7 +54,7 @@ pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Re
     let shown = serde_json::to_vec(&page);
     let shown = shown.map_err(|error| Failure::environment(error, "the page of the report"))?;
     page.nonce = Digest::of(&shown).to_string();
-    crate::page::render_with(&PARTS, TEMPLATE, &page)
+    crate::page::render(&PARTS, TEMPLATE, &page)
 }
 
 /// Returns the figures at the top: the best models, or players if there is no model, and the references to compare

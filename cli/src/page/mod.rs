@@ -43,13 +43,9 @@ impl Figure {
     }
 }
 
-/// Renders the page of a template: one self-contained HTML file. The same arguments give the same bytes.
-pub(crate) fn render(template: &'static str, page: &impl Serialize) -> Result<String, Failure> {
-    render_with(&[], template, page)
-}
-
-/// Renders the page of a template that includes or imports these templates, by name, beside the shared ones.
-pub(crate) fn render_with(
+/// Renders the page of a template, which may include or import these parts, by name, beside the shared ones: one
+/// self-contained HTML file. The same arguments give the same bytes.
+pub(crate) fn render(
     parts: &[(&'static str, &'static str)],
     template: &'static str,
     page: &impl Serialize,

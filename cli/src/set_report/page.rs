@@ -35,5 +35,5 @@ pub(super) fn render(report: &SetReport, showcase: &Showcase<'_>) -> Result<Stri
         grids: grids.into_iter().map(Shown::of).collect(),
         every: every.into_iter().map(Shown::of).collect(),
     };
-    crate::page::render(TEMPLATE, &page)
+    crate::page::render(&[], TEMPLATE, &page)
 }

@@ -5,6 +5,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use engine::{Chance, Game, Outcome};
+use itertools::Itertools;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -48,20 +49,14 @@ struct Episode {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let traces = find_traces(args)?;
-    let mut games = BTreeMap::new();
-    for name in traces.iter().map(|(game, _)| game) {
-        if !games.contains_key(name) {
-            games.insert(name.clone(), load_game(&args.games, name)?);
-        }
-    }
+    let names = traces.iter().map(|(game, _)| game).dedup();
+    let games = names.map(|name| Ok((name, load_game(&args.games, name)?)));
+    let games = games.collect::<Result<BTreeMap<_, _>, Failure>>()?;
     let bar = console.progress(traces.len() as u64, "replaying");
     let outcomes: Vec<_> = traces
         .par_iter()
-        .map(|(name, path)| {
-            let outcome = replay(args, &games[name], name, path);
-            bar.inc(1);
-            outcome
-        })
+        .map(|(name, path)| replay(args, &games[name], name, path))
+        .inspect(|_| bar.inc(1))
         .collect();
     bar.finish_and_clear();
 

@@ -106,12 +106,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }))?;
     let outcome = format!("{:?}", episode.outcome).to_lowercase();
     console.say(format_args!("{}: {outcome} after {ticks} ticks, score {score}", named.name));
-    match (&args.record, written) {
-        (Some(path), Some(_)) => console.say(format_args!("recorded in {}", path.display())),
-        (Some(path), None) => {
-            console.say(format_args!("nothing was played: {} is not written", path.display()))
-        }
-        (None, _) => {}
+    if let Some(path) = args.record.as_deref().map(Path::display) {
+        console.say(match written {
+            Some(_) => format!("recorded in {path}"),
+            None => format!("nothing was played: {path} is not written"),
+        });
     }
     Ok(true)
 }

@@ -36,10 +36,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 fn list(console: &Console) -> Answer {
     let names = embedded::recipe_names();
-    let mut recipes = Vec::new();
-    for name in &names {
-        recipes.push(parsed(name, text_of(name)?)?);
-    }
+    let recipe = |name: &String| parsed(name, text_of(name)?);
+    let recipes = names.iter().map(recipe).collect::<Result<Vec<_>, _>>()?;
     let entry = |recipe: &Recipe| {
         json!({
             "name": recipe.name,

@@ -130,12 +130,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let bar = console.progress(entries.len() as u64, "playing");
     let started = Stopwatch::start();
     let lines: Vec<Line<'_>> = in_pool(args.jobs, || {
-        let played = entries.par_iter().map(|entry| {
-            let line = play_entry(args, entry);
-            bar.inc(1);
-            line
-        });
-        played.collect()
+        entries.par_iter().map(|entry| play_entry(args, entry)).inspect(|_| bar.inc(1)).collect()
     })?;
     bar.finish_and_clear();
     speeds(console, &planners, &lines, started.seconds());

@@ -358,11 +358,8 @@ fn process(command: &str, timeout: u64) -> Result<Process, String> {
 /// Returns `results/` with the player's name.
 fn default_folder(entrant: &Entrant) -> PathBuf {
     let name = [&entrant.name].into_iter().chain(&entrant.mode).chain(&entrant.aids).join("_");
-    PathBuf::from("results").join(file_name(&name))
-}
-
-fn file_name(name: &str) -> String {
-    name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' }).collect()
+    let is_other = |c: char| !(c.is_alphanumeric() || matches!(c, '-' | '_' | '.'));
+    PathBuf::from("results").join(name.replace(is_other, "-"))
 }
 
 fn print_results(

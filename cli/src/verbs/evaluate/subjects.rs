@@ -187,8 +187,7 @@ fn slug(title: &str) -> String {
     let parts = path.iter().rev().filter_map(|part| part.to_str());
     let stem = |part: &str| part.trim_end_matches(".vgdl").trim_end_matches(".txt").to_owned();
     let said = parts.map(stem).find(|part| part != "game" && !part.is_empty()).unwrap_or_default();
-    let plain: String =
-        said.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_') { c } else { '-' }).collect();
+    let plain = said.replace(|c: char| !(c.is_alphanumeric() || matches!(c, '-' | '_')), "-");
     if plain.trim_matches('-').is_empty() { "game".to_owned() } else { plain }
 }
 

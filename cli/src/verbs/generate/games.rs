@@ -75,7 +75,10 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let order = order(args);
+    let mut order = GameOrder { levels: args.levels, ..GameOrder::new(args.method, args.count) };
+    if !args.kind.is_empty() {
+        order.kinds.clone_from(&args.kind);
+    }
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
     // Check the place to write to before minutes of work.
@@ -110,14 +113,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.document(&document(args, &set))?;
     console.say(summary(args, &set, seconds).trim_end());
     Ok(set.games.len() == args.count as usize)
-}
-
-fn order(args: &Args) -> GameOrder {
-    let order = GameOrder { levels: args.levels, ..GameOrder::new(args.method, args.count) };
-    match args.kind[..] {
-        [] => order,
-        _ => GameOrder { kinds: args.kind.clone(), ..order },
-    }
 }
 
 /// Returns the corpus games, which new games have to differ from.

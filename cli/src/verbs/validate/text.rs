@@ -3,7 +3,7 @@
 use super::document::{Document, LevelDocument};
 use crate::input::Named;
 use std::fmt::Write;
-use validators::{Board, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
+use validators::{Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
 
 /// The widest board to show.
 const MAX_WIDTH: usize = 100;
@@ -120,7 +120,9 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
         evidence(text, seen, said, source);
         if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {
             *boards += 1;
-            moment(text, seen);
+            board(text, &seen.rows);
+            let legend = seen.legend.iter().map(|(symbol, name)| format!("{symbol} {name}"));
+            let _ = writeln!(text, "       ({})", legend.collect::<Vec<_>>().join(", "));
         }
     }
     if shown.len() > most {
@@ -198,12 +200,6 @@ fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     if !parts.is_empty() {
         let _ = writeln!(text, "       - {}", parts.join("; "));
     }
-}
-
-fn moment(text: &mut String, Board { rows, legend }: &Board) {
-    board(text, rows);
-    let legend: Vec<String> = legend.iter().map(|(symbol, name)| format!("{symbol} {name}")).collect();
-    let _ = writeln!(text, "       ({})", legend.join(", "));
 }
 
 fn board(text: &mut String, rows: &[String]) {
