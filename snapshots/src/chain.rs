@@ -184,7 +184,7 @@ fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
 fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {
-        ErrorKind::NotFound => SnapshotError::NotASnapshot { path: folder.to_path_buf() },
+        ErrorKind::NotFound => SnapshotError::NotASnapshot(folder.to_path_buf()),
         _ => SnapshotError::io("examine", folder)(source),
     })?;
     if found.is_file() || is_release(folder) {
@@ -208,7 +208,7 @@ fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
         }
     }
     if places.is_empty() {
-        return Err(SnapshotError::NoRelease { path: folder.to_path_buf() });
+        return Err(SnapshotError::NoRelease(folder.to_path_buf()));
     }
     places.sort();
     Ok(places)

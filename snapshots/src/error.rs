@@ -22,50 +22,29 @@ pub enum SnapshotError {
         source: io::Error,
     },
     /// The output path is occupied.
-    #[error("`{}` exists and is not an empty folder: choose another --out", .path.display())]
-    Occupied {
-        /// The output path.
-        path: PathBuf,
-    },
+    #[error("`{}` exists and is not an empty folder: choose another --out", .0.display())]
+    Occupied(PathBuf),
     /// A file stands in the place of a parent folder of the output path.
-    #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .path.display())]
-    BelowFile {
-        /// The output path.
-        path: PathBuf,
-    },
+    #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .0.display())]
+    BelowFile(PathBuf),
     /// A folder that ends with `.partial` was not left by a killed run.
-    #[error("`{}` was not made by arcade: choose another --out or move it away", .path.display())]
-    Foreign {
-        /// The folder.
-        path: PathBuf,
-    },
+    #[error("`{}` was not made by arcade: choose another --out or move it away", .0.display())]
+    Foreign(PathBuf),
     /// The output path holds the work of an interrupted mint.
-    #[error("`{}` holds the work of an interrupted mint: continue with --resume, or remove it to start over", .path.display())]
-    Interrupted {
-        /// The folder.
-        path: PathBuf,
-    },
+    #[error("`{}` holds the work of an interrupted mint: continue with --resume, or remove it to start over", .0.display())]
+    Interrupted(PathBuf),
     /// The finished jobs are those of another mint.
     #[error(
         "`{}` holds the work of another recipe or another arcade version: continue with that one, or choose another --out",
-        .path.display()
+        .0.display()
     )]
-    OtherPlan {
-        /// The folder with the jobs.
-        path: PathBuf,
-    },
+    OtherPlan(PathBuf),
     /// The release to be packed is sealed, so part of it is withheld.
-    #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .path.display())]
-    HeldBack {
-        /// The public part.
-        path: PathBuf,
-    },
+    #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.display())]
+    HeldBack(PathBuf),
     /// A file of a shard is not the one that the shard lists.
-    #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .path.display())]
-    Altered {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.display())]
+    Altered(PathBuf),
     /// A file that should hold the secret of a sealed release does not.
     #[error("`{}` is not the secret of a sealed release: {source}", .path.display())]
     NotASecret {
@@ -85,17 +64,11 @@ pub enum SnapshotError {
         what: String,
     },
     /// Another process is writing there.
-    #[error("another arcade is writing `{}`: wait for it or choose another --out", .path.display())]
-    Busy {
-        /// The folder with the lock.
-        path: PathBuf,
-    },
+    #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.display())]
+    Busy(PathBuf),
     /// The output path ends in `..` or `.` or is the root of the file system.
-    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .path.display())]
-    Nameless {
-        /// The output path.
-        path: PathBuf,
-    },
+    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .0.display())]
+    Nameless(PathBuf),
     /// A release may not contain this relative path.
     #[error("`{}` cannot be in a snapshot: {problem}; rename it", path.escape_debug())]
     Path {
@@ -105,11 +78,8 @@ pub enum SnapshotError {
         problem: PathProblem,
     },
     /// A symbolic link. A release has only files and folders.
-    #[error("`{}` is a symbolic link, and links are not followed: replace it by the file", .path.display())]
-    Link {
-        /// The link.
-        path: PathBuf,
-    },
+    #[error("`{}` is a symbolic link, and links are not followed: replace it by the file", .0.display())]
+    Link(PathBuf),
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
     #[error("`{}` is not a {expected}: fetch the snapshot again", .path.display())]
     ReleaseKind {
@@ -127,23 +97,14 @@ pub enum SnapshotError {
         limit: u64,
     },
     /// The folder has no manifest, or the file is no archive.
-    #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .path.display())]
-    NotASnapshot {
-        /// The folder.
-        path: PathBuf,
-    },
+    #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .0.display())]
+    NotASnapshot(PathBuf),
     /// A file was given, but a folder is needed.
-    #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .path.display())]
-    NotAFolder {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .0.display())]
+    NotAFolder(PathBuf),
     /// The path is inside a `.partial` folder.
-    #[error("`{}` is unfinished: its minting was interrupted, mint it again", .path.display())]
-    Unfinished {
-        /// The folder.
-        path: PathBuf,
-    },
+    #[error("`{}` is unfinished: its minting was interrupted, mint it again", .0.display())]
+    Unfinished(PathBuf),
     /// The manifest's format is newer than those that this binary knows.
     #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
     Format {
@@ -177,11 +138,8 @@ pub enum SnapshotError {
         limit: usize,
     },
     /// A folder that is searched for releases has none.
-    #[error("`{}` contains no release: name a snapshot folder, its .tar.zst, or a folder of such", .path.display())]
-    NoRelease {
-        /// The folder.
-        path: PathBuf,
-    },
+    #[error("`{}` contains no release: name a snapshot folder, its .tar.zst, or a folder of such", .0.display())]
+    NoRelease(PathBuf),
     /// An archive that is damaged before its manifest can be read.
     #[error("`{}` is not a valid archive: {message}", .path.display())]
     Archive {
@@ -191,11 +149,8 @@ pub enum SnapshotError {
         message: String,
     },
     /// A file to be written exists.
-    #[error("`{}` exists: choose another --out", .path.display())]
-    Taken {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("`{}` exists: choose another --out", .0.display())]
+    Taken(PathBuf),
     /// A release does not hold what its manifest says, but a sound one is required.
     #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.display())]
     Unsound {
@@ -207,17 +162,11 @@ pub enum SnapshotError {
         more: usize,
     },
     /// A file changed between two accesses.
-    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .path.display())]
-    Changed {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .0.display())]
+    Changed(PathBuf),
     /// A path is too long for a tar header.
-    #[error("the path `{path}` is too long for an archive: distribute the folder instead")]
-    Untarable {
-        /// The path in the archive.
-        path: String,
-    },
+    #[error("the path `{0}` is too long for an archive: distribute the folder instead")]
+    Untarable(String),
     /// A value, most likely the recipe, has no canonical JSON.
     #[error(transparent)]
     Canonical(#[from] CanonicalError),
@@ -256,7 +205,7 @@ mod tests {
             newer.to_string(),
             "snapshot format 7 is newer than this arcade understands (1): use a newer arcade"
         );
-        let occupied = SnapshotError::Occupied { path: "releases/new".into() };
+        let occupied = SnapshotError::Occupied("releases/new".into());
         assert_eq!(
             occupied.to_string(),
             "`releases/new` exists and is not an empty folder: choose another --out"

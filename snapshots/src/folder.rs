@@ -30,12 +30,6 @@ impl Limits {
     pub const SNAPSHOT: Limits = Limits { files: 100_000, file_bytes: 64 << 20, total_bytes: 4 << 30 };
 }
 
-impl Default for Limits {
-    fn default() -> Limits {
-        Limits::SNAPSHOT
-    }
-}
-
 /// A regular file in a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
@@ -168,7 +162,7 @@ fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
         path.push(component);
         let found = fs::symlink_metadata(&path).map_err(SnapshotError::io("examine", &path))?;
         if found.is_symlink() {
-            return Err(SnapshotError::Link { path });
+            return Err(SnapshotError::Link(path));
         }
         let (fits, expected) = match components.peek() {
             None => (found.is_file(), "file"),
@@ -340,7 +334,7 @@ mod tests {
             assert_eq!(linked, ["dangling", "file", "folder", "self"]);
             assert!(listing.problems.iter().all(|p| p.flaw == Flaw::Link));
             for path in ["file", "folder/b", "dangling", "self/a", "self/self/a"] {
-                assert!(matches!(read(&root, path, 9), Err(SnapshotError::Link { .. })), "{path}");
+                assert!(matches!(read(&root, path, 9), Err(SnapshotError::Link(_))), "{path}");
             }
             // The folder that the user names may be a link.
             symlink("in", home.path().join("alias")).expect("linked");

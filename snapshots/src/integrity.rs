@@ -53,12 +53,12 @@ fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     let path = root.to_path_buf();
     match error {
         SnapshotError::Io { source, .. } if source.kind() == ErrorKind::NotFound => {
-            SnapshotError::NotASnapshot { path }
+            SnapshotError::NotASnapshot(path)
         }
         SnapshotError::Io { source, .. } if source.kind() == ErrorKind::NotADirectory => {
             match fs::metadata(root).is_ok_and(|found| found.is_file()) {
-                true => SnapshotError::NotAFolder { path },
-                false => SnapshotError::NotASnapshot { path },
+                true => SnapshotError::NotAFolder(path),
+                false => SnapshotError::NotASnapshot(path),
             }
         }
         other => other,
@@ -315,7 +315,7 @@ mod tests {
         let release = release();
         fs::rename(release.root.join(MANIFEST_FILE), release.root.join("../m")).expect("moved");
         symlink("../m", release.root.join(MANIFEST_FILE)).expect("linked");
-        assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link { .. })));
+        assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link(_))));
     }
 
     /// A manifest repaired after altering a file needs a new root; with the old root, the root is reported as wrong.
@@ -361,11 +361,9 @@ mod tests {
         fs::remove_file(&path).expect("removed");
         let file = release.root.join("README.md");
         for root in [release.root.clone(), release.root.join("absent"), file.join("x")] {
-            assert!(
-                matches!(check_integrity(&root), Err(SnapshotError::NotASnapshot { path }) if path == root)
-            );
+            assert!(matches!(check_integrity(&root), Err(SnapshotError::NotASnapshot(path)) if path == root));
         }
-        assert!(matches!(check_integrity(&file), Err(SnapshotError::NotAFolder { path }) if path == file));
+        assert!(matches!(check_integrity(&file), Err(SnapshotError::NotAFolder(path)) if path == file));
     }
 
     /// Flaws do not hide each other.

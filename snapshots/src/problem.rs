@@ -1,7 +1,5 @@
 //! The problems that reading an untrusted release folder can find. They are data, so that all are reported at once.
 
-use std::fmt;
-
 use crate::path::PathProblem;
 use engine::Digest;
 
@@ -9,7 +7,8 @@ use engine::Digest;
 ///
 /// `Display` gives the path and the flaw, escaped for printing: `games/x/lvl0.txt: altered (digest 12ab34cd…, the
 /// manifest says 56ef7890…)`.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+#[error("{}: {flaw}", path.escape_debug())]
 pub struct Problem {
     /// The path, relative to the release folder and `/`-separated; `.` for the folder itself. A name that is not
     /// Unicode is shown approximately.
@@ -19,16 +18,20 @@ pub struct Problem {
 }
 
 /// The flaws that a path of a release folder can have.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw {
     /// The manifest lists the path, but no regular file is there.
+    #[error("missing")]
     Missing,
     /// A file that the manifest does not list.
+    #[error("extra (not in the manifest; accompanying files belong in papers/)")]
     Extra,
     /// An empty folder, which no manifest can list.
+    #[error("extra (an empty folder)")]
     EmptyFolder,
     /// The size is not the stated one, so the content was not read.
+    #[error("wrong size ({found} bytes, the manifest says {stated})")]
     Size {
         /// Bytes in the folder.
         found: u64,
@@ -36,6 +39,7 @@ pub enum Flaw {
         stated: u64,
     },
     /// The content is not the stated one.
+    #[error("altered (digest {}, the manifest says {})", short(found), short(stated))]
     Altered {
         /// Digest of the file in the folder.
         found: Digest,
@@ -43,12 +47,16 @@ pub enum Flaw {
         stated: Digest,
     },
     /// A symbolic link; it was not followed.
+    #[error("a symbolic link instead of a file or folder")]
     Link,
     /// A pipe, socket or device; it was not opened.
+    #[error("neither a file nor a folder")]
     Special,
     /// A name that no release may contain; a folder with such a name was not entered.
+    #[error("unsafe name ({0})")]
     Name(PathProblem),
     /// A file larger than the limit for one file.
+    #[error("too large ({size} bytes of at most {limit})")]
     TooLarge {
         /// Bytes in the folder.
         size: u64,
@@ -57,11 +65,13 @@ pub enum Flaw {
     },
     /// More files, or more folders, than the limit. The rest was not examined, and nothing else about the folder's
     /// content is reported.
+    #[error("more than {limit} files or folders")]
     TooMany {
         /// The limit for either of them.
         limit: u64,
     },
     /// The total size of the files exceeds the limit.
+    #[error("too large altogether ({size} bytes of at most {limit})")]
     TotalTooLarge {
         /// The bytes of all regular files.
         size: u64,
@@ -70,58 +80,22 @@ pub enum Flaw {
     },
     /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
     /// missing or duplicate field): its meaning is intact, but its bytes are not as minted.
+    #[error("not in canonical form (its text is not as minted)")]
     NotCanonical,
     /// An entry of an archive, or the archive itself, is not as packed.
+    #[error("not as packed ({0})")]
     NotAsPacked(String),
     /// The stated checksum is not that of the stated root, lock file and sizes.
+    #[error("wrong checksum (the root, the lock file's digest or a size is not as minted)")]
     WrongChecksum,
     /// The stated root is not the root over the manifest's own header and items.
+    #[error("wrong root (its items give {}, it says {})", short(found), short(stated))]
     WrongRoot {
         /// The root computed from them.
         found: Digest,
         /// The root that the manifest states.
         stated: Digest,
     },
-}
-
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path.escape_debug(), self.flaw)
-    }
-}
-
-impl fmt::Display for Flaw {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Flaw::Missing => write!(f, "missing"),
-            Flaw::Extra => {
-                write!(f, "extra (not in the manifest; accompanying files belong in papers/)")
-            }
-            Flaw::EmptyFolder => write!(f, "extra (an empty folder)"),
-            Flaw::Size { found, stated } => {
-                write!(f, "wrong size ({found} bytes, the manifest says {stated})")
-            }
-            Flaw::Altered { found, stated } => {
-                write!(f, "altered (digest {}, the manifest says {})", short(found), short(stated))
-            }
-            Flaw::Link => write!(f, "a symbolic link instead of a file or folder"),
-            Flaw::Special => write!(f, "neither a file nor a folder"),
-            Flaw::Name(problem) => write!(f, "unsafe name ({problem})"),
-            Flaw::TooLarge { size, limit } => write!(f, "too large ({size} bytes of at most {limit})"),
-            Flaw::TooMany { limit } => write!(f, "more than {limit} files or folders"),
-            Flaw::TotalTooLarge { size, limit } => {
-                write!(f, "too large altogether ({size} bytes of at most {limit})")
-            }
-            Flaw::NotCanonical => write!(f, "not in canonical form (its text is not as minted)"),
-            Flaw::NotAsPacked(what) => write!(f, "not as packed ({what})"),
-            Flaw::WrongChecksum => {
-                write!(f, "wrong checksum (the root, the lock file's digest or a size is not as minted)")
-            }
-            Flaw::WrongRoot { found, stated } => {
-                write!(f, "wrong root (its items give {}, it says {})", short(found), short(stated))
-            }
-        }
-    }
 }
 
 /// A prefix of a digest to recognise it by; [`Problem`] holds all of it.

@@ -18,11 +18,8 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum RegenerateError {
     /// Another version of the generators made it.
-    #[error("this release was minted by {minted_by}; this is arcade {CURRENT}: {}", next_move(minted_by))]
-    OtherVersion {
-        /// The version according to the manifest.
-        minted_by: MintedBy,
-    },
+    #[error("this release was minted by {}; this is arcade {CURRENT}: {}", .0, next_move(.0))]
+    OtherVersion(MintedBy),
     /// No version can have written its manifest.
     #[error(
         "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
@@ -91,7 +88,7 @@ impl Regeneration {
         }
         let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
             SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-                SnapshotError::NotASnapshot { path: root.to_path_buf() }
+                SnapshotError::NotASnapshot(root.to_path_buf())
             }
             other => other,
         })?;
@@ -105,7 +102,7 @@ impl Regeneration {
             });
             return Err(match damage {
                 Some(what) => RegenerateError::Damaged(what),
-                None => RegenerateError::OtherVersion { minted_by },
+                None => RegenerateError::OtherVersion(minted_by),
             });
         }
         let secret = match manifest.kind {

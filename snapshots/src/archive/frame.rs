@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use super::entry::BLOCK;
+use super::entry::{BLOCK, padding};
 use crate::error::SnapshotError;
 use engine::Digest;
 
@@ -204,9 +204,13 @@ impl FrameReader {
         Ok(bytes)
     }
 
-    /// Reads the next `size` bytes, and tests whether all of them are zero.
-    pub(super) fn skip_padding(&mut self, size: usize) -> Result<bool, Unreadable> {
-        Ok(self.content(size as u64)?.iter().all(|byte| *byte == 0))
+    /// Reads a file of `size` bytes, and the zeros that fill its last block.
+    pub(super) fn file(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
+        let content = self.content(size)?;
+        match self.content(padding(size) as u64)?.iter().all(|byte| *byte == 0) {
+            true => Ok(content),
+            false => Err(Unreadable::Damaged("the bytes after it are not zero".into())),
+        }
     }
 
     /// Checks that the stated bytes, the frame and the file all end here.

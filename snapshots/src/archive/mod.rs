@@ -82,7 +82,7 @@ pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     }
     let manifest = integrity.manifest;
     if fs::symlink_metadata(out).is_ok() {
-        return Err(SnapshotError::Taken { path: out.to_path_buf() });
+        return Err(SnapshotError::Taken(out.to_path_buf()));
     }
     let draft = Draft::create(out)?;
     let (mut file, partial) = draft.single()?;
@@ -100,7 +100,7 @@ fn pack_into(
 ) -> Result<Packed, SnapshotError> {
     let is_held = |item: &&Item| item.path.starts_with(HELD) && !folder::join(root, &item.path).exists();
     if manifest.kind == ReleaseKind::Sealed && manifest.items.iter().any(|item| is_held(&item)) {
-        return Err(SnapshotError::HeldBack { path: root.to_path_buf() });
+        return Err(SnapshotError::HeldBack(root.to_path_buf()));
     }
     let bytes = manifest.to_bytes()?;
     let top = Item::of(MANIFEST_FILE, &bytes);
@@ -118,13 +118,13 @@ fn pack_into(
     };
     for item in [&top].into_iter().chain(&manifest.items) {
         let header = entry::header(&manifest.name, item)
-            .ok_or_else(|| SnapshotError::Untarable { path: format!("{}/{}", manifest.name, item.path) })?;
+            .ok_or_else(|| SnapshotError::Untarable(format!("{}/{}", manifest.name, item.path)))?;
         let content = match item.path == MANIFEST_FILE {
             true => bytes.clone(),
             false => folder::read(root, &item.path, item.size)?,
         };
         if Digest::of(&content) != item.digest {
-            return Err(SnapshotError::Changed { path: folder::join(root, &item.path) });
+            return Err(SnapshotError::Changed(folder::join(root, &item.path)));
         }
         put(&header)?;
         put(&content)?;
@@ -200,21 +200,17 @@ impl Archive {
         if !is_archive(path)? {
             return Err(match is_called_archive(path) {
                 true => broken("it does not start like an archive: fetch it again".to_owned()),
-                false => SnapshotError::NotASnapshot { path: path.to_path_buf() },
+                false => SnapshotError::NotASnapshot(path.to_path_buf()),
             });
         }
         let file = File::open(path).map_err(io)?;
-        let mut reader = match FrameReader::open(file, most(found.len())) {
-            Ok(reader) => reader,
-            Err(Unreadable::Io(source)) => return Err(io(source)),
-            Err(Unreadable::Damaged(message)) => return Err(broken(message)),
+        let unreadable = |error, place: &str| match error {
+            Unreadable::Io(source) => io(source),
+            Unreadable::Damaged(message) => broken(format!("{place}{message}")),
         };
-        let manifest_bytes = match read_manifest(&mut reader) {
-            Ok((name, bytes)) => (name, bytes),
-            Err(Unreadable::Io(source)) => return Err(io(source)),
-            Err(Unreadable::Damaged(message)) => return Err(broken(format!("{MANIFEST_FILE}: {message}"))),
-        };
-        let (name, manifest_bytes) = manifest_bytes;
+        let mut reader = FrameReader::open(file, most(found.len())).map_err(|error| unreadable(error, ""))?;
+        let (name, manifest_bytes) =
+            read_manifest(&mut reader).map_err(|error| unreadable(error, &format!("{MANIFEST_FILE}: ")))?;
         let place = PathBuf::from(format!("{}: {MANIFEST_FILE}", path.display()));
         let manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
         let mut problems = manifest_problems(&manifest, &manifest_bytes)?;
@@ -296,8 +292,7 @@ pub(crate) fn is_foreign(path: &Path) -> Result<bool, SnapshotError> {
 
 /// The name of the top folder and the bytes of the manifest.
 fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadable> {
-    let damaged = |message: &str| Unreadable::Damaged(message.to_owned());
-    let block = reader.block()?.ok_or_else(|| damaged("the archive is empty"))?;
+    let block = reader.block()?.ok_or_else(|| Unreadable::Damaged("the archive is empty".to_owned()))?;
     let (path, size) = entry::path_and_size(&block).map_err(Unreadable::Damaged)?;
     let name = path.strip_suffix(MANIFEST_FILE).and_then(|folder| folder.strip_suffix('/'));
     let name = name.filter(|name| !name.contains('/') && crate::check_path(name).is_ok());
@@ -311,11 +306,7 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     if entry::header(name, &expected).as_ref() != Some(&block) {
         return Err(Unreadable::Damaged(entry::describe_difference(&block)));
     }
-    let content = reader.content(size)?;
-    if !reader.skip_padding(padding(size))? {
-        return Err(damaged("the bytes after it are not zero"));
-    }
-    Ok((name.to_owned(), content))
+    Ok((name.to_owned(), reader.file(size)?))
 }
 
 /// The path of a problem of the archive as a whole, until it is replaced by the archive's name.
@@ -353,10 +344,7 @@ fn read_items(
         if block != expected {
             return Err(Stop::Problem(entry::diagnose(&block, manifest, Some(item))));
         }
-        let content = reader.content(item.size).map_err(stop(path))?;
-        if !reader.skip_padding(padding(item.size)).map_err(stop(path))? {
-            return Err(at(path, Flaw::NotAsPacked("the bytes after it are not zero".into())));
-        }
+        let content = reader.file(item.size).map_err(stop(path))?;
         let found = Digest::of(&content);
         if found != item.digest {
             let flaw = Flaw::Altered { found, stated: item.digest };

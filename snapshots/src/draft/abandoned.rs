@@ -12,7 +12,8 @@ use crate::error::SnapshotError;
 #[derive(Debug)]
 pub struct Abandoned {
     partial: PathBuf,
-    jobs: usize,
+    /// The number of jobs that an interrupted mint has finished and `--resume` can reuse.
+    pub finished_jobs: usize,
     /// Closing it releases the lock.
     _lock: File,
 }
@@ -36,16 +37,11 @@ impl Abandoned {
         }
         let lock = match lock::acquire(partial) {
             Ok(lock) => lock,
-            Err(SnapshotError::Busy { .. } | SnapshotError::Foreign { .. }) => return Ok(None),
+            Err(SnapshotError::Busy(_) | SnapshotError::Foreign(_)) => return Ok(None),
             Err(error) => return Err(error),
         };
-        let jobs = finished(&partial.join(JOBS)).map_err(SnapshotError::io("list", partial))?;
-        Ok(Some(Abandoned { partial: partial.to_path_buf(), jobs, _lock: lock }))
-    }
-
-    /// The number of jobs that an interrupted mint has finished and `--resume` can reuse.
-    pub fn finished_jobs(&self) -> usize {
-        self.jobs
+        let finished_jobs = finished(&partial.join(JOBS)).map_err(SnapshotError::io("list", partial))?;
+        Ok(Some(Abandoned { partial: partial.to_path_buf(), finished_jobs, _lock: lock }))
     }
 
     /// Removes the draft with all that it holds.
@@ -107,9 +103,9 @@ mod tests {
         let (home, out) = home();
         let partial = killed(&out);
         let abandoned = Abandoned::at(&partial).expect("examined").expect("abandoned");
-        assert_eq!(abandoned.finished_jobs(), 0);
+        assert_eq!(abandoned.finished_jobs, 0);
         // No other draft can take it over in between.
-        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy { .. })));
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy(_))));
         abandoned.remove().expect("removed");
         assert!(names(home.path()).is_empty());
     }
@@ -122,7 +118,7 @@ mod tests {
         for name in ["a.json", "b.json", "b.new", "plan.txt"] {
             fs::write(partial.join(JOBS).join(name), "").expect("written");
         }
-        assert_eq!(Abandoned::at(&partial).expect("examined").expect("abandoned").finished_jobs(), 2);
+        assert_eq!(Abandoned::at(&partial).expect("examined").expect("abandoned").finished_jobs, 2);
     }
 
     #[test]

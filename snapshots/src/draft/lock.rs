@@ -19,7 +19,7 @@ pub(super) const JOBS: &str = "lots";
 
 /// Creates `partial` or takes it over, and locks it.
 pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
-    let busy = || SnapshotError::Busy { path: partial.to_path_buf() };
+    let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
     // A holder that finishes meanwhile removes the folder; then we start again.
     for _ in 0..16 {
@@ -31,7 +31,7 @@ pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
         }
         match is_ours(partial) {
             Ok(true) => {}
-            Ok(false) => return Err(SnapshotError::Foreign { path: partial.to_path_buf() }),
+            Ok(false) => return Err(SnapshotError::Foreign(partial.to_path_buf())),
             Err(source) if source.kind() == ErrorKind::NotFound => continue,
             Err(source) => return Err(SnapshotError::io("examine", partial)(source)),
         }
@@ -122,7 +122,7 @@ mod tests {
             let mine = home.path().join("new.partial").join(mine);
             fs::create_dir_all(mine.parent().expect("below home")).expect("created");
             fs::write(&mine, "precious").expect("written");
-            assert!(matches!(Draft::create(&out), Err(SnapshotError::Foreign { .. })));
+            assert!(matches!(Draft::create(&out), Err(SnapshotError::Foreign(_))));
             assert_eq!(fs::read(&mine).expect("still there"), b"precious");
         }
     }
@@ -140,7 +140,7 @@ mod tests {
                 fs::write(partial.join(other), "precious").expect("written");
             }
             for open in [Draft::create, Draft::resume] {
-                assert!(matches!(open(&out), Err(SnapshotError::Foreign { .. })), "{lock:?} {other}");
+                assert!(matches!(open(&out), Err(SnapshotError::Foreign(_))), "{lock:?} {other}");
             }
             assert_eq!(fs::read_to_string(partial.join(LOCK)).expect("still there"), lock);
             if !other.is_empty() {
@@ -169,12 +169,12 @@ mod tests {
         let (_home, out) = home();
         let first = Draft::create(&out).expect("vacant");
         first.write("a", b"one").expect("written");
-        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy { .. })));
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy(_))));
         drop(first);
         let second = Draft::create(&out).expect("free again");
         second.write("b", b"two").expect("written");
         second.commit().expect("published");
-        assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied { .. })));
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied(_))));
     }
 
     /// Many threads race for one place: each either gets it alone or receives the reason why not.
@@ -193,7 +193,7 @@ mod tests {
                                 assert_eq!(fs::read(tree.join("a")).expect("still ours"), [runner]);
                                 assert_eq!(names(&tree), ["a"]);
                             }
-                            Err(SnapshotError::Busy { .. }) => thread::yield_now(),
+                            Err(SnapshotError::Busy(_)) => thread::yield_now(),
                             Err(other) => panic!("{other:?}"),
                         }
                     }

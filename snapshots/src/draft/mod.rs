@@ -59,7 +59,7 @@ impl Draft {
     pub fn create(out: &Path) -> Result<Draft, SnapshotError> {
         let draft = Draft::resume(out)?;
         match fs::read_dir(draft.jobs()).is_ok_and(|mut jobs| jobs.next().is_some()) {
-            true => Err(SnapshotError::Interrupted { path: draft.partial.clone() }),
+            true => Err(SnapshotError::Interrupted(draft.partial.clone())),
             false => Ok(draft),
         }
     }
@@ -70,7 +70,7 @@ impl Draft {
     /// # Errors
     /// See [`create`](Draft::create); interrupted work is no error.
     pub fn resume(out: &Path) -> Result<Draft, SnapshotError> {
-        let partial = partial_of(out).ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
+        let partial = partial_of(out).ok_or_else(|| SnapshotError::Nameless(out.to_path_buf()))?;
         check_vacant(out)?;
         let parent = parent_of(out);
         create_folder(parent)?;
@@ -125,7 +125,7 @@ impl Draft {
         sync_folders(&tree)?;
         let occupied = |source: io::Error| match source.kind() {
             ErrorKind::DirectoryNotEmpty | ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
-                SnapshotError::Occupied { path: self.out.clone() }
+                SnapshotError::Occupied(self.out.clone())
             }
             _ => SnapshotError::io("create", &self.out)(source),
         };
@@ -157,7 +157,7 @@ impl Draft {
     /// # Errors
     /// `out` exists ([`Taken`](SnapshotError::Taken)), or the file system refuses; then the draft is dropped.
     pub(crate) fn commit_single(self) -> Result<(), SnapshotError> {
-        let taken = || SnapshotError::Taken { path: self.out.clone() };
+        let taken = || SnapshotError::Taken(self.out.clone());
         let path = self.tree().join(SINGLE);
         match fs::hard_link(&path, &self.out) {
             Ok(()) => {}
@@ -254,11 +254,11 @@ fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
 /// # Errors
 /// There is something other than an empty folder, or the file system refuses.
 pub fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
-    let occupied = || SnapshotError::Occupied { path: out.to_path_buf() };
+    let occupied = || SnapshotError::Occupied(out.to_path_buf());
     match fs::symlink_metadata(out) {
         Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
         Err(source) if source.kind() == ErrorKind::NotADirectory => {
-            Err(SnapshotError::BelowFile { path: out.to_path_buf() })
+            Err(SnapshotError::BelowFile(out.to_path_buf()))
         }
         Err(source) => Err(SnapshotError::io("examine", out)(source)),
         Ok(found) if !found.is_dir() => Err(occupied()),
@@ -352,9 +352,9 @@ pub(crate) mod tests {
         let error = Draft::create(&out).expect_err("taken").to_string();
         assert!(error.starts_with(&format!("`{}` exists", out.display())), "{error}");
         let file = out.join("mine");
-        assert!(matches!(Draft::create(&file), Err(SnapshotError::Occupied { path }) if path == file));
+        assert!(matches!(Draft::create(&file), Err(SnapshotError::Occupied(path)) if path == file));
         let below = file.join("x");
-        assert!(matches!(Draft::create(&below), Err(SnapshotError::BelowFile { path }) if path == below));
+        assert!(matches!(Draft::create(&below), Err(SnapshotError::BelowFile(path)) if path == below));
         assert_eq!(names(home.path()), ["new"]);
         assert_eq!(names(&out), ["mine"]);
     }
@@ -368,7 +368,7 @@ pub(crate) mod tests {
             let mine = if folder { out.join("mine") } else { out.clone() };
             fs::create_dir_all(mine.parent().expect("below home")).expect("created");
             fs::write(&mine, "precious").expect("written");
-            assert!(matches!(draft.commit(), Err(SnapshotError::Occupied { .. })));
+            assert!(matches!(draft.commit(), Err(SnapshotError::Occupied(_))));
             assert_eq!(fs::read(&mine).expect("still there"), b"precious");
             assert_eq!(names(home.path()), ["new"]);
             remove_tree(&out).or_else(|_| fs::remove_file(&out)).expect("removed");
@@ -378,7 +378,7 @@ pub(crate) mod tests {
     #[test]
     fn places_without_a_name() {
         for out in ["/", "..", ".", "a/.."] {
-            assert!(matches!(Draft::create(Path::new(out)), Err(SnapshotError::Nameless { .. })), "{out}");
+            assert!(matches!(Draft::create(Path::new(out)), Err(SnapshotError::Nameless(_))), "{out}");
         }
     }
 
@@ -405,10 +405,10 @@ pub(crate) mod tests {
         fs::create_dir(&elsewhere).expect("created");
         fs::write(elsewhere.join("mine"), "precious").expect("written");
         symlink("elsewhere", &out).expect("linked");
-        assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied { .. })));
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied(_))));
         let other = home.path().join("other");
         symlink("elsewhere", home.path().join("other.partial")).expect("linked");
-        assert!(matches!(Draft::create(&other), Err(SnapshotError::Foreign { .. })));
+        assert!(matches!(Draft::create(&other), Err(SnapshotError::Foreign(_))));
         assert_eq!(names(&elsewhere), ["mine"]);
     }
 
@@ -481,7 +481,7 @@ pub(crate) mod tests {
             assert!(victim.try_wait().expect("waited for").is_none(), "ended before it was killed");
             thread::sleep(Duration::from_millis(5));
         }
-        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy { .. })));
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy(_))));
         victim.kill().expect("killed");
         victim.wait().expect("gone");
         assert_eq!(names(home.path()), ["new.partial", "orders"]);

@@ -44,11 +44,11 @@ impl Leftover {
     /// Returns its kind for programs, and in words.
     pub(super) fn described(&self) -> (&'static str, String) {
         match &self.kind {
-            LeftoverKind::Draft(draft) if draft.finished_jobs() == 0 => {
+            LeftoverKind::Draft(draft) if draft.finished_jobs == 0 => {
                 ("unfinished", "unfinished work".to_owned())
             }
             LeftoverKind::Draft(draft) => {
-                ("interrupted", format!("an interrupted mint with {} finished jobs", draft.finished_jobs()))
+                ("interrupted", format!("an interrupted mint with {} finished jobs", draft.finished_jobs))
             }
             LeftoverKind::Shard(shard) => ("shard", shard.clone()),
             LeftoverKind::File(_) => ("file", "an unfinished file".to_owned()),

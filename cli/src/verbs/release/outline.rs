@@ -71,7 +71,7 @@ pub(super) fn outline(
     ));
     console.say(format_args!("into {place}"));
     match taken {
-        Some(SnapshotError::Occupied { .. }) => {
+        Some(SnapshotError::Occupied(_)) => {
             console.say(format_args!("which exists: choose another --out, or remove it"));
         }
         Some(other) => return Err(other.into()),
@@ -91,7 +91,7 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crat
     let digest = plan.digest()?;
     match JobFolder::there(&folder, digest, names) {
         // A mint into this place would fail; a plan is not a mint.
-        Err(SnapshotError::OtherPlan { .. }) => Ok(vec![false; names.len()]),
+        Err(SnapshotError::OtherPlan(_)) => Ok(vec![false; names.len()]),
         there => Ok(there?),
     }
 }

@@ -230,7 +230,7 @@ impl From<SnapshotError> for Failure {
                 absent(path)
             }
             SnapshotError::Io { .. } => Failure::Environment(error.into()),
-            SnapshotError::NotASnapshot { path } | SnapshotError::NotAFolder { path } => no_snapshot(&path),
+            SnapshotError::NotASnapshot(path) | SnapshotError::NotAFolder(path) => no_snapshot(&path),
             _ => Failure::Malformed(error.into()),
         }
     }

@@ -51,8 +51,8 @@ fn a_folder_of_releases() {
     let missing = format!("`2027-01` follows the release with root {}", verify(&first).expect("sound").root);
     check(&third, &[second], &["2027-02", "2027-01"], &[&missing]);
     let notes = home.path().join("notes");
-    assert!(matches!(ask(&third, from_ref(&notes)), Err(SnapshotError::NoRelease { path }) if path == notes));
-    assert!(matches!(ask(&third, &[home.path().join("absent")]), Err(SnapshotError::NotASnapshot { .. })));
+    assert!(matches!(ask(&third, from_ref(&notes)), Err(SnapshotError::NoRelease(path)) if path == notes));
+    assert!(matches!(ask(&third, &[home.path().join("absent")]), Err(SnapshotError::NotASnapshot(_))));
 }
 
 #[test]
