@@ -3,6 +3,7 @@
 
 use super::item::Item;
 use forge::card::{LevelCard, Origin};
+use serde_json::Value;
 use validators::{PlayerResult, Rate};
 
 /// The type of a column.
@@ -31,42 +32,31 @@ pub enum ColumnKind {
 impl ColumnKind {
     /// The name of the type in `docs/export.md`.
     pub fn name(self) -> String {
-        let fields = |fields: &[(&str, ColumnKind)]| {
-            let told: Vec<String> =
-                fields.iter().map(|(name, kind)| format!("{name}: {}", kind.name())).collect();
-            format!("list of {{{}}}", told.join(", "))
-        };
         match self {
-            ColumnKind::Text => "string".to_owned(),
-            ColumnKind::MaybeText => "string or null".to_owned(),
-            ColumnKind::Integer => "int64".to_owned(),
-            ColumnKind::MaybeInteger => "int64 or null".to_owned(),
-            ColumnKind::Number => "float64".to_owned(),
-            ColumnKind::MaybeNumber => "float64 or null".to_owned(),
-            ColumnKind::Flag => "bool".to_owned(),
             ColumnKind::Texts => "list of string".to_owned(),
-            ColumnKind::Records(named) => fields(named),
+            ColumnKind::Records(fields) => {
+                let fields = fields.iter().map(|(name, kind)| format!("{name}: {}", kind.name()));
+                format!("list of {{{}}}", fields.collect::<Vec<String>>().join(", "))
+            }
+            single => format!("{}{}", single.data_type(), if single.is_optional() { " or null" } else { "" }),
         }
     }
-}
 
-/// The value of a row in a column.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// Null.
-    Missing,
-    /// A value of [`ColumnKind::Text`] or [`ColumnKind::MaybeText`].
-    Text(String),
-    /// A value of [`ColumnKind::Integer`] or [`ColumnKind::MaybeInteger`].
-    Integer(i64),
-    /// A value of [`ColumnKind::Number`] or [`ColumnKind::MaybeNumber`].
-    Number(f64),
-    /// A value of [`ColumnKind::Flag`].
-    Flag(bool),
-    /// A value of [`ColumnKind::Texts`]: each element is a text.
-    Texts(Vec<Value>),
-    /// A value of [`ColumnKind::Records`]: the fields in their order.
-    Records(Vec<Vec<Value>>),
+    /// The name of the type of a single value.
+    pub(super) fn data_type(self) -> &'static str {
+        match self {
+            ColumnKind::Text | ColumnKind::MaybeText => "string",
+            ColumnKind::Integer | ColumnKind::MaybeInteger => "int64",
+            ColumnKind::Number | ColumnKind::MaybeNumber => "float64",
+            ColumnKind::Flag => "bool",
+            ColumnKind::Texts | ColumnKind::Records(_) => unreachable!("a list is no single value"),
+        }
+    }
+
+    /// Returns `true` if a value can be null.
+    pub(super) fn is_optional(self) -> bool {
+        matches!(self, ColumnKind::MaybeText | ColumnKind::MaybeInteger | ColumnKind::MaybeNumber)
+    }
 }
 
 /// A column.
@@ -108,9 +98,9 @@ const PLAIN: &[Column] = &[
     Column::new("release", ColumnKind::Text, |item| text(&item.manifest.name)),
     Column::new("release_root", ColumnKind::Text, |item| text(item.manifest.root)),
     Column::new("split", ColumnKind::Text, |_| text(super::SPLIT)),
-    Column::new("twin", ColumnKind::MaybeText, |item| item.twin.map_or(Value::Missing, text)),
+    Column::new("twin", ColumnKind::MaybeText, |item| item.twin.map_or(Value::Null, text)),
     Column::new("game_id", ColumnKind::Text, |item| text(&item.card.id)),
-    Column::new("level", ColumnKind::Integer, |item| count(item.number)),
+    Column::new("level", ColumnKind::Integer, |item| Value::from(item.number)),
     Column::new("origin", ColumnKind::Text, |item| {
         text(match item.card.origin {
             Origin::Corpus { .. } => "corpus",
@@ -121,8 +111,8 @@ const PLAIN: &[Column] = &[
         Origin::Corpus { name } | Origin::Generated { generator: name, .. } => text(name),
     }),
     Column::new("patterns", ColumnKind::Texts, |item| match &item.card.origin {
-        Origin::Corpus { .. } => Value::Texts(Vec::new()),
-        Origin::Generated { patterns, .. } => Value::Texts(patterns.iter().map(text).collect()),
+        Origin::Corpus { .. } => Value::Array(Vec::new()),
+        Origin::Generated { patterns, .. } => patterns.iter().map(text).collect(),
     }),
     Column::new("title", ColumnKind::Text, |item| text(&item.exported.title)),
     Column::new("description", ColumnKind::Text, |item| text(&item.exported.description)),
@@ -130,43 +120,39 @@ const PLAIN: &[Column] = &[
     Column::new("rules", ColumnKind::Text, |item| text(&item.exported.rules)),
     Column::new("vgdl", ColumnKind::Text, |item| text(&item.exported.source)),
     Column::new("level_text", ColumnKind::Text, |item| text(&item.exported_level().text)),
-    Column::new("columns", ColumnKind::Integer, |item| count(item.exported_level().level.columns())),
-    Column::new("rows", ColumnKind::Integer, |item| count(item.exported_level().level.rows())),
+    Column::new("columns", ColumnKind::Integer, |item| Value::from(item.exported_level().level.columns())),
+    Column::new("rows", ColumnKind::Integer, |item| Value::from(item.exported_level().level.rows())),
     Column::new("legend", ColumnKind::Records(LEGEND), |item| {
         let line = |(symbol, sprites): &(char, String)| vec![text(symbol), text(sprites)];
-        Value::Records(item.exported.legend.iter().map(line).collect())
+        item.exported.legend.iter().map(line).collect()
     }),
     Column::new("kind", ColumnKind::Text, |item| text(&item.card.kind)),
     Column::new("goal_kind", ColumnKind::Text, |item| text(item.exported.kind.goal.name())),
     Column::new("avatar_kind", ColumnKind::Text, |item| text(item.exported.kind.avatar.name())),
     Column::new("chance", ColumnKind::Text, |item| text(item.exported.kind.chance.name())),
-    Column::new("real_time", ColumnKind::Flag, |item| Value::Flag(item.card.real_time)),
-    Column::new("deterministic", ColumnKind::Flag, |item| Value::Flag(item.card.deterministic)),
+    Column::new("real_time", ColumnKind::Flag, |item| Value::from(item.card.real_time)),
+    Column::new("deterministic", ColumnKind::Flag, |item| Value::from(item.card.deterministic)),
     Column::new("difficulty", ColumnKind::MaybeText, |item| {
         let label = item.level().ladder.as_ref().map(|ladder| ladder.difficulty.to_string());
-        label.map_or(Value::Missing, |label| text(label.replace(' ', "_")))
+        label.map_or(Value::Null, |label| text(label.replace(' ', "_")))
     }),
     Column::new("ease", ColumnKind::MaybeNumber, |item| {
-        maybe(item.level().ladder.as_ref().and_then(|ladder| ladder.ease))
+        Value::from(item.level().ladder.as_ref().and_then(|ladder| ladder.ease))
     }),
-    Column::new("difficulty_asked", ColumnKind::Number, |item| Value::Number(item.level().difficulty)),
+    Column::new("difficulty_asked", ColumnKind::Number, |item| Value::from(item.level().difficulty)),
     Column::new("ladder", ColumnKind::Records(LADDER), |item| ladder(item.level())),
     Column::new("tree_search_win_rate", ColumnKind::MaybeNumber, |item| rate(&item.level().mcts)),
     Column::new("random_win_rate", ColumnKind::MaybeNumber, |item| rate(&item.level().random)),
     Column::new("idle_win_rate", ColumnKind::MaybeNumber, |item| rate(&item.level().idle)),
-    Column::new("witness_ticks", ColumnKind::Integer, |item| count(item.level().witness_ticks)),
-    Column::new("witness_score", ColumnKind::Number, |item| Value::Number(item.level().witness_score)),
-    Column::new("optimal_ticks", ColumnKind::MaybeInteger, |item| {
-        item.level().optimal_ticks.map_or(Value::Missing, count)
-    }),
+    Column::new("witness_ticks", ColumnKind::Integer, |item| Value::from(item.level().witness_ticks)),
+    Column::new("witness_score", ColumnKind::Number, |item| Value::from(item.level().witness_score)),
+    Column::new("optimal_ticks", ColumnKind::MaybeInteger, |item| Value::from(item.level().optimal_ticks)),
     Column::new("level_generator", ColumnKind::Text, |item| text(&item.level().generator)),
     Column::new("game_digest", ColumnKind::Text, |item| text(item.exported.game.digest())),
     Column::new("level_digest", ColumnKind::Text, |item| text(item.exported_level().level.digest())),
     Column::new("rules_digest", ColumnKind::Text, |item| text(item.exported.form)),
-    Column::new("semantics", ColumnKind::Integer, |item| Value::Integer(i64::from(item.manifest.semantics))),
-    Column::new("generation", ColumnKind::Integer, |item| {
-        Value::Integer(i64::from(item.manifest.generation))
-    }),
+    Column::new("semantics", ColumnKind::Integer, |item| Value::from(item.manifest.semantics)),
+    Column::new("generation", ColumnKind::Integer, |item| Value::from(item.manifest.generation)),
     Column::new("canary", ColumnKind::Text, |item| text(&item.manifest.canary)),
 ];
 
@@ -174,10 +160,10 @@ const PLAIN: &[Column] = &[
 const SOLUTIONS: &[Column] = &[
     Column::new("solution", ColumnKind::Texts, |item| {
         let actions = item.exported_level().witness.iter().flat_map(|episode| &episode.actions);
-        Value::Texts(actions.map(text).collect())
+        actions.map(text).collect()
     }),
     Column::new("solution_seed", ColumnKind::MaybeText, |item| {
-        item.exported_level().witness.as_ref().map_or(Value::Missing, |episode| text(episode.seed))
+        item.exported_level().witness.as_ref().map_or(Value::Null, |episode| text(episode.seed))
     }),
 ];
 
@@ -187,36 +173,26 @@ pub fn columns(solutions: bool) -> Vec<Column> {
 }
 
 fn text(shown: impl ToString) -> Value {
-    Value::Text(shown.to_string())
-}
-
-/// Counts of a release are below its limits, far from 2^63.
-fn count(number: usize) -> Value {
-    Value::Integer(i64::try_from(number).unwrap_or(i64::MAX))
-}
-
-fn maybe(number: Option<f64>) -> Value {
-    number.map_or(Value::Missing, Value::Number)
+    Value::String(shown.to_string())
 }
 
 fn rate(rate: &Rate) -> Value {
-    maybe((rate.plays > 0).then(|| rate.wins as f64 / rate.plays as f64))
+    Value::from((rate.plays > 0).then(|| rate.wins as f64 / rate.plays as f64))
 }
 
 fn ladder(level: &LevelCard) -> Value {
-    let whole = |number: u64| Value::Integer(i64::try_from(number).unwrap_or(i64::MAX));
     let record = |result: &PlayerResult, held_out: bool| {
         vec![
             text(&result.player),
-            Value::Flag(result.looks_ahead),
-            Value::Flag(held_out),
-            whole(result.rate.plays),
-            whole(result.rate.wins),
+            Value::from(result.looks_ahead),
+            Value::from(held_out),
+            Value::from(result.rate.plays),
+            Value::from(result.rate.wins),
             rate(&result.rate),
-            maybe(result.reward),
+            Value::from(result.reward),
         ]
     };
-    let Some(ladder) = &level.ladder else { return Value::Records(Vec::new()) };
+    let Some(ladder) = &level.ladder else { return Value::Array(Vec::new()) };
     let rungs = ladder.rungs.iter().map(|result| record(result, false));
-    Value::Records(rungs.chain(ladder.held_out.iter().map(|result| record(result, true))).collect())
+    rungs.chain(ladder.held_out.iter().map(|result| record(result, true))).collect()
 }

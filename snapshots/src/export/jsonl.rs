@@ -1,7 +1,8 @@
 //! JSON Lines: one object per row, with its keys in the order of the columns.
 
-use super::columns::{Column, ColumnKind, Value};
-use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use super::columns::{Column, ColumnKind};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::Value;
 
 /// Writes the rows as JSON Lines, in UTF-8. Floats are printed as the shortest text that reads back as the same
 /// number.
@@ -29,25 +30,15 @@ impl Serialize for Object<'_> {
 
 struct Typed<'a>(ColumnKind, &'a Value);
 
-impl Serialize for Typed<'_> {
+impl<'a> Serialize for Typed<'a> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match (self.0, self.1) {
-            (_, Value::Missing) => serializer.serialize_none(),
-            (_, Value::Text(text)) => serializer.serialize_str(text),
-            (_, Value::Integer(number)) => serializer.serialize_i64(*number),
-            (_, Value::Number(number)) => serializer.serialize_f64(*number),
-            (_, Value::Flag(flag)) => serializer.serialize_bool(*flag),
-            (_, Value::Texts(texts)) => {
-                serializer.collect_seq(texts.iter().map(|text| Typed(ColumnKind::Text, text)))
-            }
-            (ColumnKind::Records(fields), Value::Records(records)) => {
-                let mut list = serializer.serialize_seq(Some(records.len()))?;
-                for record in records {
-                    list.serialize_element(&Object(fields.iter().copied().zip(record).collect()))?;
-                }
-                list.end()
-            }
-            (_, Value::Records(_)) => unreachable!("only columns of records hold records"),
-        }
+        let (ColumnKind::Records(fields), Value::Array(records)) = (self.0, self.1) else {
+            return self.1.serialize(serializer);
+        };
+        let object = |record: &'a Value| {
+            let values = record.as_array().into_iter().flatten();
+            Object(fields.iter().copied().zip(values).collect())
+        };
+        serializer.collect_seq(records.iter().map(object))
     }
 }

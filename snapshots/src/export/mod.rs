@@ -10,7 +10,7 @@ mod page;
 #[cfg(feature = "parquet")]
 mod table;
 
-pub use columns::{Column, ColumnKind, Value, columns};
+pub use columns::{Column, ColumnKind, columns};
 
 use crate::released::Released;
 use crate::twin::{self, Twin, TwinError};
@@ -18,6 +18,7 @@ use forge::card::Card;
 use item::{ExportedGame, Item};
 use page::Rows;
 use rayon::prelude::*;
+use serde_json::Value;
 use std::fmt;
 
 /// The only split. A release is for evaluation, all of it. Tools that find no named split take everything as training

@@ -60,10 +60,10 @@ fn front(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'
             ColumnKind::Records(fields) => {
                 let _ = writeln!(text, "  - name: {name}\n    list:");
                 fields.iter().try_for_each(|(name, kind)| {
-                    writeln!(text, "    - name: {name}\n      dtype: {}", dtype(*kind))
+                    writeln!(text, "    - name: {name}\n      dtype: {}", kind.data_type())
                 })
             }
-            kind => writeln!(text, "  - name: {name}\n    dtype: {}", dtype(*kind)),
+            kind => writeln!(text, "  - name: {name}\n    dtype: {}", kind.data_type()),
         };
     }
     let _ = write!(
@@ -72,16 +72,6 @@ fn front(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'
          dataset_size: {bytes}\n---\n\n"
     );
     text
-}
-
-fn dtype(kind: ColumnKind) -> &'static str {
-    match kind {
-        ColumnKind::Text | ColumnKind::MaybeText => "string",
-        ColumnKind::Integer | ColumnKind::MaybeInteger => "int64",
-        ColumnKind::Number | ColumnKind::MaybeNumber => "float64",
-        ColumnKind::Flag => "bool",
-        ColumnKind::Texts | ColumnKind::Records(_) => unreachable!("a field of a record is no list"),
-    }
 }
 
 fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {

@@ -3,7 +3,7 @@
 //! Plain format 1.0 without compression, with one row group and without time or machine in the footer: the same rows
 //! give the same bytes. Dictionaries of the columns keep repeated texts cheap.
 
-use super::columns::{Column, ColumnKind, Value};
+use super::columns::{Column, ColumnKind};
 use parquet::basic::Compression;
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
@@ -12,6 +12,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
+use serde_json::Value;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -70,15 +71,12 @@ fn schema(columns: &[Column]) -> String {
 }
 
 fn leaf(name: &str, kind: ColumnKind) -> String {
-    match kind {
-        ColumnKind::Text => format!("required binary {name} (STRING); "),
-        ColumnKind::MaybeText => format!("optional binary {name} (STRING); "),
-        ColumnKind::Integer => format!("required int64 {name}; "),
-        ColumnKind::MaybeInteger => format!("optional int64 {name}; "),
-        ColumnKind::Number => format!("required double {name}; "),
-        ColumnKind::MaybeNumber => format!("optional double {name}; "),
-        ColumnKind::Flag => format!("required boolean {name}; "),
-        ColumnKind::Texts | ColumnKind::Records(_) => unreachable!("a field of a record is no list"),
+    let repetition = if kind.is_optional() { "optional" } else { "required" };
+    match kind.data_type() {
+        "string" => format!("{repetition} binary {name} (STRING); "),
+        "float64" => format!("{repetition} double {name}; "),
+        "bool" => format!("{repetition} boolean {name}; "),
+        same => format!("{repetition} {same} {name}; "),
     }
 }
 
@@ -94,10 +92,8 @@ struct Leaf<'a> {
 impl<'a> Leaf<'a> {
     /// Adds a value or null, `base` levels deep.
     fn put(&mut self, kind: ColumnKind, value: &'a Value, base: i16, repeated: i16) {
-        let optional =
-            matches!(kind, ColumnKind::MaybeText | ColumnKind::MaybeInteger | ColumnKind::MaybeNumber);
-        let missing = *value == Value::Missing;
-        self.there.push(base + i16::from(optional && !missing));
+        let missing = value.is_null();
+        self.there.push(base + i16::from(kind.is_optional() && !missing));
         self.repeated.push(repeated);
         if !missing {
             self.values.push(value);
@@ -112,38 +108,26 @@ impl<'a> Leaf<'a> {
 
     fn write(&self, writer: &mut ColumnWriter<'_>) -> Result<usize, ParquetError> {
         let (there, repeated) = (Some(&self.there[..]), Some(&self.repeated[..]));
-        let texts = || {
-            let bytes = |value: &&Value| match value {
-                Value::Text(text) => ByteArray::from(text.as_str()),
-                other => unreachable!("{other:?} among texts"),
-            };
-            self.values.iter().map(bytes).collect::<Vec<ByteArray>>()
-        };
-        let integer = |value: &&Value| match value {
-            Value::Integer(number) => *number,
-            other => unreachable!("{other:?} among whole numbers"),
-        };
-        let number = |value: &&Value| match value {
-            Value::Number(number) => *number,
-            other => unreachable!("{other:?} among numbers"),
-        };
-        let flag = |value: &&Value| match value {
-            Value::Flag(flag) => *flag,
-            other => unreachable!("{other:?} among flags"),
-        };
         match writer {
-            ColumnWriter::ByteArrayColumnWriter(writer) => writer.write_batch(&texts(), there, repeated),
+            ColumnWriter::ByteArrayColumnWriter(writer) => {
+                let texts = self.all(|value| value.as_str().map(ByteArray::from));
+                writer.write_batch(&texts, there, repeated)
+            }
             ColumnWriter::Int64ColumnWriter(writer) => {
-                writer.write_batch(&self.values.iter().map(integer).collect::<Vec<i64>>(), there, repeated)
+                writer.write_batch(&self.all(Value::as_i64), there, repeated)
             }
             ColumnWriter::DoubleColumnWriter(writer) => {
-                writer.write_batch(&self.values.iter().map(number).collect::<Vec<f64>>(), there, repeated)
+                writer.write_batch(&self.all(Value::as_f64), there, repeated)
             }
             ColumnWriter::BoolColumnWriter(writer) => {
-                writer.write_batch(&self.values.iter().map(flag).collect::<Vec<bool>>(), there, repeated)
+                writer.write_batch(&self.all(Value::as_bool), there, repeated)
             }
             _ => unreachable!("the schema has no other types"),
         }
+    }
+
+    fn all<T>(&self, of: impl Fn(&'a Value) -> Option<T>) -> Vec<T> {
+        self.values.iter().map(|value| of(value).expect("values have the type of their column")).collect()
     }
 }
 
@@ -156,26 +140,21 @@ fn leaves<'a>(kind: ColumnKind, rows: &[&'a Value]) -> Vec<Leaf<'a>> {
     };
     let mut leaves: Vec<Leaf<'a>> = fields.iter().map(|_| Leaf::default()).collect();
     for row in rows {
-        match row {
-            Value::Records(records) => {
-                for (at, record) in records.iter().enumerate() {
-                    for ((leaf, kind), value) in leaves.iter_mut().zip(&fields).zip(record) {
-                        leaf.put(*kind, value, 1, i16::from(at > 0));
-                    }
-                }
-                if records.is_empty() {
-                    leaves.iter_mut().for_each(Leaf::none);
-                }
+        let Value::Array(elements) = row else {
+            leaves[0].put(kind, row, 0, 0);
+            continue;
+        };
+        for (at, element) in elements.iter().enumerate() {
+            let record = match element {
+                Value::Array(record) => record.as_slice(),
+                text => std::slice::from_ref(text),
+            };
+            for ((leaf, kind), value) in leaves.iter_mut().zip(&fields).zip(record) {
+                leaf.put(*kind, value, 1, i16::from(at > 0));
             }
-            Value::Texts(texts) => {
-                for (at, text) in texts.iter().enumerate() {
-                    leaves[0].put(ColumnKind::Text, text, 1, i16::from(at > 0));
-                }
-                if texts.is_empty() {
-                    leaves[0].none();
-                }
-            }
-            value => leaves[0].put(kind, value, 0, 0),
+        }
+        if elements.is_empty() {
+            leaves.iter_mut().for_each(Leaf::none);
         }
     }
     leaves
@@ -199,33 +178,32 @@ mod tests {
             ("texts", ColumnKind::Texts),
             ("records", ColumnKind::Records(FIELDS)),
         ];
-        kinds.map(|(name, kind)| Column::new(name, kind, |_| Value::Missing)).to_vec()
+        kinds.map(|(name, kind)| Column::new(name, kind, |_| Value::Null)).to_vec()
     }
 
     fn text(text: &str) -> Value {
-        Value::Text(text.to_owned())
+        Value::from(text)
     }
 
     fn rows() -> Vec<Vec<Value>> {
-        let record =
-            |who: &str, share: Option<f64>| vec![text(who), share.map_or(Value::Missing, Value::Number)];
+        let record = |who: &str, share: Option<f64>| vec![text(who), Value::from(share)];
         let full = vec![
             text("wAw\nw w\n"),
             text("é"),
-            Value::Integer(i64::MIN),
-            Value::Number(0.1),
-            Value::Flag(true),
-            Value::Texts(vec![text("a"), text("b")]),
-            Value::Records(vec![record("x", None), record("y", Some(0.5)), record("z", None)]),
+            Value::from(i64::MIN),
+            Value::from(0.1),
+            Value::from(true),
+            Value::from(vec![text("a"), text("b")]),
+            Value::from(vec![record("x", None), record("y", Some(0.5)), record("z", None)]),
         ];
         let nothing = vec![
             text(""),
-            Value::Missing,
-            Value::Missing,
-            Value::Missing,
-            Value::Flag(false),
-            Value::Texts(Vec::new()),
-            Value::Records(Vec::new()),
+            Value::Null,
+            Value::Null,
+            Value::Null,
+            Value::from(false),
+            Value::Array(Vec::new()),
+            Value::Array(Vec::new()),
         ];
         vec![full.clone(), nothing, full]
     }
