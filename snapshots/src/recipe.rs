@@ -240,12 +240,16 @@ impl Recipe {
     /// # Errors
     /// The first problem, with its position or key.
     pub fn from_toml(text: &str) -> Result<Recipe, RecipeError> {
+        let recipe = Recipe::parse(text)?;
+        recipe.check()?;
+        Ok(recipe)
+    }
+
+    fn parse(text: &str) -> Result<Recipe, RecipeError> {
         if text.len() > MAX_RECIPE {
             return Err(RecipeError::TooLarge);
         }
-        let recipe: Recipe = toml::from_str(text).map_err(|error| RecipeError::Syntax(Box::new(error)))?;
-        recipe.check()?;
-        Ok(recipe)
+        toml::from_str(text).map_err(|error| RecipeError::Syntax(Box::new(error)))
     }
 
     /// Reads and checks a recipe that is to be committed to: its `seed` and `commitment` are dropped.
@@ -253,12 +257,7 @@ impl Recipe {
     /// # Errors
     /// The first problem, with its position or key.
     pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
-        if text.len() > MAX_RECIPE {
-            return Err(RecipeError::TooLarge);
-        }
-        let syntax = |error| RecipeError::Syntax(Box::new(error));
-        let written: Recipe = toml::from_str(text).map_err(syntax)?;
-        let recipe = Recipe { seed: None, commitment: None, ..written };
+        let recipe = Recipe { seed: None, commitment: None, ..Recipe::parse(text)? };
         Recipe { seed: Some("to be drawn".to_owned()), ..recipe.clone() }.check()?;
         Ok(recipe)
     }

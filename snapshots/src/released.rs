@@ -2,10 +2,9 @@
 
 use crate::contents::Contents;
 use crate::integrity::Integrity;
-use crate::manifest::{MANIFEST_FILE, Manifest, ReleaseKind};
-use crate::sealed::held_witness;
+use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::verify::{Verification, verify};
-use crate::witness::Witness;
+use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
 use engine::{Episode, Game, Level};
 use forge::card::Card;
@@ -56,11 +55,8 @@ pub enum ReleasedError {
     #[error("{} does not verify: {}", .0.name, .0.problems.first().map_or("", String::as_str))]
     Unsound(Box<Verification>),
     /// A file changed between verification and reading.
-    #[error("`{path}` changed while it was read: try again")]
-    Changed {
-        /// The file.
-        path: String,
-    },
+    #[error("`{0}` changed while it was read: try again")]
+    Changed(String),
 }
 
 impl Released {
@@ -76,7 +72,7 @@ impl Released {
         }
         let (Integrity { manifest, .. }, contents) = Contents::open(root)?;
         if manifest.root != verification.root {
-            return Err(ReleasedError::Changed { path: MANIFEST_FILE.to_owned() });
+            return Err(ReleasedError::Changed(MANIFEST_FILE.to_owned()));
         }
         let folder_of = |path: &str| path.strip_suffix("/card.json").map(str::to_owned);
         let folders: Vec<String> = manifest.items.iter().filter_map(|item| folder_of(&item.path)).collect();
@@ -94,32 +90,27 @@ impl Released {
 fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<ReleasedGame, ReleasedError> {
     // Everything was well-formed during verification; the digest detects later changes.
     let read = |path: String| -> Result<Option<String>, ReleasedError> {
-        let found = manifest.items.binary_search_by(|item| item.path.as_str().cmp(&path));
-        let Ok(at) = found else { return Ok(None) };
+        let Some(item) = manifest.item(&path) else { return Ok(None) };
         // A listed file is absent only if it is withheld.
         let Some(bytes) = contents.find(&path)? else { return Ok(None) };
-        if Digest::of(&bytes) != manifest.items[at].digest {
-            return Err(ReleasedError::Changed { path });
+        if Digest::of(&bytes) != item.digest {
+            return Err(ReleasedError::Changed(path));
         }
-        String::from_utf8(bytes).map(Some).map_err(|_| ReleasedError::Changed { path })
+        String::from_utf8(bytes).map(Some).map_err(|_| ReleasedError::Changed(path))
     };
-    let changed = |file: &str| ReleasedError::Changed { path: format!("{folder}/{file}") };
+    let changed = |file: &str| ReleasedError::Changed(format!("{folder}/{file}"));
     let need = |file: &str| read(format!("{folder}/{file}"))?.ok_or_else(|| changed(file));
     let card: Card = serde_json::from_str(&need("card.json")?).map_err(|_| changed("card.json"))?;
     let source = need("game.vgdl")?;
     let game = Game::from_source(&source).map_err(|_| changed("game.vgdl"))?;
     let level = |number: usize| {
         let file = format!("lvl{number}.txt");
-        let witness = match manifest.kind {
-            ReleaseKind::Open => format!("{folder}/witness/lvl{number}.json"),
-            ReleaseKind::Sealed => held_witness(&card.id, number),
-        };
+        let witness = witness_path(manifest.kind, &card.id, number);
         let text = need(&file)?;
         let level = game.level(&text).map_err(|_| changed(&file))?;
         let text_of_witness = read(witness.clone())?;
         let parse = |text: String| serde_json::from_str::<Witness>(&text);
-        let witness =
-            text_of_witness.map(parse).transpose().map_err(|_| ReleasedError::Changed { path: witness })?;
+        let witness = text_of_witness.map(parse).transpose().map_err(|_| ReleasedError::Changed(witness))?;
         let witness = witness.map(|witness| witness.episode);
         Ok(ReleasedLevel { text, level, witness })
     };

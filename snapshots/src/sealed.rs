@@ -4,10 +4,9 @@ use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::papers::{self, IGNORED_NAMES, PAPERS_LIMITS};
-use crate::witness::Witness;
+use crate::witness::{Witness, descendant};
 use crate::{Draft, SnapshotError};
 use engine::{Digest, Seed};
-use forge::games::Step;
 use report::canonical::{CanonicalError, canonical_digest};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -20,11 +19,6 @@ use std::path::Path;
 pub const SECRET_FILE: &str = "held/secret.json";
 /// The folder of the files of a sealed release that are withheld until the reveal.
 pub const HELD: &str = "held/";
-
-/// The path of a level's witness in a sealed release; `game` is the game's folder in `games`.
-pub(crate) fn held_witness(game: &str, level: usize) -> String {
-    format!("{HELD}{game}/lvl{level}.json")
-}
 
 /// The secret of a sealed release: the source of its seed, which the recipe commits to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -135,8 +129,7 @@ impl Secret {
     /// Tests whether the witness's seed is derived from this secret along the path that the witness states. A secret
     /// of an earlier generation always passes.
     pub(crate) fn leads_to(&self, witness: &Witness) -> bool {
-        let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);
-        self.recipe.is_none() || witness.path.iter().fold(self.root_seed(), step) == witness.episode.seed
+        self.recipe.is_none() || descendant(self.root_seed(), &witness.path) == witness.episode.seed
     }
 }
 
@@ -221,18 +214,11 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
     let listing = folder::list_but(held, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
     problems.extend(listing.problems.iter().map(|problem| format!("{HELD}{problem}")));
-    let there: BTreeSet<String> =
-        listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
-    let awaited: BTreeSet<&str> =
-        manifest.items.iter().map(|item| item.path.as_str()).filter(|path| path.starts_with(HELD)).collect();
-    problems.extend(
-        there
-            .iter()
-            .filter(|path| !awaited.contains(path.as_str()))
-            .map(|path| format!("{path}: not of this release")),
-    );
-    problems
-        .extend(awaited.iter().filter(|path| !there.contains(**path)).map(|path| format!("{path}: missing")));
+    let there: Vec<String> = listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
+    let there: BTreeSet<&str> = there.iter().map(String::as_str).collect();
+    let awaited = manifest.held();
+    problems.extend(there.difference(&awaited).map(|path| format!("{path}: not of this release")));
+    problems.extend(awaited.difference(&there).map(|path| format!("{path}: missing")));
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));
     }

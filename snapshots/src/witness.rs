@@ -1,6 +1,8 @@
 //! `witness/lvl<n>.json`: an episode that proves that a level can be won.
 
-use engine::Episode;
+use crate::manifest::ReleaseKind;
+use crate::sealed::HELD;
+use engine::{Episode, Seed};
 use forge::games::Step;
 use serde::{Deserialize, Serialize};
 
@@ -16,4 +18,17 @@ pub struct Witness {
     /// Sealed releases have them, to allow checking a revealed secret without minting; in open ones the list is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Step>,
+}
+
+/// The path of a level's witness in a release; `game` is the game's folder in `games`.
+pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> String {
+    match kind {
+        ReleaseKind::Open => format!("games/{game}/witness/lvl{level}.json"),
+        ReleaseKind::Sealed => format!("{HELD}{game}/lvl{level}.json"),
+    }
+}
+
+/// The seed that is derived from another one along a path.
+pub(crate) fn descendant(seed: Seed, path: &[Step]) -> Seed {
+    path.iter().fold(seed, |seed, (purpose, index)| seed.child(purpose, *index))
 }

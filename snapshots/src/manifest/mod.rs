@@ -21,9 +21,11 @@ use serde_json::Value;
 
 use crate::error::SnapshotError;
 use crate::merkle::{self, Leaf};
+use crate::sealed::HELD;
 use crate::version::MintedBy;
 use engine::Digest;
 use report::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
+use std::collections::BTreeSet;
 
 /// The snapshot format that this crate writes, and the newest that it reads.
 pub const FORMAT: u32 = 2;
@@ -124,6 +126,17 @@ impl Manifest {
     /// The version that minted it.
     pub fn minted_by(&self) -> MintedBy {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
+    }
+
+    /// The paths of the files of a sealed release that are withheld until the reveal.
+    pub(crate) fn held(&self) -> BTreeSet<&str> {
+        self.items.iter().map(|item| item.path.as_str()).filter(|path| path.starts_with(HELD)).collect()
+    }
+
+    /// The item at a path.
+    pub(crate) fn item(&self, path: &str) -> Option<&Item> {
+        let at = self.items.binary_search_by(|item| item.path.as_str().cmp(path)).ok()?;
+        Some(&self.items[at])
     }
 
     /// The leaves of the tree, sorted by the bytes of their paths: the items and the header, for [`merkle::root`] and

@@ -84,6 +84,31 @@ pub struct Novelty {
     pub nearest_known: Option<Quantiles>,
 }
 
+impl Rung {
+    /// The cells of a Markdown table: the player, the win rate and its interval.
+    pub(crate) fn row(&self) -> String {
+        let RungRate { player, mean, .. } = &self.rate;
+        let held_out = if self.rate.held_out { ", held out" } else { "" };
+        let [low, high] = self.rate.interval.map(|bound| 100.0 * bound);
+        format!("| `{player}`{held_out} | {:.0} % | {low:.0} to {high:.0} % |", 100.0 * mean)
+    }
+}
+
+/// The number of times that each name occurs.
+pub(crate) fn counted(names: impl Iterator<Item = String>) -> BTreeMap<String, u64> {
+    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
+    names.for_each(|name| *counts.entry(name).or_default() += 1);
+    counts
+}
+
+/// The generator of a game's rules, or `corpus`.
+pub(crate) fn generator(card: &Card) -> String {
+    match &card.origin {
+        Origin::Corpus { .. } => "corpus".to_owned(),
+        Origin::Generated { generator, .. } => generator.clone(),
+    }
+}
+
 impl ReleaseCard {
     /// The card of the selected games. Cost: new games², and some thousand resamples for each player.
     pub(super) fn of(
@@ -94,17 +119,8 @@ impl ReleaseCard {
         tally: Tally,
     ) -> ReleaseCard {
         let recipe = plan.recipe;
-        let count = |names: &mut dyn Iterator<Item = String>| {
-            let mut counts: BTreeMap<String, u64> = BTreeMap::new();
-            names.for_each(|name| *counts.entry(name).or_default() += 1);
-            counts
-        };
         let games = || taken.iter().map(|&at| &contenders[at]);
         let levels = || cards.iter().flat_map(|card| &card.levels);
-        let generator = |card: &Card| match &card.origin {
-            Origin::Corpus { .. } => "corpus".to_owned(),
-            Origin::Generated { generator, .. } => generator.clone(),
-        };
         let new: Vec<&Contender> = games().filter(|game| game.is_new).collect();
         let nearest = |at: usize| {
             let others = new.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, game)| &game.form);
@@ -128,10 +144,10 @@ impl ReleaseCard {
             levels: levels().count() as u64,
             new_games: cards.iter().filter(|card| is_new(card)).count() as u64,
             planned: bins(recipe, contenders, taken),
-            difficulty: count(&mut games().flat_map(Contender::labels)),
-            goals: count(&mut games().map(|game| game.goal.name().to_owned())),
-            avatars: count(&mut games().map(|game| game.avatar.name().to_owned())),
-            generators: count(&mut cards.iter().map(generator)),
+            difficulty: counted(games().flat_map(Contender::labels)),
+            goals: counted(games().map(|game| game.goal.name().to_owned())),
+            avatars: counted(games().map(|game| game.avatar.name().to_owned())),
+            generators: counted(cards.iter().map(generator)),
             ladder: rates(cards).into_iter().map(rung).collect(),
             novelty: Novelty {
                 ancestors: recipe.known.releases.clone(),
@@ -141,7 +157,7 @@ impl ReleaseCard {
                 nearest_corpus: nearest_of(&plan.forms),
                 nearest_known: nearest_of(&plan.before),
             },
-            patterns: count(&mut cards.iter().flat_map(|card| card.origin.mechanics()).map(str::to_owned)),
+            patterns: counted(cards.iter().flat_map(|card| card.origin.mechanics()).map(str::to_owned)),
             rules: Quantiles::of(&rules),
             witness_ticks: Quantiles::of(&ticks),
             tally,
@@ -166,17 +182,9 @@ impl ReleaseCard {
             );
             let points = |share: f64| format!("{:.0} points", 100.0 * share);
             let seen = |difference: &Option<f64>| difference.map_or("-".to_owned(), points);
-            for Rung { rate, detectable, detectable_month } in &self.ladder {
-                let held_out = if rate.held_out { ", held out" } else { "" };
-                let [low, high] = rate.interval.map(|bound| 100.0 * bound);
-                let _ = writeln!(
-                    text,
-                    "| `{}`{held_out} | {:.0} % | {low:.0} to {high:.0} % | {} | {} |",
-                    rate.player,
-                    100.0 * rate.mean,
-                    seen(detectable),
-                    seen(detectable_month),
-                );
+            for rung in &self.ladder {
+                let (alike, month) = (seen(&rung.detectable), seen(&rung.detectable_month));
+                let _ = writeln!(text, "{} {alike} | {month} |", rung.row());
             }
             text.push('\n');
         }

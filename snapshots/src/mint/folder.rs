@@ -5,8 +5,8 @@ use super::job::FrozenGame;
 use super::{MintError, Plan};
 use crate::manifest::{FORMAT, Item, Manifest, ReleaseKind};
 use crate::recipe::Recipe;
-use crate::sealed::{SECRET_FILE, Secret, held_witness};
-use crate::witness::Witness;
+use crate::sealed::{SECRET_FILE, Secret};
+use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
 use engine::syntax;
 use forge::card::{Card, Origin};
@@ -24,7 +24,7 @@ pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
 pub(super) struct Folder<'a, 'b> {
     sink: &'a mut Sink<'b>,
     canary: String,
-    is_sealed: bool,
+    kind: ReleaseKind,
     items: Vec<Item>,
     pub(super) cards: Vec<Card>,
 }
@@ -34,7 +34,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         Folder {
             sink,
             canary: plan.canary(),
-            is_sealed: plan.is_sealed(),
+            kind: if plan.is_sealed() { ReleaseKind::Sealed } else { ReleaseKind::Open },
             items: Vec::new(),
             cards: Vec::new(),
         }
@@ -58,13 +58,9 @@ impl<'a, 'b> Folder<'a, 'b> {
         for (number, ((level, episode), path)) in won {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
             // The seed of an open release is known, and everything follows from it.
-            let path = if self.is_sealed { path } else { Vec::new() };
+            let path = if self.kind == ReleaseKind::Sealed { path } else { Vec::new() };
             let witness = Witness { canary: self.canary.clone(), episode, path };
-            let file = match self.is_sealed {
-                true => held_witness(&card.id, number),
-                false => format!("{folder}/witness/lvl{number}.json"),
-            };
-            self.file(file, &json(&witness)?)?;
+            self.file(witness_path(self.kind, &card.id, number), &json(&witness)?)?;
         }
         self.cards.push(card);
         Ok(())
@@ -81,13 +77,13 @@ impl<'a, 'b> Folder<'a, 'b> {
         let text = readme(recipe, &self.canary, &self.cards, card);
         self.file("README.md".to_owned(), text.as_bytes())?;
         self.file(RELEASE_CARD_FILE.to_owned(), &json(card)?)?;
-        if let (true, Some(secret)) = (self.is_sealed, secret) {
+        if let (ReleaseKind::Sealed, Some(secret)) = (self.kind, secret) {
             self.file(SECRET_FILE.to_owned(), &json(secret)?)?;
         }
         let mut manifest = Manifest {
             format: FORMAT,
             name: recipe.name.clone(),
-            kind: if self.is_sealed { ReleaseKind::Sealed } else { ReleaseKind::Open },
+            kind: self.kind,
             semantics: engine::SEMANTICS,
             generation: generators::GENERATION,
             version: Some(crate::version::CURRENT.number.to_owned()),

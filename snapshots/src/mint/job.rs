@@ -1,11 +1,10 @@
 //! The result of a job, as data that can be stored and shipped.
 
+use crate::witness::descendant;
 use engine::{Episode, Seed};
 use forge::Tally;
 use forge::card::Card;
-use forge::games::FoundLevel;
-use forge::games::MadeGame;
-use forge::games::Step;
+use forge::games::{FoundLevel, MadeGame, Step};
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
@@ -57,14 +56,13 @@ fn path(
     count: usize,
     witness: &Episode,
 ) -> Option<Vec<Step>> {
-    let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);
     let to = |steps: &[(&str, u64)]| -> Vec<Step> {
         steps.iter().map(|&(purpose, index)| (purpose.to_owned(), index)).collect()
     };
     let find = |from: Seed, seed: Seed, mut ways: Box<dyn Iterator<Item = Vec<Step>>>| {
-        ways.find(|steps| steps.iter().fold(from, step) == seed)
+        ways.find(|steps| descendant(from, steps) == seed)
     };
-    let judges = start.iter().fold(root, step);
+    let judges = descendant(root, start);
     let candidate = found.candidate.into();
     let places = (0..count as u64).map(move |place| to(&[("level", place), ("candidate", candidate)]));
     let place = find(judges, found.seed, Box::new(places))?;
@@ -83,11 +81,8 @@ fn path(
     });
     let proved = [to(&[("winnable", 0), ("systematic", 0)])].into_iter();
     let asked = to(&[("judges", 0)]);
-    let won = find(
-        asked.iter().fold(found.seed, step),
-        witness.seed,
-        Box::new(proved.chain(searched).chain(others)),
-    )?;
+    let asked_seed = descendant(found.seed, &asked);
+    let won = find(asked_seed, witness.seed, Box::new(proved.chain(searched).chain(others)))?;
     Some(start.iter().cloned().chain(place).chain(asked).chain(won).collect())
 }
 

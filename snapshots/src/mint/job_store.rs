@@ -83,7 +83,7 @@ impl JobFolder {
         let whose = folder.join(WHOSE);
         let is_marked = match fs::read_to_string(&whose) {
             Ok(text) if text == plan.to_string() => true,
-            Ok(_) => return Err(SnapshotError::OtherPlan { path: folder.to_path_buf() }),
+            Ok(_) => return Err(SnapshotError::OtherPlan(folder.to_path_buf())),
             Err(error) if error.kind() == ErrorKind::NotFound => false,
             Err(error) => return Err(SnapshotError::io("read", &whose)(error)),
         };
@@ -210,7 +210,7 @@ mod tests {
         store.put("a", &job).unwrap();
         assert_eq!(store.get("a").unwrap(), Some(job.clone()));
         let other = JobFolder::open(home.path(), Digest::of(b"other"));
-        assert!(matches!(other, Err(SnapshotError::OtherPlan { .. })), "{other:?}");
+        assert!(matches!(other, Err(SnapshotError::OtherPlan(_))), "{other:?}");
         let (folder, is_marked) = (home.path().to_path_buf(), Mutex::new(true));
         let other = JobFolder { folder, plan: Digest::of(b"other"), is_marked, is_secret: false };
         assert_eq!(other.get("a").unwrap(), None);

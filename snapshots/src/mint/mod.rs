@@ -18,6 +18,7 @@ use crate::recipe::RecipeError;
 use crate::sealed::Secret;
 use crate::{Digest, SnapshotError};
 pub use card::{Novelty, ReleaseCard, Rung};
+pub(crate) use card::{counted, generator};
 pub use folder::{RELEASE_CARD_FILE, Sink};
 use forge::Tally;
 use forge::card::Card;

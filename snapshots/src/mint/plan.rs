@@ -6,6 +6,7 @@ use super::select::word;
 use crate::corpus::Corpus;
 use crate::recipe::Recipe;
 use crate::sealed::Secret;
+use crate::witness::descendant;
 use crate::{Digest, SnapshotError, canary};
 use engine::{Game, Level, Sampler, Seed, syntax};
 use forge::Tally;
@@ -23,7 +24,8 @@ use validators::{Criteria, Panel};
 /// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
 pub struct Plan<'a> {
-    pub(super) recipe: &'a Recipe,
+    /// The request.
+    pub recipe: &'a Recipe,
     pub(super) seed: Seed,
     corpus: &'a Corpus,
     /// The compiled games, by place in the corpus.
@@ -81,11 +83,6 @@ impl<'a> Plan<'a> {
         let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs: Vec::new() };
         plan.jobs = plan.generated().into_iter().chain(plan.of_corpus()?).collect();
         Ok(plan)
-    }
-
-    /// The name of the release.
-    pub fn name_of_release(&self) -> &str {
-        &self.recipe.name
     }
 
     /// Returns `true` if seed and witnesses are withheld.
@@ -210,7 +207,7 @@ impl<'a> Plan<'a> {
     pub fn make(&self, job: Job) -> Result<JobResult, MintError> {
         let part = &self.recipe.generated;
         let steps = self.steps(job);
-        let seed = steps.iter().fold(self.seed, |seed, (purpose, index)| seed.child(purpose, *index));
+        let seed = descendant(self.seed, &steps);
         let (games, tally) = match job {
             Job::Corpus(at) => self.new_levels(at, seed),
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),

@@ -14,6 +14,7 @@ use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::reasons;
 use generators::levels::LevelSimilarity;
+use itertools::Itertools;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -107,10 +108,15 @@ pub struct Bin {
     pub there: i64,
 }
 
+/// The distance of a number from a range.
+fn outside(there: i64, (least, most): (i64, i64)) -> i64 {
+    (least - there).max(there - most).max(0)
+}
+
 impl Bin {
     /// The distance from the range.
     pub(super) fn missed(&self) -> i64 {
-        (self.least - self.there).max(self.there - self.most).max(0)
+        outside(self.there, (self.least, self.most))
     }
 }
 
@@ -145,8 +151,7 @@ pub(super) fn select(
         if there < asked {
             let (part, failed) = if is_new { ("generated", new) } else { ("corpus", old) };
             let why: BTreeMap<String, u64> = dropped.get(&is_new).cloned().unwrap_or_default();
-            let why = [failed, &reasons(&why)].map(str::to_owned).into_iter().filter(|why| !why.is_empty());
-            let why = why.collect::<Vec<_>>().join(", ");
+            let why = [failed, &reasons(&why)].into_iter().filter(|why| !why.is_empty()).join(", ");
             return Err(MintError::TooFew { part, asked, there, why });
         }
     }
@@ -161,15 +166,12 @@ pub(super) fn select(
     let best = (0..STARTS).into_par_iter().map(improved).min_by_key(|(miss, start, _)| (*miss, *start));
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
-    let missed: Vec<Bin> = bins(recipe, contenders, &taken);
-    let missed: Vec<String> = missed
-        .iter()
-        .filter(|bin| bin.missed() > 0)
-        .map(|bin| format!("{} {} (asked {} to {})", bin.name, bin.there, bin.least, bin.most))
-        .collect();
+    let missed = bins(recipe, contenders, &taken).into_iter().filter(|bin| bin.missed() > 0);
+    let told = |bin: Bin| format!("{} {} (asked {} to {})", bin.name, bin.there, bin.least, bin.most);
+    let missed = missed.map(told).join(", ");
     match missed.is_empty() {
         true => Ok(taken),
-        false => Err(MintError::Uneven { candidates: fit.len(), missed: missed.join(", ") }),
+        false => Err(MintError::Uneven { candidates: fit.len(), missed }),
     }
 }
 
@@ -215,12 +217,9 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
         let there = counts.labels.get(label).copied().unwrap_or_default();
         bins.push(Bin { name: word(label), least: (asked - 1).max(0), most: asked + 1, there });
     }
-    let others: Vec<Difficulty> =
-        counts.labels.keys().filter(|label| !recipe.difficulty.contains_key(label)).copied().collect();
-    if !recipe.difficulty.is_empty() {
-        for label in others {
-            bins.push(Bin { name: word(&label), least: 0, most: 1, there: counts.labels[&label] });
-        }
+    let others = counts.labels.iter().filter(|(label, _)| !recipe.difficulty.contains_key(label));
+    for (label, &there) in others.filter(|_| !recipe.difficulty.is_empty()) {
+        bins.push(Bin { name: word(label), least: 0, most: 1, there });
     }
     for &(goal, (least, most)) in &counts.goal_quotas {
         let there = counts.goals.get(&goal).copied().unwrap_or_default();
@@ -351,10 +350,7 @@ impl<'a> Counts<'a> {
     }
 
     fn miss(&self) -> Miss {
-        let missed = |there: Option<&i64>, (least, most): (i64, i64)| {
-            let there = there.copied().unwrap_or_default();
-            (least - there).max(there - most).max(0)
-        };
+        let missed = |there: Option<&i64>, asked| outside(there.copied().unwrap_or_default(), asked);
         let goals = self.goal_quotas.iter().map(|(goal, asked)| missed(self.goals.get(goal), *asked));
         let avatars =
             self.avatar_quotas.iter().map(|(avatar, asked)| missed(self.avatars.get(avatar), *asked));

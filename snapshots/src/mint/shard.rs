@@ -16,6 +16,7 @@ use crate::manifest::{Item, MANIFEST_LIMIT};
 use crate::recipe::Recipe;
 use crate::verify::{number_problems, replay_problem};
 use crate::version::{CURRENT, MintedBy};
+use crate::witness::descendant;
 use crate::{Digest, Draft, SnapshotError};
 use engine::{Episode, Game, Seed};
 use forge::card::LevelCard;
@@ -297,10 +298,8 @@ fn problem(frozen: &FrozenGame, root: Seed) -> Option<String> {
     if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
         return Some(format!("`{id}` does not have a witness and a place in its card for each level"));
     }
-    let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);
-    let is_foreign = |(path, episode): (&Vec<Step>, &Episode)| {
-        !path.is_empty() && path.iter().fold(root, step) != episode.seed
-    };
+    let is_foreign =
+        |(path, episode): (&Vec<Step>, &Episode)| !path.is_empty() && descendant(root, path) != episode.seed;
     if paths.len() != witnesses.len() || paths.iter().zip(witnesses).any(is_foreign) {
         return Some(format!("`{id}` has a witness whose chance does not come from the plan's seed"));
     }
@@ -360,7 +359,7 @@ impl JobStore for Shards {
         let Some((folder, item)) = self.jobs.get(&path(name)) else { return Ok(None) };
         let bytes = folder::read(folder, &item.path, Limits::SNAPSHOT.file_bytes)?;
         if Digest::of(&bytes) != item.digest {
-            return Err(SnapshotError::Altered { path: folder.join(&item.path) });
+            return Err(SnapshotError::Altered(folder.join(&item.path)));
         }
         JobFolder::parse(self.plan, &bytes)
     }

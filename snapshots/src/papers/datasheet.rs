@@ -2,8 +2,9 @@
 //! 2021).
 
 use crate::manifest::ReleaseKind;
-use crate::mint::{Minted, Rung};
+use crate::mint::{self, Minted, Rung};
 use forge::card::Origin;
+use itertools::Itertools;
 use report::Quantiles;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -51,8 +52,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         card.games - card.new_games,
         card.levels,
     );
-    let mut kinds: BTreeMap<String, u64> = BTreeMap::new();
-    cards.iter().for_each(|card| *kinds.entry(card.kind.clone()).or_default() += 1);
+    let kinds = mint::counted(cards.iter().map(|card| card.kind.clone()));
     for (what, counts) in [
         ("levels by difficulty", &card.difficulty),
         ("games by kind", &kinds),
@@ -99,9 +99,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
 
 /// Formats counts: `jumps 3, walks 12`.
 fn counted(counts: &BTreeMap<String, u64>) -> String {
-    let counts: Vec<String> =
-        counts.iter().map(|(name, count)| format!("{} {count}", name.replace('_', " "))).collect();
-    counts.join(", ")
+    counts.iter().map(|(name, count)| format!("{} {count}", name.replace('_', " "))).join(", ")
 }
 
 fn ladder(text: &mut String, rungs: &[Rung]) {
@@ -110,15 +108,8 @@ fn ladder(text: &mut String, rungs: &[Rung]) {
         return;
     }
     *text += "| player | wins | 95 %, games drawn again |\n|---|---|---|\n";
-    for Rung { rate, .. } in rungs {
-        let [low, high] = rate.interval.map(|bound| 100.0 * bound);
-        let held_out = if rate.held_out { ", held out" } else { "" };
-        let _ = writeln!(
-            text,
-            "| `{}`{held_out} | {:.0} % | {low:.0} to {high:.0} % |",
-            rate.player,
-            100.0 * rate.mean
-        );
+    for rung in rungs {
+        let _ = writeln!(text, "{}", rung.row());
     }
     text.push('\n');
 }

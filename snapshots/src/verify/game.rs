@@ -4,8 +4,8 @@ use super::numbers;
 use super::replay::{Meter, Replayed, replay};
 use crate::contents::Contents;
 use crate::manifest::{Manifest, ReleaseKind};
-use crate::sealed::{Secret, UNRELATED_WITNESS, held_witness};
-use crate::witness::Witness;
+use crate::sealed::{Secret, UNRELATED_WITNESS};
+use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
 use engine::Game;
 use forge::card::{Card, Origin};
@@ -20,6 +20,7 @@ const MAX_PATTERNS: usize = 1024;
 pub(super) type Files = BTreeSet<String>;
 
 /// The result of checking a game.
+#[derive(Default)]
 pub(super) struct GameCheck {
     /// The number of levels read.
     pub(super) levels: usize,
@@ -57,8 +58,8 @@ impl Checker<'_> {
         files: &Files,
         seen: &mut BTreeMap<Digest, String>,
     ) -> Result<GameCheck, SnapshotError> {
-        let mut check =
-            GameCheck { levels: 0, replayed: 0, held: Vec::new(), card: None, problems: Vec::new() };
+        let mut check = GameCheck::default();
+        let GameCheck { levels, replayed, held, problems, .. } = &mut check;
         let canary = &self.manifest.canary;
         let path = |file: &str| format!("games/{folder}/{file}");
         // The digests match, so every listed file can be read as a text of its size; its content may still be wrong.
@@ -68,7 +69,7 @@ impl Checker<'_> {
                 false => Ok(None),
             }
         };
-        let mut wrong = |file: &str, what: String| check.problems.push(format!("{}: {what}", path(file)));
+        let mut wrong = |file: &str, what: String| problems.push(format!("{}: {what}", path(file)));
 
         let Some(source) = read("game.vgdl")? else {
             wrong("game.vgdl", "missing or not a text".to_owned());
@@ -84,9 +85,7 @@ impl Checker<'_> {
                 return Ok(check);
             }
         };
-        let of_card = path("card.json");
-        let of_card = self.manifest.items.binary_search_by(|item| item.path.cmp(&of_card));
-        let of_card = of_card.ok().map(|at| &self.manifest.items[at]);
+        let of_card = self.manifest.item(&path("card.json"));
         if let Some(item) = of_card.filter(|item| item.size > CARD_LIMIT) {
             wrong("card.json", format!("{} bytes, and a card has at most {CARD_LIMIT}", item.size));
             return Ok(check);
@@ -122,12 +121,10 @@ impl Checker<'_> {
         let is_sealed = self.manifest.kind == ReleaseKind::Sealed;
         let mut known: BTreeSet<String> = ["game.vgdl", "card.json"].map(str::to_owned).into();
         let mut boards: BTreeMap<Digest, usize> = BTreeMap::new();
-        let (mut levels, mut replayed) = (0, 0);
-        let mut held = Vec::new();
         for (number, level_card) in card.levels.iter().enumerate() {
             let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
             if is_sealed {
-                held.push(held_witness(folder, number));
+                held.push(witness_path(ReleaseKind::Sealed, folder, number));
             }
             let level = match read(&file)?.map(|text| game.level(&text)) {
                 Some(Ok(level)) => level,
@@ -140,7 +137,7 @@ impl Checker<'_> {
                     continue;
                 }
             };
-            levels += 1;
+            *levels += 1;
             if level_card.file != file || level_card.digest != level.digest() {
                 wrong(&file, "card and level do not match".to_owned());
             }
@@ -154,7 +151,7 @@ impl Checker<'_> {
             let is_again = first != number || twin.is_some();
             let witness = match is_sealed {
                 true => {
-                    let bytes = self.contents.find(&held_witness(folder, number))?;
+                    let bytes = self.contents.find(&witness_path(ReleaseKind::Sealed, folder, number))?;
                     bytes.and_then(|bytes| String::from_utf8(bytes).ok())
                 }
                 false => read(&witness_file)?,
@@ -170,19 +167,15 @@ impl Checker<'_> {
                     let told = (level_card.witness_ticks, level_card.witness_score);
                     let fits = (episode.actions.len(), episode.score) == told;
                     if !fits {
-                        wrong(
-                            "card.json",
-                            format!("not the ticks and score of the episode that wins {file}"),
-                        );
+                        let what = format!("not the ticks and score of the episode that wins {file}");
+                        wrong("card.json", what);
                     }
                     // Duplicates and mismatches are reported already, and cost no replay.
-                    match self.meter.filter(|_| fits && !is_again) {
-                        None => {}
-                        Some(meter) => match replay(&episode, &game, &level, meter) {
-                            Replayed::Won => replayed += 1,
-                            Replayed::Wrong(what) => wrong(&witness_file, what),
-                            Replayed::OutOfWork => {}
-                        },
+                    let meter = self.meter.filter(|_| fits && !is_again);
+                    match meter.map(|meter| replay(&episode, &game, &level, meter)) {
+                        Some(Replayed::Won) => *replayed += 1,
+                        Some(Replayed::Wrong(what)) => wrong(&witness_file, what),
+                        Some(Replayed::OutOfWork) | None => {}
                     }
                 }
                 Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
@@ -203,7 +196,7 @@ impl Checker<'_> {
         for text in [&mut card.title, &mut card.description, &mut card.goal, &mut card.rules] {
             *text = String::new();
         }
-        (check.levels, check.replayed, check.held, check.card) = (levels, replayed, held, Some(card));
+        check.card = Some(card);
         Ok(check)
     }
 }

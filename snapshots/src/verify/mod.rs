@@ -237,8 +237,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     }
     let witnesses = games.iter().flat_map(|game| &game.held).map(String::as_str);
     let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).collect();
-    let listed = manifest.items.iter().map(|item| item.path.as_str());
-    let listed: BTreeSet<&str> = listed.filter(|path| path.starts_with(HELD)).collect();
+    let listed = manifest.held();
     let absent = awaited.difference(&listed).map(|path| format!("{path}: not committed to"));
     let foreign = listed.difference(&awaited).map(|path| format!("{path}: not a file of a sealed release"));
     problems.extend(absent.chain(foreign));
@@ -252,7 +251,7 @@ fn carries(content: &[u8], canary: &str) -> bool {
 /// Refuses `.partial` folders and everything inside them: even a complete release is none before its publication.
 fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
-        std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot { path: root.to_path_buf() },
+        std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),
         _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
     })?;
     // For distant ancestors the name alone is weak evidence, so a draft is required.
@@ -260,7 +259,7 @@ fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
         folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))
     });
-    if unfinished { Err(SnapshotError::Unfinished { path: root.to_path_buf() }) } else { Ok(()) }
+    if unfinished { Err(SnapshotError::Unfinished(root.to_path_buf())) } else { Ok(()) }
 }
 
 /// The files of each game folder, by path below it.

@@ -5,12 +5,11 @@ use super::version::CARD_AND_CANARY_SINCE;
 use crate::SnapshotError;
 use crate::contents::Contents;
 use crate::manifest::Manifest;
-use crate::mint::{RELEASE_CARD_FILE, ReleaseCard};
+use crate::mint::{RELEASE_CARD_FILE, ReleaseCard, counted, generator};
 use forge::card::{Card, Origin};
 use generators::GENERATION;
 use report::Quantiles;
 use serde_json::Value;
-use std::collections::BTreeMap;
 
 /// The README, for people.
 pub(super) const README_FILE: &str = "README.md";
@@ -22,10 +21,7 @@ pub(super) fn problems(
     cards: &[&Card],
 ) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
-    let read = |path: &str| {
-        let listed = manifest.items.binary_search_by(|item| item.path.as_str().cmp(path)).is_ok();
-        listed.then(|| contents.read(path)).transpose()
-    };
+    let read = |path: &str| manifest.item(path).map(|item| contents.read(&item.path)).transpose();
     match read(README_FILE)? {
         None => problems.push(format!("{README_FILE}: missing: a release has one")),
         Some(text) if !carries(&text, &manifest.canary) => {
@@ -89,11 +85,7 @@ fn of_known_card(card: &ReleaseCard, cards: &[&Card]) -> Vec<String> {
         "difficulty",
         card.difficulty == counted(ladders.map(|found| found.difficulty.to_string().replace(' ', "_"))),
     );
-    let generator = |card: &&Card| match &card.origin {
-        Origin::Corpus { .. } => "corpus".to_owned(),
-        Origin::Generated { generator, .. } => generator.clone(),
-    };
-    expect("generators", card.generators == counted(cards.iter().map(generator)));
+    expect("generators", card.generators == counted(cards.iter().map(|card| generator(card))));
     let patterns = cards.iter().flat_map(|card| card.origin.mechanics()).map(str::to_owned);
     expect("patterns", card.patterns == counted(patterns));
     let games = cards.len() as u64;
@@ -108,10 +100,4 @@ fn of_known_card(card: &ReleaseCard, cards: &[&Card]) -> Vec<String> {
     };
     expect("ladder", card.ladder.iter().all(sensible));
     problems
-}
-
-fn counted(names: impl Iterator<Item = String>) -> BTreeMap<String, u64> {
-    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
-    names.for_each(|name| *counts.entry(name).or_default() += 1);
-    counts
 }

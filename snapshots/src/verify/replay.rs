@@ -24,12 +24,6 @@ impl Bounds {
     }
 }
 
-impl Default for Bounds {
-    fn default() -> Bounds {
-        Bounds::RELEASE
-    }
-}
-
 /// Counts the work of all replays of a release, from several threads.
 ///
 /// The result does not depend on threads: the limit is exceeded if all replays together take more.
