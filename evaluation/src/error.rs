@@ -1,5 +1,6 @@
 //! The errors of an evaluation.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The reason why an evaluation cannot be set up, continued or read.
@@ -22,6 +23,11 @@ pub enum EvaluationError {
 }
 
 impl EvaluationError {
+    /// The error of a file or folder whose content cannot be used.
+    pub(crate) fn malformed(path: &Path, what: impl fmt::Display) -> EvaluationError {
+        EvaluationError::Malformed(format!("{}: {what}", path.display()))
+    }
+
     /// Returns a closure for `map_err`.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> EvaluationError {
         let path = path.to_owned();

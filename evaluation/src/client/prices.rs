@@ -135,9 +135,8 @@ impl Prices {
     /// The file cannot be read, or is not a price table.
     pub fn with_file(path: &Path) -> Result<Prices, EvaluationError> {
         let text = std::fs::read_to_string(path).map_err(EvaluationError::io("read", path))?;
-        let table = read(&text).map_err(|problem| {
-            EvaluationError::Malformed(format!("{}: not a price table: {problem}", path.display()))
-        })?;
+        let wrong = |problem| EvaluationError::malformed(path, format!("not a price table: {problem}"));
+        let table = read(&text).map_err(wrong)?;
         let mut prices = Prices::embedded();
         prices.tables.insert(0, table);
         Ok(prices)

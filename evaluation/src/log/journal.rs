@@ -84,7 +84,7 @@ impl Journal {
 
     /// Returns an error about this log.
     pub(crate) fn malformed(&self, what: &str) -> EvaluationError {
-        EvaluationError::Malformed(format!("{}: {what}", self.path.display()))
+        EvaluationError::malformed(&self.path, what)
     }
 }
 
@@ -105,12 +105,11 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
         let length = file.read_until(b'\n', &mut line).map_err(EvaluationError::io("read", path))?;
         let Some(whole) = line.strip_suffix(b"\n") else { return Ok((events, sound)) };
         let event = serde_json::from_slice(whole).map_err(|error| {
-            let (path, number) = (path.display(), events.len() + 1);
+            let number = events.len() + 1;
             // The parser sees only one line.
             let why = error.to_string().replace(" at line 1 column", " at column");
-            EvaluationError::Malformed(format!(
-                "{path}: line {number} is not an event of an episode ({why}); {NEXT_STEP}"
-            ))
+            let what = format!("line {number} is not an event of an episode ({why}); {NEXT_STEP}");
+            EvaluationError::malformed(path, what)
         })?;
         events.push(event);
         sound += length as u64;

@@ -5,7 +5,7 @@ use crate::log::{Event, Journal, SCHEMA, Status};
 use crate::player::{Choice, Contestant, Halt, Validity};
 use crate::run::clock::Stopwatch;
 use crate::subject::{Subject, SubjectLevel};
-use crate::turn::{Before, Turn, choices};
+use crate::turn::{Turn, choices};
 use agents::{Planner, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
 
@@ -161,7 +161,7 @@ impl<'a> Playing<'a> {
             let recorded = journal.events()[at].clone();
             let choice = Choice { action, validity };
             let (actions, before) = (choices(self.game(), &self.state), self.before.take());
-            let turn = turn(self.task, self.steps, &self.seen, &before, &actions);
+            let turn = Turn::of(self.task, self.steps, &self.seen, &before, &actions);
             if let Contestant::Agent(agent) = &mut *self.contestant
                 && let Err(halt) = agent.recall(&turn, journal, &choice)
             {
@@ -191,7 +191,7 @@ impl<'a> Playing<'a> {
             }
             (Contestant::Agent(agent), _) => {
                 let actions = choices(game, &self.state);
-                let turn = turn(self.task, self.steps, &self.seen, &self.before, &actions);
+                let turn = Turn::of(self.task, self.steps, &self.seen, &self.before, &actions);
                 agent.act(&turn, journal).map(|choice| (choice, None))
             }
             (Contestant::Planner { .. }, None) => unreachable!("planners are made at the start"),
@@ -216,7 +216,7 @@ impl<'a> Playing<'a> {
     /// Shows the agent the final state.
     fn finish(&mut self) {
         if let Contestant::Agent(agent) = &mut *self.contestant {
-            agent.end(&turn(self.task, self.steps, &self.seen, &self.before, &[]));
+            agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.before, &[]));
         }
     }
 
@@ -240,22 +240,6 @@ impl<'a> Playing<'a> {
             took_ms,
         }
     }
-}
-
-fn turn<'a>(
-    task: &'a Task<'a>,
-    number: u64,
-    observation: &'a Observation,
-    before: &'a Option<(Observation, Action, f64)>,
-    actions: &'a [Action],
-) -> Turn<'a> {
-    let before = before.as_ref().map(|(observation, action, reward)| Before {
-        observation,
-        action: *action,
-        reward: *reward,
-    });
-    let (subject, level, limit) = (task.subject, task.level.number, task.max_steps);
-    Turn { subject, level, number, limit, observation, before, actions }
 }
 
 /// Returns the first step at or after `from`, with its action and validity.

@@ -12,6 +12,7 @@ use engine::{Outcome, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -84,10 +85,7 @@ impl Evaluation {
                 true => "pass --resume to continue the evaluation in it, or name another",
                 false => "it contains no evaluation to resume; name another",
             };
-            return Err(EvaluationError::Malformed(format!(
-                "{}: the folder is not empty; {next}",
-                folder.display()
-            )));
+            return Err(EvaluationError::malformed(folder, format!("the folder is not empty; {next}")));
         }
         let lock = lock(folder)?;
         for subject in &subjects {
@@ -124,10 +122,10 @@ impl Evaluation {
         let lock = lock(folder)?;
         let mut evaluation = Evaluation::open(folder)?;
         if let Some(difference) = difference(&evaluation.settings, settings) {
-            return Err(EvaluationError::Malformed(format!(
-                "{}: the evaluation in it was started with another {difference}; use the same one, or another folder",
-                folder.display()
-            )));
+            let what = format!(
+                "the evaluation in it was started with another {difference}; use the same one, or another folder"
+            );
+            return Err(EvaluationError::malformed(folder, what));
         }
         evaluation._lock = Some(lock);
         Ok(evaluation)
@@ -140,39 +138,30 @@ impl Evaluation {
     pub fn open(folder: &Path) -> Result<Evaluation, EvaluationError> {
         let path = folder.join(SETTINGS_FILE);
         let text = read_text(&path, MAX_SETTINGS).map_err(|error| match error {
-            EvaluationError::Io { source, .. } if is_absent(&source) => EvaluationError::Malformed(format!(
-                "{}: no results of an evaluation here (no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes such a folder",
-                folder.display()
-            )),
+            EvaluationError::Io { source, .. } if is_absent(&source) => {
+                let what = format!(
+                    "no results of an evaluation here (no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes such a folder"
+                );
+                EvaluationError::malformed(folder, what)
+            }
             other => other,
         })?;
-        let unreadable = |error: serde_json::Error| {
-            EvaluationError::Malformed(format!(
-                "{}: not the settings of an evaluation: {error}",
-                path.display()
-            ))
-        };
+        let wrong = |what: String| EvaluationError::malformed(&path, what);
+        let unreadable =
+            |error: serde_json::Error| wrong(format!("not the settings of an evaluation: {error}"));
         let value: serde_json::Value = serde_json::from_str(&text).map_err(unreadable)?;
         let format = value.get("format").and_then(serde_json::Value::as_u64);
         if let Some(format) = format.filter(|&format| format > u64::from(FORMAT)) {
-            return Err(EvaluationError::Malformed(format!(
-                "{}: results of format {format}; this version of arcade reads up to {FORMAT}: update it",
-                path.display()
+            return Err(wrong(format!(
+                "results of format {format}; this version of arcade reads up to {FORMAT}: update it"
             )));
         }
         let settings: Settings = serde_json::from_value(value).map_err(unreadable)?;
         if let Some(entry) = settings.games.iter().find(|entry| !is_file_name(&entry.id)) {
-            let path = path.display();
-            return Err(EvaluationError::Malformed(format!(
-                "{path}: {:?} is not the name of a game",
-                entry.id
-            )));
+            return Err(wrong(format!("{:?} is not the name of a game", entry.id)));
         }
         settings.check().map_err(|problem| {
-            let path = path.display();
-            EvaluationError::Malformed(format!(
-                "{path}: {problem}; the file is damaged: restore the results folder"
-            ))
+            wrong(format!("{problem}; the file is damaged: restore the results folder"))
         })?;
         let subjects = settings.games.iter().map(|entry| entry.read(folder)).collect::<Result<_, _>>()?;
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
@@ -205,23 +194,17 @@ impl Evaluation {
     pub(crate) fn check_logs(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         let folder = self.folder.join("episodes");
         let names: BTreeSet<String> = tasks.iter().map(Task::file_name).collect();
-        let entries = match fs::read_dir(&folder) {
-            Err(error) if is_absent(&error) => return Ok(()),
-            entries => entries.map_err(EvaluationError::io("list", &folder))?,
+        let found = match names_in(&folder) {
+            Err(EvaluationError::Io { source, .. }) if is_absent(&source) => return Ok(()),
+            found => found?,
         };
-        let mut others = BTreeSet::new();
-        for entry in entries {
-            let name = entry.map_err(EvaluationError::io("list", &folder))?.file_name();
-            let name = name.to_string_lossy().into_owned();
-            if name.ends_with(".jsonl") && !names.contains(&name) {
-                others.insert(name);
-            }
-        }
-        others.first().map_or(Ok(()), |name| {
-            Err(EvaluationError::Malformed(format!(
-                "{}: {SETTINGS_FILE} has no such episode, so it is damaged or was changed: restore the results folder",
-                folder.join(name).display()
-            )))
+        let others = found.iter().map(|name| name.to_string_lossy().into_owned());
+        let other = others.filter(|name| name.ends_with(".jsonl") && !names.contains(name)).min();
+        other.map_or(Ok(()), |name| {
+            let what = format!(
+                "{SETTINGS_FILE} has no such episode, so it is damaged or was changed: restore the results folder"
+            );
+            Err(EvaluationError::malformed(&folder.join(name), what))
         })
     }
 
@@ -236,7 +219,7 @@ impl Evaluation {
         read: impl FnOnce() -> Result<T, EvaluationError>,
     ) -> Result<T, EvaluationError> {
         let place = self.log_path(task);
-        let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", place.display()));
+        let wrong = |what: String| EvaluationError::malformed(&place, what);
         let found = read().map_err(|error| wrong(error.to_string()))?;
         let start = log.first().map_or(Ok(()), |start| task.compare_start(start));
         start.map_err(|what| wrong(format!("line 1: {what}; {NEXT_STEP}")))?;
@@ -344,27 +327,26 @@ fn lock(folder: &Path) -> Result<File, EvaluationError> {
     let file = File::create(&path).map_err(EvaluationError::io("create", &path))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
-        Err(fs::TryLockError::WouldBlock) => Err(EvaluationError::Malformed(format!(
-            "{}: another `arcade evaluate` is writing to it; wait until it ends, or name another folder",
-            folder.display()
-        ))),
+        Err(fs::TryLockError::WouldBlock) => Err(EvaluationError::malformed(
+            folder,
+            "another `arcade evaluate` is writing to it; wait until it ends, or name another folder",
+        )),
         Err(fs::TryLockError::Error(error)) => Err(EvaluationError::io("lock", &path)(error)),
     }
 }
 
+fn names_in(folder: &Path) -> Result<Vec<OsString>, EvaluationError> {
+    let entries =
+        fs::read_dir(folder).and_then(|entries| entries.map(|entry| Ok(entry?.file_name())).collect());
+    entries.map_err(EvaluationError::io("list", folder))
+}
+
 /// Returns `true` if a folder is empty or holds only an interrupted creation without settings.
 fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
-    let list = |folder: &Path| {
-        let mut names = Vec::new();
-        for entry in fs::read_dir(folder).map_err(EvaluationError::io("list", folder))? {
-            names.push(entry.map_err(EvaluationError::io("list", folder))?.file_name());
-        }
-        Ok::<_, EvaluationError>(names)
-    };
     let begun = [LOCK_FILE, "games", "episodes", PARTIAL_FILE];
     let episodes = folder.join("episodes");
-    let is_ours = list(folder)?.iter().all(|name| begun.iter().any(|ours| name == ours));
-    Ok(is_ours && (!episodes.exists() || list(&episodes)?.is_empty()))
+    let is_ours = names_in(folder)?.iter().all(|name| begun.iter().any(|ours| name == ours));
+    Ok(is_ours && (!episodes.exists() || names_in(&episodes)?.is_empty()))
 }
 
 /// Returns the first field in which two evaluations differ. The server of a model is ignored, because it does not affect its

@@ -4,8 +4,8 @@ use crate::error::EvaluationError;
 use crate::run::text::read_text;
 use crate::subject::{Subject, SubjectFacts, Unreadable};
 use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The format version of the results folder.
@@ -103,14 +103,12 @@ impl Settings {
             let max_steps = self.max_steps;
             return Err(format!("`max_steps` is {max_steps}; an episode has 1 to {MAX_DECISIONS} decisions"));
         }
-        let mut ids = BTreeSet::new();
-        if let Some(twice) = self.games.iter().find(|game| !ids.insert(&game.id)) {
-            return Err(format!("the game `{}` is listed twice", twice.id));
+        if let Some(id) = self.games.iter().map(|game| &game.id).duplicates().next() {
+            return Err(format!("the game `{id}` is listed twice"));
         }
         for game in &self.games {
-            let mut numbers = BTreeSet::new();
-            if let Some(twice) = game.levels.iter().find(|level| !numbers.insert(level.number)) {
-                return Err(format!("level {} of `{}` is listed twice", twice.number, game.id));
+            if let Some(number) = game.levels.iter().map(|level| level.number).duplicates().next() {
+                return Err(format!("level {number} of `{}` is listed twice", game.id));
             }
         }
         Ok(())
@@ -145,10 +143,8 @@ impl SubjectEntry {
         };
         let levels = self.levels.iter().map(level).collect::<Result<Vec<_>, EvaluationError>>()?;
         let changed = |what: &str| {
-            let folder = folder.display();
-            EvaluationError::Malformed(format!(
-                "{folder}: {what} differs from the file that was played; restore the results folder"
-            ))
+            let what = format!("{what} differs from the file that was played; restore the results folder");
+            EvaluationError::malformed(&folder, what)
         };
         let unreadable = |Unreadable { level, .. }: Unreadable| {
             changed(&level.map_or("game.vgdl".to_owned(), |number| format!("lvl{number}.txt")))
@@ -157,12 +153,8 @@ impl SubjectEntry {
         if subject.game.digest() != self.digest {
             return Err(changed("game.vgdl"));
         }
-        let wrong = self
-            .levels
-            .iter()
-            .zip(&subject.levels)
-            .find(|(entry, level)| entry.digest != level.level.digest());
-        match wrong {
+        let mut levels = self.levels.iter().zip(&subject.levels);
+        match levels.find(|(entry, level)| entry.digest != level.level.digest()) {
             Some((entry, _)) => Err(changed(&format!("lvl{}.txt", entry.number))),
             None => Ok(subject),
         }

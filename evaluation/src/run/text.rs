@@ -11,13 +11,13 @@ use std::path::Path;
 /// # Errors
 /// It is not a regular file, is larger, or cannot be read.
 pub(crate) fn open_file(path: &Path, limit: u64) -> Result<File, EvaluationError> {
-    let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", path.display()));
     let found = path.metadata().map_err(EvaluationError::io("read", path))?;
     if !found.is_file() {
-        return Err(wrong("not a file; restore the results folder".to_owned()));
+        return Err(EvaluationError::malformed(path, "not a file; restore the results folder"));
     }
     if found.len() > limit {
-        return Err(wrong(format!("larger than {limit} bytes, the limit for such a file")));
+        let what = format!("larger than {limit} bytes, the limit for such a file");
+        return Err(EvaluationError::malformed(path, what));
     }
     File::open(path).map_err(EvaluationError::io("read", path))
 }
@@ -31,9 +31,8 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, EvaluationE
     let mut file = open_file(path, limit as u64)?.take(limit as u64 + 1);
     file.read_to_end(&mut bytes).map_err(EvaluationError::io("read", path))?;
     String::from_utf8(bytes).map_err(|error| {
-        let (path, at) = (path.display(), error.utf8_error().valid_up_to());
-        EvaluationError::Malformed(format!(
-            "{path}: not a text file (byte {at} is not UTF-8); restore the results folder"
-        ))
+        let at = error.utf8_error().valid_up_to();
+        let what = format!("not a text file (byte {at} is not UTF-8); restore the results folder");
+        EvaluationError::malformed(path, what)
     })
 }

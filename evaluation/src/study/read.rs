@@ -99,10 +99,8 @@ impl Names {
             return Ok(());
         };
         let differs = |what: String| {
-            let (folder, id) = (folder.display(), &subject.id);
-            EvaluationError::Malformed(format!(
-                "{folder}: its {what} `{id}` differs from that of an earlier folder; report on them separately"
-            ))
+            let what = format!("its {what} `{}` differs from that of an earlier folder", subject.id);
+            EvaluationError::malformed(folder, format!("{what}; report on them separately"))
         };
         if *digest != subject.game.digest() {
             return Err(differs("game".to_owned()));
@@ -131,12 +129,12 @@ impl Names {
         for EpisodeMetrics { game, level, run, .. } in episodes {
             let key = (player.clone(), game.clone(), *level, *run);
             if let Some(other) = self.episodes.insert(key, folder.to_owned()) {
-                return Err(EvaluationError::Malformed(format!(
-                    "{}: {} also played run {run} of {game} level {level} in {}; rename one of the two players",
-                    folder.display(),
+                let what = format!(
+                    "{} also played run {run} of {game} level {level} in {}; rename one of the two players",
                     player.label(),
                     other.display()
-                )));
+                );
+                return Err(EvaluationError::malformed(folder, what));
             }
         }
         Ok(())
