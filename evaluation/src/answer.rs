@@ -32,31 +32,19 @@ pub enum Format {
     Number,
 }
 
-/// The rule that read an answer in spite of its format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stage {
-    /// `"action": "left"`, as in JSON.
-    Json,
-    /// The word "action" directly followed by an action or its number: `**Action:** left`, `action 2`.
-    Marker,
-    /// A line that opens with `action:` and names exactly one action.
-    Line,
-    /// The reference's spelling, `ACTION_LEFT`.
-    Reference,
-    /// An action alone on a line or in quotes, or a statement of a move: `I go up`.
-    Words,
-}
-
-impl Stage {
-    /// The name of the stage in logs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Stage::Json => "json",
-            Stage::Marker => "marker",
-            Stage::Line => "line",
-            Stage::Reference => "reference",
-            Stage::Words => "words",
-        }
+engine::named_enum! {
+    /// The rule that read an answer in spite of its format.
+    pub enum Stage {
+        /// `"action": "left"`, as in JSON.
+        Json = "json",
+        /// The word "action" directly followed by an action or its number: `**Action:** left`, `action 2`.
+        Marker = "marker",
+        /// A line that opens with `action:` and names exactly one action.
+        Line = "line",
+        /// The reference's spelling, `ACTION_LEFT`.
+        Reference = "reference",
+        /// An action alone on a line or in quotes, or a statement of a move: `I go up`.
+        Words = "words",
     }
 }
 

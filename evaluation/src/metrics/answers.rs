@@ -31,7 +31,7 @@ impl<'a> Answers<'a> {
     pub(super) fn step(&mut self, event: &Event) -> Result<(), String> {
         let Event::Step { step, action, validity, calls, .. } = event else { return Ok(()) };
         let Answers { replies, is_model } = std::mem::take(self);
-        let wrong = |what: &str| Err(format!("step {step} is recorded as {}, but {what}", name(*validity)));
+        let wrong = |what: &str| Err(format!("step {step} is recorded as {}, but {what}", validity.name()));
         let is_valid = *validity == Validity::Valid;
         if !is_valid && *action != Action::Nil {
             return wrong("it has an action");
@@ -63,14 +63,5 @@ impl<'a> Answers<'a> {
             | (Validity::Truncated, ReplyClass::Truncated) => Ok(()),
             _ => wrong("the last answer contradicts it"),
         }
-    }
-}
-
-fn name(validity: Validity) -> &'static str {
-    match validity {
-        Validity::Valid => "valid",
-        Validity::Invalid => "invalid",
-        Validity::Refused => "refused",
-        Validity::Truncated => "truncated",
     }
 }

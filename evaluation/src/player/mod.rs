@@ -10,7 +10,6 @@ pub use model::ModelPlayer;
 use crate::log::{Event, Journal};
 use crate::turn::Turn;
 use engine::Action;
-use serde::{Deserialize, Serialize};
 
 /// A player that chooses actions by the turns it is shown.
 pub trait Agent: Send {
@@ -41,18 +40,18 @@ pub struct Choice {
     pub validity: Validity,
 }
 
-/// The origin of a choice. All but [`Valid`](Validity::Valid) are counted separately in every table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Validity {
-    /// The player named the action.
-    Valid,
-    /// No answer could be read as an action, even after asking again: nothing is done, and the player is at fault.
-    Invalid,
-    /// The player refused to answer.
-    Refused,
-    /// The answer was cut off before it named an action.
-    Truncated,
+engine::named_enum! {
+    /// The origin of a choice. All but [`Valid`](Validity::Valid) are counted separately in every table.
+    pub enum Validity {
+        /// The player named the action.
+        Valid = "valid",
+        /// No answer could be read as an action, even after asking again: nothing is done, and the player is at fault.
+        Invalid = "invalid",
+        /// The player refused to answer.
+        Refused = "refused",
+        /// The answer was cut off before it named an action.
+        Truncated = "truncated",
+    }
 }
 
 /// The reason for a missing choice without the player's fault.

@@ -4,24 +4,23 @@ use crate::study::Study;
 use crate::study::scores::{Scores, mean};
 use report::{Table, TableCell};
 use serde::Serialize;
-use std::fmt;
 
-/// The difficulty class of a level or a game.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DifficultyLabel {
-    /// A score of at least 0.8.
-    VeryEasy,
-    /// At least 0.6.
-    Easy,
-    /// At least 0.4.
-    Medium,
-    /// At least 0.2.
-    Hard,
-    /// Less than 0.2.
-    VeryHard,
-    /// No wins, regardless of the score.
-    Unbeaten,
+engine::named_enum! {
+    /// The difficulty class of a level or a game.
+    pub enum DifficultyLabel {
+        /// A score of at least 0.8.
+        VeryEasy = "very_easy",
+        /// At least 0.6.
+        Easy = "easy",
+        /// At least 0.4.
+        Medium = "medium",
+        /// At least 0.2.
+        Hard = "hard",
+        /// Less than 0.2.
+        VeryHard = "very_hard",
+        /// No wins, regardless of the score.
+        Unbeaten = "unbeaten",
+    }
 }
 
 impl DifficultyLabel {
@@ -34,19 +33,6 @@ impl DifficultyLabel {
             ease if ease >= 0.2 => DifficultyLabel::Hard,
             _ => DifficultyLabel::VeryHard,
         }
-    }
-}
-
-impl fmt::Display for DifficultyLabel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            DifficultyLabel::VeryEasy => "very easy",
-            DifficultyLabel::Easy => "easy",
-            DifficultyLabel::Medium => "medium",
-            DifficultyLabel::Hard => "hard",
-            DifficultyLabel::VeryHard => "very hard",
-            DifficultyLabel::Unbeaten => "unbeaten",
-        })
     }
 }
 
@@ -113,7 +99,7 @@ pub(crate) fn table(study: &Study) -> Table {
             ("efficiency", &|row| TableCell::number(row.efficiency, 3)),
             ("ease", &|row| TableCell::number(row.ease, 3)),
             ("difficulty", &|row| {
-                row.label.map_or(TableCell::Missing, |label| TableCell::text(label.to_string()))
+                row.label.map_or(TableCell::Missing, |label| TableCell::text(label.name().replace('_', " ")))
             }),
         ],
     )

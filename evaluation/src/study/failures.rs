@@ -9,35 +9,25 @@ use serde::Serialize;
 use statistics::{bonferroni, quantile, welch};
 use std::collections::BTreeMap;
 
-/// The failure-mode metrics.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FailureMeasure {
-    /// The fraction of steps that were not meaningful.
-    BumpRate,
-    /// The longest run of such steps.
-    MaxBumps,
-    /// The bump rate of the last quarter.
-    LateBumpRate,
-    /// The fraction of steps that returned directly to the previous cell.
-    OscillationRate,
-    /// The number of distinct cells visited by the avatar.
-    UniqueCells,
-    /// The unique cells divided by the area of their bounding rectangle.
-    Coverage,
+engine::named_enum! {
+    /// The failure-mode metrics.
+    pub enum FailureMeasure {
+        /// The fraction of steps that were not meaningful.
+        BumpRate = "bump_rate",
+        /// The longest run of such steps.
+        MaxBumps = "max_bumps",
+        /// The bump rate of the last quarter.
+        LateBumpRate = "late_bump_rate",
+        /// The fraction of steps that returned directly to the previous cell.
+        OscillationRate = "oscillation_rate",
+        /// The number of distinct cells visited by the avatar.
+        UniqueCells = "unique_cells",
+        /// The unique cells divided by the area of their bounding rectangle.
+        Coverage = "coverage",
+    }
 }
 
 impl FailureMeasure {
-    /// All metrics.
-    pub const ALL: [FailureMeasure; 6] = [
-        FailureMeasure::BumpRate,
-        FailureMeasure::MaxBumps,
-        FailureMeasure::LateBumpRate,
-        FailureMeasure::OscillationRate,
-        FailureMeasure::UniqueCells,
-        FailureMeasure::Coverage,
-    ];
-
     /// The name in headings.
     pub fn title(self) -> &'static str {
         match self {

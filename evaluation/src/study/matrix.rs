@@ -1,61 +1,41 @@
 //! Heat maps as data: a value for each player on each game or level.
 
 use crate::study::Study;
-use crate::study::player::{CONTEXTUAL, Player, ZERO_SHOT};
+use crate::study::player::Player;
 use crate::study::scores::{Estimate, Scores, StudyEpisode};
 use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The value shown by a heat map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// Wins divided by episodes.
-    WinRate,
-    /// The overall score.
-    Overall,
-    /// Mean normalised reward.
-    NormalisedReward,
-    /// Mean meaningful step ratio.
-    Meaningful,
-    /// Mean steps.
-    Steps,
-    /// Mean bump rate.
-    BumpRate,
+engine::named_enum! {
+    /// The value shown by a heat map.
+    pub enum Measure {
+        /// Wins divided by episodes.
+        WinRate = "win_rate",
+        /// The overall score.
+        Overall = "overall",
+        /// Mean normalised reward.
+        NormalisedReward = "normalised_reward",
+        /// Mean meaningful step ratio.
+        Meaningful = "meaningful",
+        /// Mean steps.
+        Steps = "steps",
+        /// Mean bump rate.
+        BumpRate = "bump_rate",
+    }
 }
 
 impl Measure {
-    /// All measures.
-    pub const ALL: [Measure; 6] = [
-        Measure::WinRate,
-        Measure::Overall,
-        Measure::NormalisedReward,
-        Measure::Meaningful,
-        Measure::Steps,
-        Measure::BumpRate,
-    ];
-
-    /// Returns the names in headings and in file names.
-    fn names(self) -> [&'static str; 2] {
-        match self {
-            Measure::WinRate => ["Win rate", "win-rate"],
-            Measure::Overall => ["Overall score", "overall"],
-            Measure::NormalisedReward => ["Normalised reward", "normalised-reward"],
-            Measure::Meaningful => ["Meaningful step ratio", "meaningful"],
-            Measure::Steps => ["Steps", "steps"],
-            Measure::BumpRate => ["Bump rate", "bump-rate"],
-        }
-    }
-
     /// The name in headings.
     pub fn title(self) -> &'static str {
-        self.names()[0]
-    }
-
-    /// The name in file names.
-    pub fn id(self) -> &'static str {
-        self.names()[1]
+        match self {
+            Measure::WinRate => "Win rate",
+            Measure::Overall => "Overall score",
+            Measure::NormalisedReward => "Normalised reward",
+            Measure::Meaningful => "Meaningful step ratio",
+            Measure::Steps => "Steps",
+            Measure::BumpRate => "Bump rate",
+        }
     }
 
     /// Returns `true` if higher values are better, and `None` if neither direction is.
@@ -85,36 +65,24 @@ impl Measure {
     }
 }
 
-/// The players shown by a heat map. Players that are not models are in all of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Scope {
-    /// Models in zero-shot mode.
-    ZeroShot,
-    /// Models in contextual mode.
-    Contextual,
-    /// Models, with the episodes of both modes pooled.
-    Both,
+engine::named_enum! {
+    /// The players shown by a heat map. Players that are not models are in all of them.
+    pub enum Scope {
+        /// Models in zero-shot mode.
+        ZeroShot = "zero-shot",
+        /// Models in contextual mode.
+        Contextual = "contextual",
+        /// Models, with the episodes of both modes pooled.
+        Both = "both",
+    }
 }
 
 impl Scope {
-    /// All scopes.
-    pub const ALL: [Scope; 3] = [Scope::ZeroShot, Scope::Contextual, Scope::Both];
-
-    /// The name in headings and file names.
-    pub fn id(self) -> &'static str {
-        match self {
-            Scope::ZeroShot => ZERO_SHOT,
-            Scope::Contextual => CONTEXTUAL,
-            Scope::Both => "both",
-        }
-    }
-
     /// Returns the label of a player's row, if the player is shown.
     fn row(self, player: &Player) -> Option<String> {
         match (self, player.mode.as_deref()) {
             (_, None) | (Scope::Both, _) => Some(player.short_label()),
-            (_, Some(mode)) => (mode == self.id()).then(|| player.short_label()),
+            (_, Some(mode)) => (mode == self.name()).then(|| player.short_label()),
         }
     }
 }
@@ -192,8 +160,9 @@ impl Matrix {
     /// Returns a measure as a table, with games or levels down and players across. `grain` is part of its file name.
     pub(crate) fn table(&self, measure: Measure, grain: &str) -> Table {
         let digits = if measure.is_fraction() { 2 } else { 1 };
-        let id = format!("{}-by-{grain}-{}", measure.id(), self.scope.id());
-        let title = format!("{} by {grain}, {}", measure.title(), self.scope.id());
+        let scope = self.scope.name();
+        let id = format!("{}-by-{grain}-{scope}", measure.name().replace('_', "-"));
+        let title = format!("{} by {grain}, {scope}", measure.title());
         let note = if measure == Measure::WinRate { "With Wilson's 95 % interval." } else { "" };
         let names = self.rows.iter().map(|row| row.label.as_str());
         // Next to the steps on a level, the table shows the optimum.

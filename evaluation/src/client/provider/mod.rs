@@ -11,22 +11,22 @@ use super::key::Key;
 use crate::error::EvaluationError;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use serde_json::Value;
 use ureq::http::HeaderValue;
 
-/// The API of a server.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Provider {
-    /// OpenAI's chat completions, in the dialect of its own servers.
-    OpenAi,
-    /// Chat completions of other servers: vLLM, llama.cpp, Ollama, gateways.
-    Compatible,
-    /// Anthropic's messages.
-    Anthropic,
-    /// Gemini's `generateContent`.
-    Gemini,
+engine::named_enum! {
+    /// The API of a server.
+    pub enum Provider {
+        /// OpenAI's chat completions, in the dialect of its own servers.
+        OpenAi = "openai",
+        /// Chat completions of other servers: vLLM, llama.cpp, Ollama, gateways.
+        Compatible = "compatible",
+        /// Anthropic's messages.
+        Anthropic = "anthropic",
+        /// Gemini's `generateContent`.
+        Gemini = "gemini",
+    }
 }
 
 impl Provider {
@@ -35,30 +35,23 @@ impl Provider {
         prefixed.into_iter().find(|provider| provider.name() == prefix)
     }
 
-    /// Returns its name, the base URL of its own servers, and its key variable.
-    fn facts(self) -> (&'static str, Option<&'static str>, &'static str) {
-        match self {
-            Provider::OpenAi => ("openai", Some("https://api.openai.com/v1"), "OPENAI_API_KEY"),
-            Provider::Compatible => ("compatible", None, "OPENAI_API_KEY"),
-            Provider::Anthropic => ("anthropic", Some("https://api.anthropic.com/v1"), "ANTHROPIC_API_KEY"),
-            Provider::Gemini => {
-                ("gemini", Some("https://generativelanguage.googleapis.com/v1beta"), "GEMINI_API_KEY")
-            }
-        }
-    }
-
-    /// The name in price tables, settings and prefixes.
-    pub fn name(self) -> &'static str {
-        self.facts().0
-    }
-
+    /// The base URL of its own servers.
     pub(super) fn own_url(self) -> Option<&'static str> {
-        self.facts().1
+        match self {
+            Provider::OpenAi => Some("https://api.openai.com/v1"),
+            Provider::Compatible => None,
+            Provider::Anthropic => Some("https://api.anthropic.com/v1"),
+            Provider::Gemini => Some("https://generativelanguage.googleapis.com/v1beta"),
+        }
     }
 
     /// The environment variable that holds the key.
     pub fn key_variable(self) -> &'static str {
-        self.facts().2
+        match self {
+            Provider::OpenAi | Provider::Compatible => "OPENAI_API_KEY",
+            Provider::Anthropic => "ANTHROPIC_API_KEY",
+            Provider::Gemini => "GEMINI_API_KEY",
+        }
     }
 
     /// Returns the decoding to send: the requested one, with the settings that this provider requires.

@@ -79,7 +79,7 @@ fn wilson_table() {
     let study = study(&rows, |_| true);
     let mut compared = 0;
     for scope in [Scope::ZeroShot, Scope::Contextual] {
-        let id = format!("win-rate-by-game-{}", scope.id());
+        let id = format!("win-rate-by-game-{}", scope.name());
         let table =
             study.tables().into_iter().find(|table| table.id == id).expect("every scope has its table");
         let markdown = table.to_markdown();
@@ -90,7 +90,7 @@ fn wilson_table() {
             .collect();
         let shown = rows
             .iter()
-            .filter(|(player, _)| player.is_reference() || player.mode.as_deref() == Some(scope.id()));
+            .filter(|(player, _)| player.is_reference() || player.mode.as_deref() == Some(scope.name()));
         for (player, wins) in shown {
             let column =
                 lines[0].iter().position(|name| *name == player.name).expect("every player has a column");
