@@ -35,6 +35,25 @@ pub struct Before<'a> {
     pub reward: f64,
 }
 
+impl<'a> Turn<'a> {
+    /// The turn of an episode after `number` steps, of which the last led from the observation in `before`.
+    pub(crate) fn of(
+        task: &Task<'a>,
+        number: u64,
+        observation: &'a Observation,
+        before: &'a Option<(Observation, Action, f64)>,
+        actions: &'a [Action],
+    ) -> Turn<'a> {
+        let before = before.as_ref().map(|(observation, action, reward)| Before {
+            observation,
+            action: *action,
+            reward: *reward,
+        });
+        let (subject, level, limit) = (task.subject, task.level.number, task.max_steps);
+        Turn { subject, level, number, limit, observation, before, actions }
+    }
+}
+
 /// The start of an episode as a player sees it, for inspecting prompts without playing.
 #[derive(Clone, Debug)]
 pub struct Observed {
@@ -52,15 +71,7 @@ impl Observed {
 
     /// Returns the first turn.
     pub fn turn<'a>(&'a self, task: &Task<'a>) -> Turn<'a> {
-        Turn {
-            subject: task.subject,
-            level: task.level.number,
-            number: 0,
-            limit: task.max_steps,
-            observation: &self.observation,
-            before: None,
-            actions: &self.actions,
-        }
+        Turn::of(task, 0, &self.observation, &None, &self.actions)
     }
 }
 

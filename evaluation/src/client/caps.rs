@@ -55,11 +55,6 @@ impl Caps {
         Caps { limits, price, ledger: Mutex::default() }
     }
 
-    /// The limits.
-    pub fn limits(&self) -> Limits {
-        self.limits
-    }
-
     /// Returns the amounts spent so far, without requests in flight.
     pub fn spent(&self) -> Spent {
         self.ledger().spent

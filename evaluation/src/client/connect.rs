@@ -161,13 +161,8 @@ pub fn connect_with(
     let key = key(options, &spec, environment)?;
     let caps = Arc::new(Caps::new(options.limits, price.clone()));
     let remote = Remote {
-        wire: Wire::new(&spec.server, options.timeout, options.connect_timeout, options.reply_limit),
-        pace: Pace::new(
-            options.concurrency,
-            options.requests_per_minute,
-            options.tokens_per_minute,
-            clock.clone(),
-        ),
+        wire: Wire::new(&spec.server, options),
+        pace: Pace::new(options, clock.clone()),
         cache: options.cache.as_deref().map(Cache::open).transpose()?,
         caps: caps.clone(),
         tries: options.tries,

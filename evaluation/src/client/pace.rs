@@ -1,7 +1,8 @@
 //! Limits on concurrent requests and on requests per minute.
 
 use super::clock::Clock;
-use std::num::{NonZeroU64, NonZeroUsize};
+use super::connect::ModelOptions;
+use std::num::NonZeroU64;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::Duration;
 
@@ -34,17 +35,12 @@ fn span(things: u64, per_minute: NonZeroU64) -> Duration {
 
 impl Pace {
     /// Creates a limiter of concurrent requests, and of requests and tokens per minute.
-    pub(super) fn new(
-        concurrency: NonZeroUsize,
-        requests_per_minute: Option<NonZeroU64>,
-        tokens_per_minute: Option<NonZeroU64>,
-        clock: Arc<dyn Clock>,
-    ) -> Pace {
+    pub(super) fn new(options: &ModelOptions, clock: Arc<dyn Clock>) -> Pace {
         Pace {
             clock,
-            requests_per_minute,
-            tokens_per_minute,
-            free: Mutex::new(concurrency.get()),
+            requests_per_minute: options.requests_per_minute,
+            tokens_per_minute: options.tokens_per_minute,
+            free: Mutex::new(options.concurrency.get()),
             freed: Condvar::new(),
             schedule: Mutex::default(),
         }
@@ -115,6 +111,7 @@ impl Drop for Slot<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::num::NonZeroUsize;
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::SystemTime;
 
@@ -137,7 +134,13 @@ mod tests {
     fn pace(requests: Option<u64>, tokens: Option<u64>) -> (Pace, Arc<FakeClock>) {
         let clock = Arc::new(FakeClock::default());
         let limit = |limit: Option<u64>| limit.and_then(NonZeroU64::new);
-        (Pace::new(NonZeroUsize::MIN, limit(requests), limit(tokens), clock.clone()), clock)
+        let options = ModelOptions {
+            concurrency: NonZeroUsize::MIN,
+            requests_per_minute: limit(requests),
+            tokens_per_minute: limit(tokens),
+            ..ModelOptions::new("")
+        };
+        (Pace::new(&options, clock.clone()), clock)
     }
 
     #[test]
@@ -174,7 +177,8 @@ mod tests {
 
     #[test]
     fn concurrency_is_bounded() {
-        let pace = Pace::new(NonZeroUsize::new(2).unwrap(), None, None, Arc::new(FakeClock::default()));
+        let options = ModelOptions { concurrency: NonZeroUsize::new(2).unwrap(), ..ModelOptions::new("") };
+        let pace = Pace::new(&options, Arc::new(FakeClock::default()));
         let (inside, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
         std::thread::scope(|scope| {
             for _ in 0..6 {

@@ -1,5 +1,6 @@
 //! One HTTP exchange, with a time limit and a size limit for the reply.
 
+use super::connect::ModelOptions;
 use super::spec::Server;
 use std::io::Read;
 use std::time::Duration;
@@ -26,12 +27,8 @@ pub(super) struct HttpReply {
 impl Wire {
     /// Creates a client for `server`. A request takes at most `timeout` in total, and a reply has at most `reply_limit`
     /// bytes. Proxies of the environment are used, except for this machine.
-    pub(super) fn new(
-        server: &Server,
-        timeout: Duration,
-        connect_timeout: Duration,
-        reply_limit: u64,
-    ) -> Wire {
+    pub(super) fn new(server: &Server, options: &ModelOptions) -> Wire {
+        let &ModelOptions { timeout, connect_timeout, reply_limit, .. } = options;
         let mut config = Agent::config_builder()
             .http_status_as_error(false)
             // A redirect could lead the key elsewhere.

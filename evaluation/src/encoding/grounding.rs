@@ -1,9 +1,9 @@
 //! The neighbourhood of the avatar in words: names and places of things, and the first thing in each direction.
 
+use super::grid::pile;
 use super::scene::{Scene, places};
 use crate::legend::{EntryRole, Legend};
 use engine::Observation;
-use itertools::Itertools;
 
 /// The maximum number of things of one type listed by place, the nearest first.
 const NEAREST: usize = 8;
@@ -44,11 +44,6 @@ fn way(scene: &Scene<'_>, from: (usize, usize), (dx, dy): (isize, isize)) -> Str
         (column, row, free) = (x, y, free + 1);
     };
     if free == 0 { met } else { format!("{free} free, then {met}") }
-}
-
-/// Returns the contents of one cell, from the uppermost to the lowest.
-fn pile(names: &[&str]) -> String {
-    names.iter().rev().copied().join(" over ")
 }
 
 fn thing(scene: &Scene<'_>, name: &str) -> Option<String> {

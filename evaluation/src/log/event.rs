@@ -1,6 +1,6 @@
 //! The events of a log, one line of JSON each.
 
-use crate::client::{Failure, Finish, Role, Usage};
+use crate::client::{ChatReply, Failure, Finish, Role, Usage};
 use crate::player::Validity;
 use engine::{Action, Digest, Outcome, Seed, StateHash};
 use serde::{Deserialize, Serialize};
@@ -141,6 +141,29 @@ pub struct Reply {
     pub cached: bool,
     /// The time from request to answer, ms.
     pub latency_ms: f64,
+}
+
+impl Reply {
+    /// The record of an answer, without the action that was read from it.
+    pub(crate) fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
+        let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
+        let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
+        Reply {
+            step,
+            attempt,
+            class,
+            text,
+            reasoning,
+            action: None,
+            stage: None,
+            finish,
+            usage,
+            served_by,
+            failures,
+            cached,
+            latency_ms,
+        }
+    }
 }
 
 /// The classification of an answer.

@@ -4,6 +4,7 @@
 //! episode is lost. The lag of its boards by a tick, which only one of its versions has, is not kept.
 
 use engine::{Action, Game, Observation};
+use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Returns the flags of all steps but the last: `texts` are the boards before each action, so that there is none after the
@@ -77,8 +78,7 @@ impl AsCode {
             let part = || cell.split(' ').find_map(|name| self.symbols.get(name));
             self.symbols.get(cell).or_else(part).copied().unwrap_or('.')
         };
-        let rows = cells.chunks(seen.columns.max(1)).map(|row| row.iter().map(symbol).collect::<String>());
-        rows.collect::<Vec<String>>().join("\n")
+        cells.chunks(seen.columns.max(1)).map(|row| row.iter().map(symbol).join("")).join("\n")
     }
 
     /// Assigns characters to cell contents seen for the first time.
@@ -114,8 +114,7 @@ impl AsCode {
 
 /// Returns the distinct names in a cell, sorted.
 fn entity(cell: &[String]) -> String {
-    let names: BTreeSet<&str> = cell.iter().map(String::as_str).collect();
-    names.into_iter().collect::<Vec<&str>>().join(" ")
+    cell.iter().sorted().dedup().join(" ")
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A language model as a player: its prompts, its answers, and their interpretation.
 
 use crate::answer::Reading;
-use crate::client::{ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model, Role};
+use crate::client::{ChatErrorKind, ChatMessage, ChatRequest, Decoding, Finish, Model};
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, Reply, ReplyClass};
 use crate::player::{Agent, Choice, Halt, Validity};
@@ -116,28 +116,12 @@ impl ModelPlayer {
             ChatErrorKind::Budget => Halt::Budget(error.message),
             ChatErrorKind::Rejected => Halt::Rejected(error.message),
         })?;
-        let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
-        let (class, action, _) = classify(&self.prompter, turn, &text, finish);
-        let stage = match self.prompter.read(&text, turn) {
+        let (class, action, _) = classify(&self.prompter, turn, &answer.text, answer.finish);
+        let stage = match self.prompter.read(&answer.text, turn) {
             Reading::Tolerant { stage, .. } if action.is_some() => Some(stage.name().to_owned()),
             _ => None,
         };
-        let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
-        let reply = Reply {
-            step,
-            attempt,
-            class,
-            text,
-            reasoning,
-            action,
-            stage,
-            finish,
-            usage,
-            served_by,
-            failures,
-            cached,
-            latency_ms,
-        };
+        let reply = Reply { action, stage, ..Reply::of(step, attempt, class, answer) };
         push(journal, Event::Reply(reply.clone()))?;
         Ok(reply)
     }
@@ -146,12 +130,12 @@ impl ModelPlayer {
     fn number(&mut self, message: &ChatMessage, journal: &mut Journal) -> Result<u32, Halt> {
         for event in &journal.events()[self.read..] {
             if let Event::Message { id, role, text, image } = event {
-                self.texts.insert((rank(*role), Digest::of(text.as_bytes()), *image), *id);
+                self.texts.insert((*role as u8, Digest::of(text.as_bytes()), *image), *id);
             }
         }
         self.read = journal.events().len();
         let image = message.image.as_deref().map(Digest::of);
-        let text = (rank(message.role), Digest::of(message.text.as_bytes()), image);
+        let text = (message.role as u8, Digest::of(message.text.as_bytes()), image);
         if let Some(&id) = self.texts.get(&text) {
             return Ok(id);
         }
@@ -215,14 +199,6 @@ fn recorded(journal: &Journal, attempt: u32) -> Option<Reply> {
         _ => None,
     };
     journal.pending().iter().find_map(reply)
-}
-
-fn rank(role: Role) -> u8 {
-    match role {
-        Role::System => 0,
-        Role::User => 1,
-        Role::Assistant => 2,
-    }
 }
 
 fn push(journal: &mut Journal, event: Event) -> Result<(), Halt> {

@@ -5,6 +5,7 @@ use crate::encoding::{self, direction_name};
 use crate::legend::{Entry, Legend};
 use crate::turn::Turn;
 use engine::{Action, AvatarView, Observation};
+use itertools::Itertools;
 use render::EMPTY;
 use serde_json::{Value, json};
 
@@ -121,15 +122,14 @@ fn board(rows: String, spaced: bool) -> String {
     if !spaced {
         return rows;
     }
-    let row = |row: &str| row.chars().map(String::from).collect::<Vec<String>>().join(" ");
-    rows.lines().map(row).collect::<Vec<String>>().join("\n")
+    rows.lines().map(|row| row.chars().join(" ")).join("\n")
 }
 
 /// Returns the avatar's resources: `2 key, 1 gem`; `nothing`.
 fn holds(seen: &Observation) -> String {
     let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
-    let held: Vec<String> = held.map(|(name, amount)| format!("{amount} {name}")).collect();
-    if held.is_empty() { "nothing".to_owned() } else { held.join(", ") }
+    let held = held.map(|(name, amount)| format!("{amount} {name}")).join(", ");
+    if held.is_empty() { "nothing".to_owned() } else { held }
 }
 
 /// Formats a reward: `+2`, `-1`, `0`.

@@ -1,11 +1,6 @@
 //! Bounds on the resources that clients can take from a server: connections, time, memory.
 
-use std::sync::Arc;
 use std::time::Duration;
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
-
-/// The number of bytes covered by one permit.
-const UNIT: usize = 1024;
 
 /// The limits of a server. Beyond them it waits or refuses, and takes no more memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,21 +27,5 @@ impl Default for Bounds {
             head_time: Duration::from_secs(20),
             body_time: Duration::from_secs(60),
         }
-    }
-}
-
-/// The memory available for bodies that are being read or answered.
-#[derive(Clone, Debug)]
-pub(super) struct BodyMemory(Arc<Semaphore>);
-
-impl BodyMemory {
-    pub(super) fn new(bytes: usize) -> BodyMemory {
-        BodyMemory(Arc::new(Semaphore::new(bytes / UNIT)))
-    }
-
-    /// Waits until there is room for `bytes`, and reserves it until the permit is dropped.
-    pub(super) async fn take(&self, bytes: usize) -> OwnedSemaphorePermit {
-        let units = u32::try_from(bytes.div_ceil(UNIT)).expect("no body is that large");
-        self.0.clone().acquire_many_owned(units).await.expect("it is never closed")
     }
 }

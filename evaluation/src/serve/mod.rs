@@ -16,9 +16,7 @@ pub use bounds::Bounds;
 pub use prompted::Prompted;
 pub use server::{Running, Server};
 
-use crate::client::{
-    ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Finish, Model, Role, Usage,
-};
+use crate::client::{ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Finish, Model, Usage};
 use agents::PlannerSpec;
 use engine::{Action, Seed};
 use shown::Shown;
@@ -117,11 +115,7 @@ impl Model for PromptPlayer {
 fn seed(messages: &[ChatMessage]) -> Seed {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 served conversation");
     for message in messages {
-        let role = [match message.role {
-            Role::System => 0,
-            Role::User => 1,
-            Role::Assistant => 2,
-        }];
+        let role = [message.role as u8];
         let image = message.image.as_deref().unwrap_or_default();
         for part in [&role, message.text.as_bytes(), image] {
             hasher.update(&(part.len() as u64).to_le_bytes()).update(part);

@@ -1,6 +1,6 @@
 //! OpenAI-compatible chat completions, answered by a player.
 
-use super::bounds::{BodyMemory, Bounds};
+use super::bounds::Bounds;
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Content, Role};
 use crate::error::EvaluationError;
@@ -23,6 +23,9 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
 
 /// The pause after a failure to accept a connection because the system has too many open.
 const PAUSE: Duration = Duration::from_millis(100);
+
+/// The number of bytes of a request's body that one permit covers.
+const UNIT: usize = 1024;
 
 /// A server that is bound to its port but does not answer yet.
 #[derive(Debug)]
@@ -165,14 +168,19 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .fallback(no_route)
         .method_not_allowed_fallback(no_method)
         .layer(axum::middleware::from_fn(origin::check))
-        .with_state(Arc::new(Serving { player, bounds, body_memory: BodyMemory::new(bounds.bodies) }))
+        .with_state(Arc::new(Serving {
+            player,
+            bounds,
+            body_memory: Arc::new(Semaphore::new(bounds.bodies / UNIT)),
+        }))
 }
 
 /// The state needed for an answer.
 struct Serving {
     player: PromptPlayer,
     bounds: Bounds,
-    body_memory: BodyMemory,
+    /// The memory left for bodies that are being read or answered, in permits.
+    body_memory: Arc<Semaphore>,
 }
 
 /// The relevant fields of a request. Sampling parameters are ignored.
@@ -236,7 +244,9 @@ async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePer
         None => most,
     };
     let read = async {
-        let taken = serving.body_memory.take(size).await;
+        let units = u32::try_from(size.div_ceil(UNIT)).expect("no body is that large");
+        let memory = serving.body_memory.clone();
+        let taken = memory.acquire_many_owned(units).await.expect("it is never closed");
         (axum::body::to_bytes(body, size).await, taken)
     };
     match tokio::time::timeout(body_time, read).await {

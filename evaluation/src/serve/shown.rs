@@ -40,17 +40,12 @@ pub(super) struct You<'a> {
     pub(super) facing: Option<Action>,
 }
 
-/// The sections of a message by heading, the first of each.
-struct Sections<'a>(Vec<(&'a str, &'a str)>);
-
-impl<'a> Sections<'a> {
-    fn of(message: &'a ChatMessage) -> Sections<'a> {
-        Sections(crate::prompt::sections(&message.text))
-    }
-
-    fn get(&self, heading: &str) -> Option<&'a str> {
-        self.0.iter().find(|(known, _)| *known == heading).map(|(_, body)| *body)
-    }
+/// The first section of a message with this heading.
+fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
+    crate::prompt::sections(&message.text)
+        .into_iter()
+        .find(|(known, _)| *known == heading)
+        .map(|(_, body)| body)
 }
 
 impl<'a> Shown<'a> {
@@ -62,15 +57,17 @@ impl<'a> Shown<'a> {
         let missing = |what: &str| {
             Unanswerable(format!("the prompt has no {what}; see `arcade docs prompts` for what stands where"))
         };
-        let fixed = Sections::of(messages.first().ok_or_else(|| missing("messages"))?);
-        let mut turns = messages.iter().rev().map(Sections::of);
-        let turn = turns.find(|turn| turn.get("Board").or(turn.get("Turn")).is_some());
-        let turn = turn.unwrap_or(Sections(Vec::new()));
+        let first = messages.first().ok_or_else(|| missing("messages"))?;
+        let is_turn =
+            |message: &&ChatMessage| ["Board", "Turn"].iter().any(|name| section(message, name).is_some());
+        let last = messages.iter().rev().find(is_turn);
+        let fixed = |heading: &str| section(first, heading);
+        let turn = |heading: &str| section(last?, heading);
         let mut shown = Shown::default();
 
-        let actions = fixed.get("Actions").ok_or_else(|| missing("section `Actions`"))?;
+        let actions = fixed("Actions").ok_or_else(|| missing("section `Actions`"))?;
         shown.read_actions(actions);
-        let rules = fixed.get("Rules").unwrap_or_default();
+        let rules = fixed("Rules").unwrap_or_default();
         match rules.find("BasicGame").filter(|_| rules.contains("SpriteSet")) {
             Some(start) => shown.vgdl = Some(&rules[start..]),
             None => {
@@ -78,19 +75,19 @@ impl<'a> Shown<'a> {
                     rules.lines().chain(actions.lines()).map(|line| line.trim_start_matches("- ")).collect()
             }
         }
-        let told = turn.get("Turn").unwrap_or_default();
+        let told = turn("Turn").unwrap_or_default();
         if let Some(now) = told.lines().find_map(|line| line.strip_prefix("Actions now: ")) {
             shown.actions = actions_of(now);
         }
         if shown.actions.is_empty() {
             return Err(missing("actions that can be chosen"));
         }
-        if let Some(board) = turn.get("Board") {
-            let legend = turn.get("Legend").or(fixed.get("Legend")).unwrap_or_default();
+        if let Some(board) = turn("Board") {
+            let legend = turn("Legend").or(fixed("Legend")).unwrap_or_default();
             let symbols = Symbols::of(legend);
             shown.read_board(board, &symbols, told);
             shown.floors = symbols.floors;
-            shown.read_stacks(turn.get("Cells with several").unwrap_or_default());
+            shown.read_stacks(turn("Cells with several").unwrap_or_default());
         }
         let tick = told.strip_prefix("Tick ").and_then(|rest| rest.split_once(' '));
         shown.tick = tick.and_then(|(tick, _)| tick.parse().ok()).unwrap_or(0);

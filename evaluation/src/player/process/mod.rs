@@ -18,7 +18,7 @@ pub use message::PROTOCOL;
 #[cfg(unix)]
 pub use running::end_all;
 
-use crate::client::{Finish, Usage};
+use crate::client::{ChatReply, Finish};
 use crate::encoding;
 use crate::legend::{Legend, LegendOptions};
 use crate::log::{Event, Journal, Reply, ReplyClass};
@@ -304,21 +304,8 @@ fn record(journal: &mut Journal, turn: &Turn<'_>, attempt: u32, answer: &[u8]) -
     if journal.pending().iter().any(known) {
         return Ok(());
     }
-    let reply = Reply {
-        step: turn.number,
-        attempt,
-        class: ReplyClass::Invalid,
-        text: String::from_utf8_lossy(answer).chars().take(MAX_RECORDED).collect(),
-        reasoning: None,
-        action: None,
-        stage: None,
-        finish: Finish::Other,
-        usage: Usage::default(),
-        served_by: None,
-        failures: Vec::new(),
-        cached: false,
-        latency_ms: 0.0,
-    };
+    let text = String::from_utf8_lossy(answer).chars().take(MAX_RECORDED).collect();
+    let reply = Reply::of(turn.number, attempt, ReplyClass::Invalid, ChatReply::new(text, Finish::Other));
     journal.push(Event::Reply(reply)).map_err(|error| Halt::Log(error.to_string()))
 }
 

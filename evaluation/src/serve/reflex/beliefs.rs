@@ -151,12 +151,12 @@ impl<'a> Beliefs<'a> {
 
     /// Returns `true` if touching it kills, given the resources held.
     pub(super) fn is_deadly(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
-        self.kills.iter().any(|(other, need)| *other == name && need.is_none_or(|need| need.is_met(held)))
+        applies(&self.kills, name, held)
     }
 
     /// Returns `true` if touching it removes it, given the resources held.
     pub(super) fn is_taken(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
-        self.taken.iter().any(|(other, need)| *other == name && need.is_none_or(|need| need.is_met(held)))
+        applies(&self.taken, name, held)
     }
 
     /// Returns `true` if a shot removes it.
@@ -254,6 +254,10 @@ impl<'a> Beliefs<'a> {
         };
         words.flat_map(party).collect()
     }
+}
+
+fn applies(to: &[(&str, Option<ResourceCondition<'_>>)], name: &str, held: &BTreeMap<&str, i32>) -> bool {
+    to.iter().any(|(other, need)| *other == name && need.is_none_or(|need| need.is_met(held)))
 }
 
 impl<'a> Party<'a> {
