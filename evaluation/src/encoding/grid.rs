@@ -33,7 +33,7 @@ fn symbol(legend: &Legend, names: &[&str]) -> char {
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     // The names of each pile, from the lowest to the uppermost, and its cells.
-    let mut piles: Vec<(&[&str], Vec<(usize, usize)>)> = Vec::new();
+    let mut piles: Vec<(&[&str], Vec<_>)> = Vec::new();
     for (cell, names) in scene.cells.iter().enumerate().filter(|(_, names)| names.len() > 1) {
         let at = (cell % scene.columns, cell / scene.columns);
         match piles.iter_mut().find(|(known, _)| *known == names.as_slice()) {
