@@ -13,18 +13,20 @@ use serde::{Deserialize, Serialize};
 /// Breaks ties and guards divisions; the reference's value.
 const EPSILON: f64 = 1e-6;
 
-/// The parameters of the search. The default is the reference's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct MctsConfig {
-    /// Ticks that tree and rollout together look ahead.
-    pub depth: u32,
-    /// Weight of exploration in UCT.
-    pub exploration: f64,
-    /// Added to the score for a win.
-    pub win: f64,
-    /// Subtracted from the score for a loss.
-    pub loss: f64,
+engine::with_defaults! {
+    /// The parameters of the search. The default is the reference's.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct MctsConfig {
+        /// Ticks that tree and rollout together look ahead.
+        pub depth: u32 = 10,
+        /// Weight of exploration in UCT.
+        pub exploration: f64 = std::f64::consts::SQRT_2,
+        /// Added to the score for a win.
+        pub win: f64 = 1e7,
+        /// Subtracted from the score for a loss.
+        pub loss: f64 = 1e7,
+    }
 }
 
 impl MctsConfig {
@@ -33,12 +35,6 @@ impl MctsConfig {
     /// the corpus this wins about a quarter more episodes at equal calls.
     pub fn bold(depth: u32) -> MctsConfig {
         MctsConfig { depth, win: 10.0, loss: 1.0, ..MctsConfig::default() }
-    }
-}
-
-impl Default for MctsConfig {
-    fn default() -> MctsConfig {
-        MctsConfig { depth: 10, exploration: std::f64::consts::SQRT_2, win: 1e7, loss: 1e7 }
     }
 }
 

@@ -14,33 +14,23 @@ use std::collections::VecDeque;
 /// Guards divisions and breaks ties between sums; the reference's value.
 const EPSILON: f64 = 1e-4;
 
-/// The parameters of the search. The default is the reference's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct OletsConfig {
-    /// Weight of exploration, relative to scores that are not normalised.
-    pub exploration: f64,
-    /// The share of uniformly random choices on the way down.
-    pub random: f64,
-    /// The number of past positions of the avatar to remember, one a decision.
-    pub memory: usize,
-    /// The penalty of a node that leads to a remembered position.
-    pub penalty: f64,
-    /// The handling of nodes that are kept from the last decision. Each is to count as one visit with the mean of the
-    /// results seen; the reference divides the sum of the results that ended at a node by that one visit, so that the
-    /// sum stays (`spec/04` §2). `true`: divide by their number.
-    pub fixed_refresh: bool,
-}
-
-impl Default for OletsConfig {
-    fn default() -> OletsConfig {
-        OletsConfig {
-            exploration: std::f64::consts::SQRT_2,
-            random: 0.05,
-            memory: 15,
-            penalty: 0.5,
-            fixed_refresh: false,
-        }
+engine::with_defaults! {
+    /// The parameters of the search. The default is the reference's.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct OletsConfig {
+        /// Weight of exploration, relative to scores that are not normalised.
+        pub exploration: f64 = std::f64::consts::SQRT_2,
+        /// The share of uniformly random choices on the way down.
+        pub random: f64 = 0.05,
+        /// The number of past positions of the avatar to remember, one a decision.
+        pub memory: usize = 15,
+        /// The penalty of a node that leads to a remembered position.
+        pub penalty: f64 = 0.5,
+        /// The handling of nodes that are kept from the last decision. Each is to count as one visit with the mean of
+        /// the results seen; the reference divides the sum of the results that ended at a node by that one visit, so
+        /// that the sum stays (`spec/04` §2). `true`: divide by their number.
+        pub fixed_refresh: bool = false,
     }
 }
 

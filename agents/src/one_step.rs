@@ -9,20 +9,16 @@ use serde::{Deserialize, Serialize};
 /// Tie-breaking noise; the reference's value.
 const EPSILON: f64 = 1e-6;
 
-/// The parameters. The default is the reference's.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct OneStepConfig {
-    /// The evaluation of the next states.
-    pub heuristic: Heuristic,
-    /// The number of tries of each action, at least one; the mean counts. The reference tries once, so a single
-    /// random draw decides.
-    pub samples: u32,
-}
-
-impl Default for OneStepConfig {
-    fn default() -> OneStepConfig {
-        OneStepConfig { heuristic: Heuristic::Simple, samples: 1 }
+engine::with_defaults! {
+    /// The parameters. The default is the reference's.
+    #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct OneStepConfig {
+        /// The evaluation of the next states.
+        pub heuristic: Heuristic = Heuristic::Simple,
+        /// The number of tries of each action, at least one; the mean counts. The reference tries once, so a single
+        /// random draw decides.
+        pub samples: u32 = 1,
     }
 }
 

@@ -11,40 +11,29 @@ use engine::{Action, Analysis, Episode, Level, Outcome, Seed};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// The division of a budget.
-///
-/// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After
-/// that, and in stochastic games from the start, planners play episodes in rounds of growing length: [`Width`] looks
-/// far ahead, [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
-/// risks.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct PortfolioConfig {
-    /// Forward-model calls of all searches and plays together.
-    pub budget: u64,
-    /// The share of it to spend on the shortest win.
-    pub shortest: f64,
-    /// The share of it to spend on any win by systematic search.
-    pub systematic: f64,
-    /// The memory limit of a systematic search, in bytes.
-    pub bytes: usize,
-    /// The most calls of a decision of the planners: fewer if a play of [`USUAL_TICKS`], or one until the winning
-    /// tick, would cost more than its share.
-    pub decision: u64,
-    /// Look-ahead in ticks of the bold Monte-Carlo tree searches, one player each.
-    pub depths: Vec<u32>,
-}
-
-impl Default for PortfolioConfig {
-    fn default() -> PortfolioConfig {
-        PortfolioConfig {
-            budget: 3_000_000,
-            shortest: 0.1,
-            systematic: 0.4,
-            bytes: 1 << 30,
-            decision: 500,
-            depths: vec![20],
-        }
+engine::with_defaults! {
+    /// The division of a budget.
+    ///
+    /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After
+    /// that, and in stochastic games from the start, planners play episodes in rounds of growing length: [`Width`]
+    /// looks far ahead, [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
+    /// risks.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct PortfolioConfig {
+        /// Forward-model calls of all searches and plays together.
+        pub budget: u64 = 3_000_000,
+        /// The share of it to spend on the shortest win.
+        pub shortest: f64 = 0.1,
+        /// The share of it to spend on any win by systematic search.
+        pub systematic: f64 = 0.4,
+        /// The memory limit of a systematic search, in bytes.
+        pub bytes: usize = 1 << 30,
+        /// The most calls of a decision of the planners: fewer if a play of [`USUAL_TICKS`], or one until the winning
+        /// tick, would cost more than its share.
+        pub decision: u64 = 500,
+        /// Look-ahead in ticks of the bold Monte-Carlo tree searches, one player each.
+        pub depths: Vec<u32> = vec![20],
     }
 }
 

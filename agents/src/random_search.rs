@@ -6,19 +6,15 @@ use crate::sequences::Sequences;
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
 
-/// The parameters. The default is the reference's.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct RandomSearchConfig {
-    /// Ticks of a sequence.
-    pub horizon: usize,
-    /// The evaluation of the state after a sequence.
-    pub heuristic: Heuristic,
-}
-
-impl Default for RandomSearchConfig {
-    fn default() -> RandomSearchConfig {
-        RandomSearchConfig { horizon: 10, heuristic: Heuristic::WinScore }
+engine::with_defaults! {
+    /// The parameters. The default is the reference's.
+    #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct RandomSearchConfig {
+        /// Ticks of a sequence.
+        pub horizon: usize = 10,
+        /// The evaluation of the state after a sequence.
+        pub heuristic: Heuristic = Heuristic::WinScore,
     }
 }
 

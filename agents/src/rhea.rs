@@ -9,26 +9,22 @@ use crate::sequences::{Gene, Sequences};
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
 
-/// The parameters of the search. The default is the reference's.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct RheaConfig {
-    /// The number of plans in the population; fewer if the budget does not suffice to try them all.
-    pub population: usize,
-    /// Ticks of a plan.
-    pub horizon: usize,
-    /// The number of genes of a child to redraw, possibly with the same value.
-    pub mutations: usize,
-    /// The evaluation of the state after a plan.
-    pub heuristic: Heuristic,
-    /// Differs from the reference, which begins each decision with random plans: keeps the plans of the previous
-    /// decision, shifted by one tick, with a random last action. Off by default.
-    pub shift: bool,
-}
-
-impl Default for RheaConfig {
-    fn default() -> RheaConfig {
-        RheaConfig { population: 10, horizon: 10, mutations: 1, heuristic: Heuristic::WinScore, shift: false }
+engine::with_defaults! {
+    /// The parameters of the search. The default is the reference's.
+    #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct RheaConfig {
+        /// The number of plans in the population; fewer if the budget does not suffice to try them all.
+        pub population: usize = 10,
+        /// Ticks of a plan.
+        pub horizon: usize = 10,
+        /// The number of genes of a child to redraw, possibly with the same value.
+        pub mutations: usize = 1,
+        /// The evaluation of the state after a plan.
+        pub heuristic: Heuristic = Heuristic::WinScore,
+        /// Differs from the reference, which begins each decision with random plans: keeps the plans of the previous
+        /// decision, shifted by one tick, with a random last action. Off by default.
+        pub shift: bool = false,
     }
 }
 

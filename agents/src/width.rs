@@ -15,26 +15,22 @@ use engine::{Action, Game, Outcome, Seed, State};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// The parameters of the planner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct WidthConfig {
-    /// The factor on a reward for each tick of delay.
-    pub discount: f64,
-    /// The share of the budget for looking ahead; the rest tries the plans again.
-    pub look: f64,
-    /// The ticks of a plan that are tried again: later ticks can be planned again in time.
-    pub horizon: usize,
-    /// The weight of a loss, in multiples of the largest gain seen.
-    pub loss: f64,
-    /// The value of reaching a state with something new in this episode, in points; half of it for something that was
-    /// present in one tick, a third for two.
-    pub curiosity: f64,
-}
-
-impl Default for WidthConfig {
-    fn default() -> WidthConfig {
-        WidthConfig { discount: 0.98, look: 0.6, horizon: 12, loss: 10.0, curiosity: 0.1 }
+engine::with_defaults! {
+    /// The parameters of the planner.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct WidthConfig {
+        /// The factor on a reward for each tick of delay.
+        pub discount: f64 = 0.98,
+        /// The share of the budget for looking ahead; the rest tries the plans again.
+        pub look: f64 = 0.6,
+        /// The ticks of a plan that are tried again: later ticks can be planned again in time.
+        pub horizon: usize = 12,
+        /// The weight of a loss, in multiples of the largest gain seen.
+        pub loss: f64 = 10.0,
+        /// The value of reaching a state with something new in this episode, in points; half of it for something that
+        /// was present in one tick, a third for two.
+        pub curiosity: f64 = 0.1,
     }
 }
 

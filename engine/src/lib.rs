@@ -12,6 +12,7 @@ mod chance;
 mod compile;
 mod contacts;
 mod contribution;
+mod defaults;
 mod deferred_move;
 pub mod describe;
 mod diagnostic;

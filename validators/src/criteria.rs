@@ -3,59 +3,62 @@
 use crate::ladder::{LadderConfig, Rung};
 use serde::{Deserialize, Serialize};
 
-/// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/validate.md` explains each.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Criteria {
-    /// The criteria to check, by name. They are checked in a fixed order, the cheapest first.
-    pub ask: Vec<String>,
-    /// Forward-model calls of one decision of the searching player, and of players of the ladder without a number.
-    pub decision: u64,
-    /// Forward-model calls to find a win, all plays together.
-    pub budget: u64,
-    /// The share of them that may go into proving how many ticks the shortest win takes, in a deterministic game.
-    pub shortest: f64,
-    /// Look-ahead in ticks of the bold tree searches among the players that look for a win.
-    pub depths: Vec<u32>,
-    /// Episodes of plain tree search that the card of a level reports.
-    pub mcts_plays: u32,
-    /// Episodes of doing nothing.
-    pub idle_plays: u32,
-    /// Episodes of random play.
-    pub random_plays: u32,
-    /// The greatest share of them that may be won.
-    pub random_wins: f64,
-    /// Ticks that the shortest win found takes at least.
-    pub least_ticks: usize,
-    /// The most ticks that it may take.
-    pub most_ticks: usize,
-    /// Ticks at the start in which death must be avoidable.
-    pub early_ticks: usize,
-    /// Forward-model calls to look for a way to survive them, for each random seed.
-    pub early_calls: u64,
-    /// Random seeds to try that with.
-    #[serde(rename = "early_chances")]
-    pub early_seeds: u32,
-    /// The greatest share of them in which death may be unavoidable.
-    pub early_deaths: f64,
-    /// The players that difficulty and skill are measured with, the weakest first: `mcts:500`.
-    pub ladder: Vec<String>,
-    /// Players that must show skill too, and that never guide a search.
-    pub held_out: Vec<String>,
-    /// The greatest number of plays of each.
-    pub ladder_plays: u64,
-    /// Forward-model calls of all of them, after which no further round of plays begins.
-    pub ladder_calls: u64,
-    /// A play of the ladder is broken off after this multiple of the ticks of the witness (and 50 more).
-    pub patience: usize,
-    /// The difference by which the win rates of stronger and weaker players must differ …
-    pub skill_wins: f64,
-    /// … or else their mean scores, as a share of the range of all scores.
-    pub skill_scores: f64,
-    /// The difference of win rates over all levels together, at the lower end of the 95 % interval.
-    pub skill_overall: f64,
-    /// Forward-model calls to show that a rule matters, for each rule.
-    pub ablation_calls: u64,
+engine::with_defaults! {
+    /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/validate.md` explains each.
+    /// The defaults are for minting: criteria that are cheap enough for many candidates.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct Criteria {
+        /// The criteria to check, by name. They are checked in a fixed order, the cheapest first.
+        pub ask: Vec<String> = names(&LEVEL_CRITERIA[..7]),
+        /// Forward-model calls of one decision of the searching player, and of players of the ladder without a number.
+        pub decision: u64 = 500,
+        /// Forward-model calls to find a win, all plays together.
+        pub budget: u64 = 3_000_000,
+        /// The share of them that may go into proving how many ticks the shortest win takes, in a deterministic game.
+        pub shortest: f64 = 0.1,
+        /// Look-ahead in ticks of the bold tree searches among the players that look for a win.
+        pub depths: Vec<u32> = vec![20],
+        /// Episodes of plain tree search that the card of a level reports.
+        pub mcts_plays: u32 = 4,
+        /// Episodes of doing nothing.
+        pub idle_plays: u32 = 8,
+        /// Episodes of random play.
+        pub random_plays: u32 = 40,
+        /// The greatest share of them that may be won.
+        pub random_wins: f64 = 0.2,
+        /// Ticks that the shortest win found takes at least.
+        pub least_ticks: usize = 8,
+        /// The most ticks that it may take.
+        pub most_ticks: usize = 1000,
+        /// Ticks at the start in which death must be avoidable.
+        pub early_ticks: usize = 12,
+        /// Forward-model calls to look for a way to survive them, for each random seed.
+        pub early_calls: u64 = 20_000,
+        /// Random seeds to try that with.
+        #[serde(rename = "early_chances")]
+        pub early_seeds: u32 = 20,
+        /// The greatest share of them in which death may be unavoidable.
+        pub early_deaths: f64 = 0.05,
+        /// The players that difficulty and skill are measured with, the weakest first: `mcts:500`.
+        pub ladder: Vec<String> = names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
+        /// Players that must show skill too, and that never guide a search.
+        pub held_out: Vec<String> = names(&["mcts:300", "olets:200"]),
+        /// The greatest number of plays of each.
+        pub ladder_plays: u64 = 12,
+        /// Forward-model calls of all of them, after which no further round of plays begins.
+        pub ladder_calls: u64 = 5_000_000,
+        /// A play of the ladder is broken off after this multiple of the ticks of the witness (and 50 more).
+        pub patience: usize = 3,
+        /// The difference by which the win rates of stronger and weaker players must differ …
+        pub skill_wins: f64 = 0.25,
+        /// … or else their mean scores, as a share of the range of all scores.
+        pub skill_scores: f64 = 0.1,
+        /// The difference of win rates over all levels together, at the lower end of the 95 % interval.
+        pub skill_overall: f64 = 0.25,
+        /// Forward-model calls to show that a rule matters, for each rule.
+        pub ablation_calls: u64 = 200_000,
+    }
 }
 
 /// The criteria of a level, in the order of checking.
@@ -65,37 +68,8 @@ pub const LEVEL_CRITERIA: &[&str] =
 /// The criteria of a game over all its levels, in the order of checking.
 pub const GAME_CRITERIA: &[&str] = &["skill-overall", "rule-use", "ablation"];
 
-impl Default for Criteria {
-    /// Returns the defaults for minting: criteria that are cheap enough for many candidates.
-    fn default() -> Criteria {
-        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
-        Criteria {
-            ask: names(&LEVEL_CRITERIA[..7]),
-            decision: 500,
-            budget: 3_000_000,
-            shortest: 0.1,
-            depths: vec![20],
-            mcts_plays: 4,
-            idle_plays: 8,
-            random_plays: 40,
-            random_wins: 0.2,
-            least_ticks: 8,
-            most_ticks: 1000,
-            early_ticks: 12,
-            early_calls: 20_000,
-            early_seeds: 20,
-            early_deaths: 0.05,
-            ladder: names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
-            held_out: names(&["mcts:300", "olets:200"]),
-            ladder_plays: 12,
-            ladder_calls: 5_000_000,
-            patience: 3,
-            skill_wins: 0.25,
-            skill_scores: 0.1,
-            skill_overall: 0.25,
-            ablation_calls: 200_000,
-        }
-    }
+fn names(names: &[&str]) -> Vec<String> {
+    names.iter().map(|&name| name.to_owned()).collect()
 }
 
 /// A problem with a set of criteria.
@@ -112,14 +86,14 @@ impl Criteria {
     /// Returns the criteria for a single game, with those that minting leaves out; without `skill-overall`, which may
     /// fail a good game only because it is too hard.
     pub fn full() -> Criteria {
-        let all = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).filter(|&&name| name != "skill-overall");
-        Criteria { ask: all.map(|&name| name.to_owned()).collect(), ..Criteria::default() }
+        let mut criteria = Criteria::of_generated_games();
+        criteria.ask.retain(|name| name != "skill-overall");
+        criteria
     }
 
     /// Returns all criteria: for generated games, of which there are many candidates.
     pub fn of_generated_games() -> Criteria {
-        let all = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA);
-        Criteria { ask: all.map(|&name| name.to_owned()).collect(), ..Criteria::default() }
+        Criteria { ask: names(&[LEVEL_CRITERIA, GAME_CRITERIA].concat()), ..Criteria::default() }
     }
 
     /// Returns `true` if a criterion is checked.

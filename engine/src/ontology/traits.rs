@@ -5,85 +5,88 @@ use crate::game::SpriteType;
 use crate::geometry::Direction;
 use smallvec::SmallVec;
 
-/// The values of a type's fields after class defaults and parameters: the initial values of a sprite and its constants.
-#[derive(Clone, Debug)]
-pub(crate) struct Traits {
-    pub(crate) speed: f64,
-    pub(crate) cooldown: i32,
-    pub(crate) orientation: Direction,
-    pub(crate) is_oriented: bool,
-    pub(crate) rotate_in_place: bool,
-    pub(crate) is_static: bool,
-    pub(crate) only_active: bool,
-    pub(crate) stationary: bool,
-    pub(crate) solid: bool,
-    pub(crate) width_factor: f64,
-    pub(crate) height_factor: f64,
-    pub(crate) health: i32,
-    pub(crate) max_health: i32,
-    pub(crate) limit_health: i32,
-    pub(crate) time_to_live: i32,
-    pub(crate) portal: bool,
-    pub(crate) is_npc: bool,
-    pub(crate) is_resource: bool,
-    pub(crate) is_avatar: bool,
-    pub(crate) is_from_avatar: bool,
-    /// The initial values of a sprite: ticks since the last move, first passive movement still to come, standing on
-    /// something.
-    pub(crate) last_move: i32,
-    pub(crate) is_first_tick: bool,
-    pub(crate) on_ground: bool,
-    /// `true` if it has pictures for the four directions and for no others.
-    pub(crate) oriented_image: bool,
-    pub(crate) hidden: bool,
-    pub(crate) invisible: bool,
-    pub(crate) color: Option<[u8; 3]>,
-    /// `limit` of Resource and Flicker.
-    pub(crate) limit: i32,
-    pub(crate) value: i32,
-    /// The type that a Resource is collected as.
-    pub(crate) resource: SpriteType,
-    pub(crate) age: i32,
-    pub(crate) spread_probability: f64,
-    pub(crate) cons: i32,
-    pub(crate) fleeing: bool,
-    pub(crate) max_distance: f64,
-    pub(crate) prob: f64,
-    pub(crate) total: i32,
-    pub(crate) spawn_orientation: Direction,
-    pub(crate) min_ammo: i32,
-    pub(crate) ammo_cost: i32,
-    /// `true` for continuous physics, `false` for grid physics.
-    pub(crate) continuous: bool,
-    /// `true` unless declared to have grid physics. An unknown physics acts as the grid's, but avatars have passive
-    /// movement.
-    pub(crate) off_grid: bool,
-    pub(crate) mass: f64,
-    pub(crate) gravity: f64,
-    pub(crate) friction: f64,
-    /// The speed limit; −1 for none.
-    pub(crate) max_speed: f64,
-    pub(crate) jump_strength: f64,
-    /// Radians a tick.
-    pub(crate) angle_diff: f64,
-    pub(crate) rotation: f64,
-    /// CarAvatar: 0 forwards, 1 backwards.
-    pub(crate) facing: f64,
-    /// WizardAvatar: the direction that it faces, and the tick of its last block.
-    pub(crate) facing_dir: Direction,
-    pub(crate) last_block_time: i32,
-    pub(crate) ground_speedup: f64,
-    pub(crate) air_slowdown: f64,
-    pub(crate) air_steering: bool,
-    /// WalkerJumper: the probability of a jump in each tick on the ground.
-    pub(crate) probability: f64,
-    pub(crate) epsilon: f64,
-    pub(crate) random_target: bool,
-    pub(crate) spawn_behind: Option<SpriteType>,
-    /// `stype`, `stype1`, `stypes` or `stypeMissile`: the types that it shoots, spawns, chases or leads to.
-    pub(crate) stypes: SmallVec<[SpriteType; 2]>,
-    /// `ammo`: the resources that shots cost.
-    pub(crate) ammo: SmallVec<[SpriteType; 2]>,
+crate::with_defaults! {
+    /// The values of a type's fields after class defaults and parameters: the initial values of a sprite and its
+    /// constants. The defaults are those of the base sprite.
+    #[derive(Clone, Debug)]
+    pub(crate) struct Traits {
+        pub(crate) speed: f64 = 0.0,
+        pub(crate) cooldown: i32 = 0,
+        pub(crate) orientation: Direction = Direction::NONE,
+        pub(crate) is_oriented: bool = false,
+        pub(crate) rotate_in_place: bool = false,
+        pub(crate) is_static: bool = false,
+        pub(crate) only_active: bool = false,
+        pub(crate) stationary: bool = false,
+        pub(crate) solid: bool = false,
+        pub(crate) width_factor: f64 = 1.0,
+        pub(crate) height_factor: f64 = 1.0,
+        pub(crate) health: i32 = 0,
+        pub(crate) max_health: i32 = 0,
+        pub(crate) limit_health: i32 = 1000,
+        pub(crate) time_to_live: i32 = -1,
+        pub(crate) portal: bool = false,
+        pub(crate) is_npc: bool = false,
+        pub(crate) is_resource: bool = false,
+        pub(crate) is_avatar: bool = false,
+        pub(crate) is_from_avatar: bool = false,
+        /// The initial values of a sprite: ticks since the last move, first passive movement still to come, standing on
+        /// something.
+        pub(crate) last_move: i32 = 0,
+        pub(crate) is_first_tick: bool = true,
+        pub(crate) on_ground: bool = false,
+        /// `true` if it has pictures for the four directions and for no others.
+        pub(crate) oriented_image: bool = false,
+        pub(crate) hidden: bool = false,
+        pub(crate) invisible: bool = false,
+        pub(crate) color: Option<[u8; 3]> = None,
+        /// `limit` of Resource and Flicker.
+        pub(crate) limit: i32 = 0,
+        pub(crate) value: i32 = 1,
+        /// The type that a Resource is collected as.
+        pub(crate) resource: SpriteType = SpriteType::NONE,
+        pub(crate) age: i32 = 0,
+        pub(crate) spread_probability: f64 = 1.0,
+        pub(crate) cons: i32 = 0,
+        pub(crate) fleeing: bool = false,
+        pub(crate) max_distance: f64 = -1.0,
+        pub(crate) prob: f64 = 1.0,
+        pub(crate) total: i32 = 0,
+        pub(crate) spawn_orientation: Direction = Direction::NONE,
+        pub(crate) min_ammo: i32 = -1,
+        pub(crate) ammo_cost: i32 = 1,
+        /// `true` for continuous physics, `false` for grid physics.
+        pub(crate) continuous: bool = false,
+        /// `true` unless declared to have grid physics. An unknown physics acts as the grid's, but avatars have passive
+        /// movement.
+        pub(crate) off_grid: bool = false,
+        pub(crate) mass: f64 = 1.0,
+        pub(crate) gravity: f64 = 0.0,
+        pub(crate) friction: f64 = 0.0,
+        /// The speed limit; −1 for none.
+        pub(crate) max_speed: f64 = -1.0,
+        pub(crate) jump_strength: f64 = 0.0,
+        /// Radians a tick.
+        pub(crate) angle_diff: f64 = 0.0,
+        pub(crate) rotation: f64 = 0.0,
+        /// CarAvatar: 0 forwards, 1 backwards.
+        pub(crate) facing: f64 = 0.0,
+        /// WizardAvatar: the direction that it faces, and the tick of its last block.
+        pub(crate) facing_dir: Direction = Direction::RIGHT,
+        pub(crate) last_block_time: i32 = 0,
+        pub(crate) ground_speedup: f64 = 1.0,
+        pub(crate) air_slowdown: f64 = 2.0,
+        pub(crate) air_steering: bool = false,
+        /// WalkerJumper: the probability of a jump in each tick on the ground.
+        pub(crate) probability: f64 = 0.1,
+        pub(crate) epsilon: f64 = 0.0,
+        pub(crate) random_target: bool = false,
+        pub(crate) spawn_behind: Option<SpriteType> = None,
+        /// `stype`, `stype1`, `stypes` or `stypeMissile`: the types that it shoots, spawns, chases or leads to.
+        pub(crate) stypes: SmallVec<[SpriteType; 2]> = SmallVec::new(),
+        /// `ammo`: the resources that shots cost.
+        pub(crate) ammo: SmallVec<[SpriteType; 2]> = SmallVec::new(),
+    }
 }
 
 impl Traits {
@@ -96,69 +99,7 @@ impl Traits {
 
     /// The base defaults, overridden by those of the class, from its root down.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
-        let mut traits = Traits {
-            speed: 0.0,
-            cooldown: 0,
-            orientation: Direction::NONE,
-            is_oriented: false,
-            rotate_in_place: false,
-            is_static: false,
-            only_active: false,
-            stationary: false,
-            solid: false,
-            width_factor: 1.0,
-            height_factor: 1.0,
-            health: 0,
-            max_health: 0,
-            limit_health: 1000,
-            time_to_live: -1,
-            portal: false,
-            is_npc: false,
-            is_resource: false,
-            is_avatar: class.is_avatar(),
-            is_from_avatar: false,
-            last_move: 0,
-            is_first_tick: true,
-            on_ground: false,
-            oriented_image: false,
-            hidden: false,
-            invisible: false,
-            color: None,
-            limit: 0,
-            value: 1,
-            resource: SpriteType::NONE,
-            age: 0,
-            spread_probability: 1.0,
-            cons: 0,
-            fleeing: false,
-            max_distance: -1.0,
-            prob: 1.0,
-            total: 0,
-            spawn_orientation: Direction::NONE,
-            min_ammo: -1,
-            ammo_cost: 1,
-            continuous: false,
-            off_grid: false,
-            mass: 1.0,
-            gravity: 0.0,
-            friction: 0.0,
-            max_speed: -1.0,
-            jump_strength: 0.0,
-            angle_diff: 0.0,
-            rotation: 0.0,
-            facing: 0.0,
-            facing_dir: Direction::RIGHT,
-            last_block_time: 0,
-            ground_speedup: 1.0,
-            air_slowdown: 2.0,
-            air_steering: false,
-            probability: 0.1,
-            epsilon: 0.0,
-            random_target: false,
-            spawn_behind: None,
-            stypes: SmallVec::new(),
-            ammo: SmallVec::new(),
-        };
+        let mut traits = Traits { is_avatar: class.is_avatar(), ..Traits::default() };
         traits.class_defaults(class);
         traits
     }

@@ -31,26 +31,22 @@ pub struct GameOrder {
     pub effort: GameEffort,
 }
 
-/// The sizes that boards are drawn from, in cells, both ends included.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Board {
-    /// Columns.
-    pub columns: (usize, usize),
-    /// Rows.
-    pub rows: (usize, usize),
+engine::with_defaults! {
+    /// The sizes that boards are drawn from, in cells, both ends included.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct Board {
+        /// Columns.
+        pub columns: (usize, usize) = (10, 16),
+        /// Rows.
+        pub rows: (usize, usize) = (8, 11),
+    }
 }
 
 impl Board {
     /// Levels of these sizes.
     pub fn levels(&self) -> LevelConfig {
         LevelConfig { columns: self.columns, rows: self.rows, ..LevelConfig::default() }
-    }
-}
-
-impl Default for Board {
-    fn default() -> Board {
-        Board { columns: (10, 16), rows: (8, 11) }
     }
 }
 

@@ -62,22 +62,18 @@ pub struct LevelOrder {
     pub effort: Effort,
 }
 
-/// The effort of a search for one level, or for one level of an archive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
-    /// Candidates that are looked at between two attempts to have the best of them accepted.
-    pub looks: u32,
-    /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
-    pub batch: usize,
-    /// Attempts; more of them for a single level where most looks are cheap.
-    pub rounds: u32,
-    /// Forward-model calls of a look for a win: so many, or up to four times as many where plays are long.
-    pub calls: u64,
-}
-
-impl Default for Effort {
-    fn default() -> Effort {
-        Effort { looks: 32, batch: 8, rounds: 6, calls: 100_000 }
+engine::with_defaults! {
+    /// The effort of a search for one level, or for one level of an archive.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Effort {
+        /// Candidates that are looked at between two attempts to have the best of them accepted.
+        pub looks: u32 = 32,
+        /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
+        pub batch: usize = 8,
+        /// Attempts; more of them for a single level where most looks are cheap.
+        pub rounds: u32 = 6,
+        /// Forward-model calls of a look for a win: so many, or up to four times as many where plays are long.
+        pub calls: u64 = 100_000,
     }
 }
 
