@@ -40,208 +40,159 @@ pub(crate) enum Undeclared {
     Void,
 }
 
-/// The keywords of all effects, sorted.
-pub const NAMES: &[&str] = &[
-    "addHealthPoints",
-    "addHealthPointsToMax",
-    "addTimer",
-    "align",
-    "attractGaze",
-    "bounceDirection",
-    "bounceForward",
-    "changeResource",
-    "cloneSprite",
-    "collectResource",
-    "collectResourceIfHeld",
-    "decreaseSpeedToAll",
-    "flipDirection",
-    "halfSpeed",
-    "increaseSpeedToAll",
-    "killAll",
-    "killBoth",
-    "killIfAlive",
-    "killIfFast",
-    "killIfFromAbove",
-    "killIfFrontal",
-    "killIfHasLess",
-    "killIfHasMore",
-    "killIfNotFrontal",
-    "killIfNotUpright",
-    "killIfOtherHasMore",
-    "killIfSlow",
-    "killSprite",
-    "pullWithIt",
-    "removeScore",
-    "reverseDirection",
-    "setSpeedForAll",
-    "shieldFrom",
-    "spawn",
-    "spawnAbove",
-    "spawnBehind",
-    "spawnBelow",
-    "spawnIfCounterSubTypes",
-    "spawnIfHasLess",
-    "spawnIfHasMore",
-    "spawnLeft",
-    "spawnRight",
-    "stepBack",
-    "subtractHealthPoints",
-    "teleportToExit",
-    "transformIfCount",
-    "transformTo",
-    "transformToAll",
-    "transformToRandomChild",
-    "transformToSingleton",
-    "turnAround",
-    "undoAll",
-    "updateSpawnType",
-    "wallBounce",
-    "wallReverse",
-    "wallStop",
-    "waterPhysics",
-    "wrapAround",
-];
+/// Declares the effects once, sorted: the keyword, and the effect that its arguments make.
+macro_rules! effects {
+    ($keyword:ident, $args:ident; $($($name:literal)|+ => $effect:expr,)*) => {
+        /// The keywords of all effects, sorted.
+        pub const NAMES: &[&str] = &[$($($name),+),*];
 
-/// The effect with that keyword; `None` if there is none.
-pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> {
-    Some(match keyword {
-        "killSprite" => Effect::KillSprite,
-        "killBoth" => Effect::KillBoth,
-        "killAll" => Effect::KillAll { stype: args.sprite("stype") },
-        "killIfAlive" => Effect::KillIfAlive,
-        "killIfFromAbove" => Effect::KillIfFromAbove,
-        "killIfFrontal" | "killIfNotFrontal" => Effect::KillIfFrontal { frontal: keyword == "killIfFrontal" },
-        "killIfHasLess" => {
-            Effect::KillIfHasLess { resource: args.sprite("resource"), limit: args.int("limit", 0) }
+        /// The effect with that keyword; `None` if there is none.
+        pub(crate) fn build($keyword: &str, $args: &mut impl Arguments) -> Option<Effect> {
+            Some(match $keyword {
+                $($($name)|+ => $effect,)*
+                _ => return None,
+            })
         }
-        "killIfHasMore" => {
-            Effect::KillIfHasMore { resource: args.sprite("resource"), limit: args.int("limit", 0) }
-        }
-        "killIfOtherHasMore" => Effect::KillIfOtherHasMore {
-            resource: args.sprite_or_none("resource"),
+    };
+}
+
+effects! {
+    keyword, args;
+    "addHealthPoints" | "addHealthPointsToMax" => Effect::AddHealthPoints {
+        value: args.int("value", 1),
+        kill_second: args.flag("killSecond", false),
+        to_max: keyword == "addHealthPointsToMax",
+    },
+    "addTimer" => Effect::AddTimer { timed: args.timed() },
+    "align" => Effect::Align { orient: args.flag("orient", true) },
+    "attractGaze" => {
+        Effect::AttractGaze { align: args.flag("align", false), prob: args.number("prob", 1.0) }
+    },
+    // Converts degrees to radians as the reference does.
+    "bounceDirection" => Effect::BounceDirection {
+        most: args.number("maxBounceAngleDeg", 60.0) * 0.017_453_292_519_943_295,
+    },
+    "bounceForward" => Effect::BounceForward,
+    "changeResource" => Effect::ChangeResource {
+        resource: args.sprite_or_none("resource"),
+        value: args.int("value", 1),
+        kill_resource: args.flag("killResource", false),
+    },
+    "cloneSprite" => Effect::CloneSprite,
+    "collectResource" => Effect::CollectResource { kill_resource: args.flag("killResource", true) },
+    "collectResourceIfHeld" => Effect::CollectResourceIfHeld {
+        held: args.sprite_or_none("heldResource"),
+        value: args.int("value", 1),
+        kill_resource: args.flag("killResource", true),
+    },
+    "decreaseSpeedToAll" => speed(args, 0.1, SpeedChange::Decrease),
+    "flipDirection" => Effect::FlipDirection,
+    "halfSpeed" => Effect::HalfSpeed,
+    "increaseSpeedToAll" => speed(args, 0.1, SpeedChange::Increase),
+    "killAll" => Effect::KillAll { stype: args.sprite("stype") },
+    "killBoth" => Effect::KillBoth,
+    "killIfAlive" => Effect::KillIfAlive,
+    "killIfFast" => Effect::KillIfSpeed { limit: args.number("limspeed", 1.0), fast: true },
+    "killIfFromAbove" => Effect::KillIfFromAbove,
+    "killIfFrontal" => Effect::KillIfFrontal { frontal: true },
+    "killIfHasLess" => {
+        Effect::KillIfHasLess { resource: args.sprite("resource"), limit: args.int("limit", 0) }
+    },
+    "killIfHasMore" => {
+        Effect::KillIfHasMore { resource: args.sprite("resource"), limit: args.int("limit", 0) }
+    },
+    "killIfNotFrontal" => Effect::KillIfFrontal { frontal: false },
+    "killIfNotUpright" => Effect::KillIfNotUpright,
+    "killIfOtherHasMore" => Effect::KillIfOtherHasMore {
+        resource: args.sprite_or_none("resource"),
+        limit: args.int("limit", 0),
+        subtract: args.flag("subtract", false),
+    },
+    "killIfSlow" => Effect::KillIfSpeed { limit: args.number("limspeed", 1.0), fast: false },
+    "killSprite" => Effect::KillSprite,
+    "pullWithIt" => Effect::PullWithIt { pixel_perfect: args.flag("pixelPerfect", false) },
+    "removeScore" => Effect::RemoveScore {
+        stype: subject(args, Undeclared::Absent),
+        kill_second: args.flag("killSecond", false),
+    },
+    "reverseDirection" => Effect::ReverseDirection,
+    "setSpeedForAll" => speed(args, 0.0, SpeedChange::Set),
+    "shieldFrom" => Effect::ShieldFrom { stype: args.sprite("stype"), keyword: args.keyword("ftype") },
+    "spawn" => Effect::Spawn { stype: args.sprite("stype"), prob: args.number("prob", 1.0) },
+    "spawnAbove" => beside(args, (0, -1)),
+    "spawnBehind" => Effect::SpawnBehind { stype: args.sprite("stype"), prob: args.number("prob", 1.0) },
+    "spawnBelow" => beside(args, (0, 1)),
+    "spawnIfCounterSubTypes" => Effect::SpawnIfCounterSubTypes {
+        stype: args.sprite("stype"),
+        otherwise: args.sprite("estype"),
+        counted: args.sprite("stypeCount"),
+        limit: args.int("limit", 0),
+        kinds: args.int("subTypesNum", -1),
+    },
+    "spawnIfHasLess" | "spawnIfHasMore" => {
+        let more = keyword == "spawnIfHasMore";
+        Effect::SpawnIf {
+            resource: args.sprite("resource"),
             limit: args.int("limit", 0),
-            subtract: args.flag("subtract", false),
-        },
-        "addHealthPoints" | "addHealthPointsToMax" => Effect::AddHealthPoints {
-            value: args.int("value", 1),
-            kill_second: args.flag("killSecond", false),
-            to_max: keyword == "addHealthPointsToMax",
-        },
-        "subtractHealthPoints" => Effect::SubtractHealthPoints {
-            value: args.int("value", 1),
-            limit: args.int("limit", 0),
-            stype: subject(args, Undeclared::Fails),
-            score_if_killed: args.score("scoreChangeIfKilled"),
-        },
-        "stepBack" => Effect::StepBack { pixel_perfect: args.flag("pixelPerfect", false) },
-        "undoAll" => Effect::UndoAll { spare: args.sprites("notStype").into() },
-        "turnAround" => Effect::TurnAround,
-        "reverseDirection" => Effect::ReverseDirection,
-        "flipDirection" => Effect::FlipDirection,
-        "halfSpeed" => Effect::HalfSpeed,
-        "wrapAround" => Effect::WrapAround { offset: args.number("offset", 0.0) },
-        "align" => Effect::Align { orient: args.flag("orient", true) },
-        "attractGaze" => {
-            Effect::AttractGaze { align: args.flag("align", false), prob: args.number("prob", 1.0) }
-        }
-        "bounceForward" => Effect::BounceForward,
-        "pullWithIt" => Effect::PullWithIt { pixel_perfect: args.flag("pixelPerfect", false) },
-        "teleportToExit" => Effect::TeleportToExit,
-        "increaseSpeedToAll" => speed(args, 0.1, SpeedChange::Increase),
-        "decreaseSpeedToAll" => speed(args, 0.1, SpeedChange::Decrease),
-        "setSpeedForAll" => speed(args, 0.0, SpeedChange::Set),
-        "spawn" => Effect::Spawn { stype: args.sprite("stype"), prob: args.number("prob", 1.0) },
-        "spawnIfHasMore" | "spawnIfHasLess" => {
-            let more = keyword == "spawnIfHasMore";
-            Effect::SpawnIf {
-                resource: args.sprite("resource"),
-                limit: args.int("limit", 0),
-                stype: args.sprite("stype"),
-                spend: if more { args.int("spend", 0) } else { 0 },
-                prob: args.number("prob", 1.0),
-                more,
-            }
-        }
-        "spawnAbove" => beside(args, (0, -1)),
-        "spawnBelow" => beside(args, (0, 1)),
-        "spawnLeft" => beside(args, (-1, 0)),
-        "spawnRight" => beside(args, (1, 0)),
-        "spawnBehind" => Effect::SpawnBehind { stype: args.sprite("stype"), prob: args.number("prob", 1.0) },
-        "cloneSprite" => Effect::CloneSprite,
-        "transformTo" => Effect::TransformTo {
             stype: args.sprite("stype"),
+            spend: if more { args.int("spend", 0) } else { 0 },
+            prob: args.number("prob", 1.0),
+            more,
+        }
+    },
+    "spawnLeft" => beside(args, (-1, 0)),
+    "spawnRight" => beside(args, (1, 0)),
+    "stepBack" => Effect::StepBack { pixel_perfect: args.flag("pixelPerfect", false) },
+    "subtractHealthPoints" => Effect::SubtractHealthPoints {
+        value: args.int("value", 1),
+        limit: args.int("limit", 0),
+        stype: subject(args, Undeclared::Fails),
+        score_if_killed: args.score("scoreChangeIfKilled"),
+    },
+    "teleportToExit" => Effect::TeleportToExit,
+    "transformIfCount" => Effect::TransformIfCount(Box::new(TransformIfCount {
+        stype: args.sprite("stype"),
+        counted: args.sprite_or_none("stypeCount"),
+        at_least: args.int("geq", 0),
+        at_most: args.int("leq", 10_000),
+        otherwise: args.optional_sprite("estype", Undeclared::Void),
+        kill_second: args.flag("killSecond", false),
+        force_orientation: args.flag("forceOrientation", false),
+    })),
+    "transformTo" => Effect::TransformTo {
+        stype: args.sprite("stype"),
+        kill_second: args.flag("killSecond", false),
+        force_orientation: args.flag("forceOrientation", false),
+    },
+    "transformToAll" => Effect::TransformToAll {
+        stype: args.sprite("stype"),
+        to: args.sprite("stypeTo"),
+        kill_second: args.flag("killSecond", false),
+        force_orientation: args.flag("forceOrientation", false),
+    },
+    "transformToRandomChild" => {
+        let stype = args.sprite("stype");
+        Effect::TransformToRandomChild {
+            options: args.relatives(stype),
             kill_second: args.flag("killSecond", false),
             force_orientation: args.flag("forceOrientation", false),
-        },
-        "transformToAll" => Effect::TransformToAll {
-            stype: args.sprite("stype"),
-            to: args.sprite("stypeTo"),
-            kill_second: args.flag("killSecond", false),
-            force_orientation: args.flag("forceOrientation", false),
-        },
-        "transformToRandomChild" => {
-            let stype = args.sprite("stype");
-            Effect::TransformToRandomChild {
-                options: args.relatives(stype),
-                kill_second: args.flag("killSecond", false),
-                force_orientation: args.flag("forceOrientation", false),
-            }
         }
-        "collectResource" => Effect::CollectResource { kill_resource: args.flag("killResource", true) },
-        "collectResourceIfHeld" => Effect::CollectResourceIfHeld {
-            held: args.sprite_or_none("heldResource"),
-            value: args.int("value", 1),
-            kill_resource: args.flag("killResource", true),
-        },
-        "changeResource" => Effect::ChangeResource {
-            resource: args.sprite_or_none("resource"),
-            value: args.int("value", 1),
-            kill_resource: args.flag("killResource", false),
-        },
-        "shieldFrom" => Effect::ShieldFrom { stype: args.sprite("stype"), keyword: args.keyword("ftype") },
-        "killIfFast" | "killIfSlow" => {
-            Effect::KillIfSpeed { limit: args.number("limspeed", 1.0), fast: keyword == "killIfFast" }
-        }
-        "killIfNotUpright" => Effect::KillIfNotUpright,
-        "removeScore" => Effect::RemoveScore {
-            stype: subject(args, Undeclared::Absent),
-            kill_second: args.flag("killSecond", false),
-        },
-        "updateSpawnType" => {
-            Effect::UpdateSpawnType { stype: args.sprite("stype"), spawn_point: args.sprite("spawnPoint") }
-        }
-        "spawnIfCounterSubTypes" => Effect::SpawnIfCounterSubTypes {
-            stype: args.sprite("stype"),
-            otherwise: args.sprite("estype"),
-            counted: args.sprite("stypeCount"),
-            limit: args.int("limit", 0),
-            kinds: args.int("subTypesNum", -1),
-        },
-        "transformIfCount" => Effect::TransformIfCount(Box::new(TransformIfCount {
-            stype: args.sprite("stype"),
-            counted: args.sprite_or_none("stypeCount"),
-            at_least: args.int("geq", 0),
-            at_most: args.int("leq", 10_000),
-            otherwise: args.optional_sprite("estype", Undeclared::Void),
-            kill_second: args.flag("killSecond", false),
-            force_orientation: args.flag("forceOrientation", false),
-        })),
-        "transformToSingleton" => Effect::TransformToSingleton {
-            stype: args.sprite("stype"),
-            other: args.sprite("stype_other"),
-            take_orientation: args.flag("takeOrientation", false),
-        },
-        "waterPhysics" => Effect::WaterPhysics,
-        // Converts degrees to radians as the reference does.
-        "bounceDirection" => Effect::BounceDirection {
-            most: args.number("maxBounceAngleDeg", 60.0) * 0.017_453_292_519_943_295,
-        },
-        "wallStop" => Effect::WallStop,
-        "wallBounce" => Effect::WallBounce,
-        "wallReverse" => Effect::WallReverse,
-        "addTimer" => Effect::AddTimer { timed: args.timed() },
-        _ => return None,
-    })
+    },
+    "transformToSingleton" => Effect::TransformToSingleton {
+        stype: args.sprite("stype"),
+        other: args.sprite("stype_other"),
+        take_orientation: args.flag("takeOrientation", false),
+    },
+    "turnAround" => Effect::TurnAround,
+    "undoAll" => Effect::UndoAll { spare: args.sprites("notStype").into() },
+    "updateSpawnType" => {
+        Effect::UpdateSpawnType { stype: args.sprite("stype"), spawn_point: args.sprite("spawnPoint") }
+    },
+    "wallBounce" => Effect::WallBounce,
+    "wallReverse" => Effect::WallReverse,
+    "wallStop" => Effect::WallStop,
+    "waterPhysics" => Effect::WaterPhysics,
+    "wrapAround" => Effect::WrapAround { offset: args.number("offset", 0.0) },
 }
 
 fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
