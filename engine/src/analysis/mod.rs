@@ -45,7 +45,6 @@ use crate::geometry::Direction;
 use futures::{PossibleFutures, Start};
 use lock::Touches;
 use pairs::Pairs;
-use role::RoleInputs;
 use std::collections::BTreeSet;
 
 /// The static analysis of one game. Immutable; the same game always gives the same analysis.
@@ -101,19 +100,6 @@ impl Analysis {
         };
         let source = sources(game, &encounters, &facts, &types().map(bad).collect::<Vec<bool>>());
         let marks = marks::marks(rules, &encounters, &facts, (&avatars, &aims), (&harm, &threat, &source));
-        let basis = RoleInputs {
-            rules,
-            facts: &facts,
-            avatars: &avatars,
-            aims: &aims,
-            touches: &touches,
-            pushables: &pushables,
-            locks: &locks,
-            harm: &harm,
-            marks: &marks,
-            source: &source,
-        };
-        let roles: Vec<Role> = types().map(|stype| basis.role(stype)).collect();
         let is_stochastic = outlook::draws(rules, &futures, None);
         let unseen = outlook::unseen(rules, &facts, &futures, &goals);
         let mut analysis = Analysis {
@@ -131,9 +117,10 @@ impl Analysis {
             pushables,
             resources,
             locks,
-            roles,
+            roles: Vec::new(),
             requirements: Vec::new(),
         };
+        analysis.roles = types().zip(marks).map(|(stype, marks)| analysis.role_with(stype, marks)).collect();
         analysis.requirements = requirement::requirements(&analysis);
         analysis
     }

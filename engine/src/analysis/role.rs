@@ -1,11 +1,11 @@
 //! The role of every sprite type in a level; each type has exactly one.
 
-use super::facts::{Avatar, Facts, Motion};
-use super::goal::Aims;
-use super::lock::{Fate, Lock, Pushable, Touches};
+use super::Analysis;
+use super::facts::Motion;
+use super::lock::{Fate, Lock};
 use super::marks::Marks;
 use super::touch::{Harm, Removal};
-use crate::game::{Rules, SpriteType};
+use crate::game::SpriteType;
 use crate::ontology::class::SpriteClass;
 
 /// The role of a sprite type in a level. If several fit, the first one in this order counts, with the exceptions stated
@@ -64,26 +64,9 @@ pub enum Role {
     Neutral,
 }
 
-/// The data from which roles are derived.
-pub(super) struct RoleInputs<'a> {
-    pub(super) rules: &'a Rules,
-    pub(super) facts: &'a [Facts],
-    pub(super) avatars: &'a [Avatar],
-    pub(super) aims: &'a Aims,
-    pub(super) touches: &'a Touches,
-    pub(super) pushables: &'a [Pushable],
-    pub(super) locks: &'a [Lock],
-    /// By type: the worst effect of contact with it on some avatar.
-    pub(super) harm: &'a [Harm],
-    /// By type: the facts established by interactions with others.
-    pub(super) marks: &'a [Marks],
-    /// By type: it makes, by itself and perhaps in several steps, sprites that harm the avatar or a goal.
-    pub(super) source: &'a [bool],
-}
-
-impl RoleInputs<'_> {
-    /// Returns the role of a type. Cost: O(types × avatars).
-    pub(super) fn role(&self, stype: SpriteType) -> Role {
+impl Analysis {
+    /// Derives the role of a type with these marks from the other parts of the analysis. Cost: O(types × avatars).
+    pub(super) fn role_with(&self, stype: SpriteType, marks: Marks) -> Role {
         let at = stype.index();
         let fact = &self.facts[at];
         let still = fact.motion == Motion::Still;
@@ -112,14 +95,14 @@ impl RoleInputs<'_> {
         if still && lock.is_some_and(|lock| lock.guards) && !fact.is_resource && !makes {
             return Role::Gate;
         }
-        let harm = self.harm[at];
+        let harm = self.harm(stype);
         let blocks = touches().any(|touch| touch.blocks);
         if !still && harm == Harm::Conditional && blocks && matches!(fact.motion, Motion::Straight(_)) {
             return Role::Boulder;
         }
         let takes = touches().any(|touch| touch.gives.iter().any(|&(_, by)| by < 0));
         let caught = wanted && harm == Harm::None && touches().any(|touch| touch.removal == Removal::Always);
-        let hostile = harm != Harm::None || self.source[at] || self.marks[at].threat || takes;
+        let hostile = harm != Harm::None || self.source[at] || marks.threat || takes;
         if !still && hostile && !caught {
             return Role::Enemy;
         }
@@ -129,7 +112,7 @@ impl RoleInputs<'_> {
         if still && harm != Harm::None {
             return Role::Hazard;
         }
-        let class = self.rules.types[at].class;
+        let class = self.game.class(stype);
         if still && class.is_some_and(|c| c.is_a(SpriteClass::SpawnPoint) || c == SpriteClass::Spreader) {
             return Role::Spawner;
         }
@@ -145,26 +128,26 @@ impl RoleInputs<'_> {
             return Role::Key;
         }
         let taken = gain || touches().any(|touch| touch.gives.iter().any(|&(_, by)| by > 0));
-        if still && !wanted && taken && !fact.is_resource && self.is_soil(stype) {
+        if still && !wanted && taken && !fact.is_resource && marks.holds_up && self.is_worthless(stype) {
             return Role::Soil;
         }
         if taken {
             return Role::Collectable;
         }
         if still && blocks {
-            return if self.marks[at].breakable { Role::Breakable } else { Role::Wall };
+            return if marks.breakable { Role::Breakable } else { Role::Wall };
         }
-        if still && self.marks[at].spoilt && !self.beside_avatar(stype) {
+        if still && marks.spoilt && !self.beside_avatar(stype) {
             return Role::Ward;
         }
-        if still && self.marks[at].meets_shots && !self.beside_avatar(stype) {
+        if still && marks.meets_shots && !self.beside_avatar(stype) {
             return Role::Cover;
         }
-        if still && self.holds_up_enemies(stype) {
+        if still && marks.holds_up_enemies && self.is_refuge(stype) {
             return Role::Refuge;
         }
         let touched = touches().any(|touch| touch.any && *touch != neutral_touch());
-        if still && !touched && self.lies_under(stype) {
+        if still && !touched && (self.beside_avatar(stype) || !marks.takes_part) {
             return Role::Floor;
         }
         Role::Neutral
@@ -175,23 +158,23 @@ impl RoleInputs<'_> {
     }
 
     fn is_portal_exit(&self, stype: SpriteType) -> bool {
-        let types = (0u16..).map(SpriteType).zip(self.facts).filter(|(_, fact)| fact.possible);
+        let types = (0u16..).map(SpriteType).zip(&self.facts).filter(|(_, fact)| fact.possible);
         types.map(|(portal, _)| portal).any(|portal| {
-            self.rules.types[portal.index()].leads_to() == Some(stype)
+            self.game.0.types[portal.index()].leads_to() == Some(stype)
                 && self.touches.iter().any(|row| row[portal.index()].teleports)
         })
     }
 
     fn is_exit(&self, stype: SpriteType, locked: bool) -> bool {
         let at = stype.index();
-        let traits = &self.rules.types[at].traits;
+        let traits = &self.game.0.types[at].traits;
         let creates = |row: &Vec<super::Touch>| {
             let touch = &row[at];
             touch.makes.iter().any(|made| self.aims.create.contains(made))
                 || touch.changes.is_some_and(|to| self.aims.create.contains(&to))
         };
         let ends = self.touches.iter().any(|row| row[at].ends_other());
-        let door = traits.portal || self.rules.types[at].class == Some(SpriteClass::Door);
+        let door = traits.portal || self.game.class(stype) == Some(SpriteClass::Door);
         let wanted = self.aims.remove.contains(&stype);
         (wanted && (locked || (ends && door)) && !self.facts[at].is_resource)
             || self.touches.iter().any(creates)
@@ -208,19 +191,16 @@ impl RoleInputs<'_> {
         })
     }
 
-    /// Returns `true` if it is worth nothing to the avatar and blocks something else.
-    fn is_soil(&self, stype: SpriteType) -> bool {
-        let worthless = self.touches.iter().all(|row| {
+    /// Returns `true` if it is worth nothing to the avatar.
+    fn is_worthless(&self, stype: SpriteType) -> bool {
+        self.touches.iter().all(|row| {
             let touch = &row[stype.index()];
             touch.score == 0 && touch.makes.is_empty() && touch.gives.is_empty() && touch.changes.is_none()
-        });
-        worthless && self.marks[stype.index()].holds_up
+        })
     }
 
-    fn holds_up_enemies(&self, stype: SpriteType) -> bool {
-        self.marks[stype.index()].holds_up_enemies
-            && self.touches.iter().all(|row| !row[stype.index()].blocks)
-            && !self.beside_avatar(stype)
+    fn is_refuge(&self, stype: SpriteType) -> bool {
+        self.touches.iter().all(|row| !row[stype.index()].blocks) && !self.beside_avatar(stype)
     }
 
     /// Returns `true` if a character places it together with an avatar.
@@ -228,12 +208,8 @@ impl RoleInputs<'_> {
         let is_avatar = |other: &SpriteType| self.avatars.iter().any(|avatar| avatar.stype == *other);
         let symbols = self.facts[stype.index()].symbols.iter();
         symbols
-            .map(|&symbol| &self.rules.mapping[usize::from(symbol)])
+            .map(|&symbol| &self.game.0.mapping[usize::from(symbol)])
             .any(|types| types.iter().any(is_avatar))
-    }
-
-    fn lies_under(&self, stype: SpriteType) -> bool {
-        self.beside_avatar(stype) || !self.marks[stype.index()].takes_part
     }
 }
 
