@@ -244,6 +244,20 @@ pub(crate) struct Counting {
 }
 
 impl EffectInfo {
+    /// The effect alone: without a score, counters or a line of its own.
+    pub(crate) fn of(effect: Effect) -> EffectInfo {
+        EffectInfo {
+            effect,
+            score_change: 0,
+            apply_score: true,
+            score_faults: [false; 2],
+            counting: None,
+            in_batch: false,
+            steady: false,
+            line: 0,
+        }
+    }
+
     /// The initial memory of the effect; see [`memory`].
     pub(crate) fn initial_memory(&self) -> u8 {
         let off = |counts: fn(&Counting) -> bool| self.counting.as_deref().is_some_and(|c| !counts(c));

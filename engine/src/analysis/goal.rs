@@ -90,28 +90,23 @@ pub struct Aims {
 
 pub(super) fn goals(rules: &Rules) -> Vec<Goal> {
     let goal = |(line, termination): (usize, &crate::ontology::terminations::Termination)| {
-        let condition = match &termination.condition {
-            Written::SpriteCounter { stype, limit } => Condition::AtMost(counted(rules, *stype), *limit),
-            Written::SpriteCounterMore { stype, limit } => Condition::AtLeast(counted(rules, *stype), *limit),
-            Written::MultiSpriteCounter { stypes, limit, min } => {
-                let types = stypes.iter().flat_map(|&stype| counted(rules, stype)).collect();
-                if *min { Condition::AtLeast(types, *limit) } else { Condition::Exactly(types, *limit) }
-            }
-            Written::MultiSpriteCounterSubTypes { stype, limit, .. } => {
-                Condition::Exactly(counted(rules, *stype), *limit)
+        let tree = |stype: &SpriteType| rules.types[stype.index()].tree.iter().copied();
+        let types = termination.counts().iter().flat_map(tree);
+        let types = types.filter(|stype| rules.types[stype.index()].class.is_some()).collect();
+        let condition = match termination.condition {
+            Written::SpriteCounter { limit, .. } => Condition::AtMost(types, limit),
+            Written::SpriteCounterMore { limit, .. }
+            | Written::MultiSpriteCounter { limit, min: true, .. } => Condition::AtLeast(types, limit),
+            Written::MultiSpriteCounter { limit, .. } | Written::MultiSpriteCounterSubTypes { limit, .. } => {
+                Condition::Exactly(types, limit)
             }
             Written::StopCounter { .. } => return None,
-            Written::Timeout { limit } => Condition::Tick(*limit),
+            Written::Timeout { limit } => Condition::Tick(limit),
         };
         // `attain::find_attainable` determines `attainable` later.
         Some(Goal { win: termination.win, condition, line, attainable: Attainable::InPlay })
     };
     rules.terminations.iter().enumerate().filter_map(goal).collect()
-}
-
-fn counted(rules: &Rules, stype: SpriteType) -> Vec<SpriteType> {
-    let tree = rules.types[stype.index()].tree.iter().copied();
-    tree.filter(|stype| rules.types[stype.index()].class.is_some()).collect()
 }
 
 pub(super) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {

@@ -2,7 +2,7 @@
 //! defaults are left out.
 
 use super::Names;
-use super::interactions::{Partner, partner};
+use super::interactions::{NO_KEYWORD, Partner, number_of, partner};
 use super::params::{Value, convert};
 use crate::game::{Game, Rules, SpriteType, TypeInfo};
 use crate::geometry::Direction;
@@ -277,26 +277,22 @@ fn interactions(rules: &Rules) -> Vec<InteractionClause> {
 fn terminations(rules: &Rules) -> Vec<TerminationClause> {
     let clause = |end: &crate::ontology::terminations::Termination| {
         let mut terms = Terms::new();
-        let (class, types, limit): (_, &[SpriteType], i32) = match &end.condition {
-            Condition::SpriteCounter { stype, limit } => {
-                ("SpriteCounter", std::slice::from_ref(stype), *limit)
+        let (class, limit) = match end.condition {
+            Condition::SpriteCounter { limit, .. } => ("SpriteCounter", limit),
+            Condition::SpriteCounterMore { limit, .. } => ("SpriteCounterMore", limit),
+            Condition::MultiSpriteCounter { limit, min, .. } => {
+                note(&mut terms, "min", min, false);
+                ("MultiSpriteCounter", limit)
             }
-            Condition::SpriteCounterMore { stype, limit } => {
-                ("SpriteCounterMore", std::slice::from_ref(stype), *limit)
+            Condition::MultiSpriteCounterSubTypes { limit, kinds, .. } => {
+                note(&mut terms, "subTypesNum", kinds, -1);
+                ("MultiSpriteCounterSubTypes", limit)
             }
-            Condition::MultiSpriteCounter { stypes, limit, min } => {
-                note(&mut terms, "min", *min, false);
-                ("MultiSpriteCounter", stypes, *limit)
+            Condition::StopCounter { limit, min, .. } => {
+                note(&mut terms, "min", min, false);
+                ("StopCounter", limit)
             }
-            Condition::MultiSpriteCounterSubTypes { stype, limit, kinds } => {
-                note(&mut terms, "subTypesNum", *kinds, -1);
-                ("MultiSpriteCounterSubTypes", std::slice::from_ref(stype), *limit)
-            }
-            Condition::StopCounter { stypes, limit, min } => {
-                note(&mut terms, "min", *min, false);
-                ("StopCounter", stypes, *limit)
-            }
-            Condition::Timeout { limit } => ("Timeout", &[], *limit),
+            Condition::Timeout { limit } => ("Timeout", limit),
         };
         note(&mut terms, "limit", limit, 0);
         match end.decided_by {
@@ -305,7 +301,7 @@ fn terminations(rules: &Rules) -> Vec<TerminationClause> {
             Decision::Difference => note(&mut terms, "compare", true, false),
             Decision::Value(value) => terms.push(("use_counter", value.term())),
         }
-        note_types(&mut terms, "stype", types.iter().copied());
+        note_types(&mut terms, "stype", end.counts().iter().copied());
         TerminationClause { class, win: end.win, terms }
     };
     rules.terminations.iter().map(clause).collect()
@@ -421,9 +417,9 @@ impl Arguments for Written<'_> {
 
     fn keyword(&mut self, key: &'static str) -> u16 {
         let text = self.param(key).map_or("", |param| param.value.text.as_str());
-        let at = effects::NAMES.iter().position(|known| *known == text);
-        self.terms.extend(at.map(|at| (key, Term::Effect(effects::NAMES[at]))));
-        at.map_or(u16::MAX, |at| at as u16)
+        let number = number_of(text);
+        self.terms.extend(number.map(|number| (key, Term::Effect(effects::NAMES[usize::from(number)]))));
+        number.unwrap_or(NO_KEYWORD)
     }
 
     fn timed(&mut self) -> u16 {

@@ -18,7 +18,7 @@ pub(super) struct Program {
 }
 
 /// The number of an unknown keyword: a shield against it has no effect.
-const NO_KEYWORD: u16 = u16::MAX;
+pub(super) const NO_KEYWORD: u16 = u16::MAX;
 
 impl Program {
     /// The types to whose sprites some effect can give speed.
@@ -237,6 +237,11 @@ pub(super) fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnost
     Partner::Unknown
 }
 
+/// The number of a keyword among those of all effects.
+pub(super) fn number_of(keyword: &str) -> Option<u16> {
+    effects::NAMES.iter().position(|known| *known == keyword).map(|at| at as u16)
+}
+
 /// Reads a line.
 pub(super) struct Reader<'a> {
     line: &'a InteractionLine,
@@ -283,15 +288,10 @@ impl<'a> Reader<'a> {
         let name = self.line.effect.text.as_str();
         let effect: Option<Effect> = effects::build(name, self);
         let Some(effect) = effect else {
-            let message = format!("no effect named `{name}`");
-            let problem = Diagnostic::error("unknown-effect", self.line.effect.span, message);
-            let problem = problem.help("see `arcade docs effects` for all effects");
-            let reported = self.reported + self.problems.len();
-            self.problems.push(problem.suggest_after(reported, name, effects::NAMES.iter().copied()));
+            self.unknown_effect(&self.line.effect);
             return None;
         };
-        let keyword =
-            effects::NAMES.iter().position(|known| *known == name).expect("built effects are named");
+        let keyword = number_of(name).expect("built effects are named");
         let score_change = self.score("scoreChange");
         let apply_score = self.flag("applyScore", true);
         let repeat = self.int("repeat", 1).max(0) as usize;
@@ -310,16 +310,31 @@ impl<'a> Reader<'a> {
         self.leftovers(name);
         let score_faults = self.score_faults;
         let info = EffectInfo {
-            effect,
             score_change,
             apply_score,
             score_faults,
             counting,
             in_batch,
-            steady: false,
             line: at,
+            ..EffectInfo::of(effect)
         };
-        Some(Built { info, keyword: keyword as u16, repeat, enabled })
+        Some(Built { info, keyword, repeat, enabled })
+    }
+
+    fn unknown_effect(&mut self, name: &Word) {
+        let message = format!("no effect named `{}`", name.text);
+        let problem = Diagnostic::error("unknown-effect", name.span, message);
+        let problem = problem.help("see `arcade docs effects` for all effects");
+        let reported = self.reported + self.problems.len();
+        self.problems.push(problem.suggest_after(reported, &name.text, effects::NAMES.iter().copied()));
+    }
+
+    /// Reports that the effect lacks a parameter with the name of a thing.
+    fn lacks(&mut self, key: &str, thing: &str) {
+        let effect = &self.line.effect;
+        let message = format!("`{}` needs `{key}=`, the name of {thing}", effect.text);
+        let problem = Diagnostic::error("missing-parameter", effect.span, message);
+        self.problems.push(problem.help(format!("add `{key}=` and the name")));
     }
 
     /// Tests whether the line is written with TIME: on the left, or first on the right.
@@ -456,10 +471,7 @@ impl<'a> Reader<'a> {
     fn required(&mut self, key: &'static str, undeclared: Undeclared) -> SpriteType {
         let found = self.optional_sprite(key, undeclared);
         if found.is_none() && self.param(key).is_none() {
-            let effect = &self.line.effect;
-            let message = format!("`{}` needs `{key}=`, the name of a sprite", effect.text);
-            let problem = Diagnostic::error("missing-parameter", effect.span, message);
-            self.problems.push(problem.help(format!("add `{key}=` and the name")));
+            self.lacks(key, "a sprite");
         }
         let makes = matches!(
             (self.line.effect.text.as_str(), key),
@@ -586,24 +598,15 @@ impl Arguments for Reader<'_> {
     fn keyword(&mut self, key: &'static str) -> u16 {
         let value = self.value(key);
         let Some((param, Value::Text(name))) = value else {
-            let effect = &self.line.effect;
-            let message = format!("`{}` needs `{key}=`, the name of an effect", effect.text);
-            let problem = Diagnostic::error("missing-parameter", effect.span, message);
-            self.fail(problem.help(format!("add `{key}=` and the name")));
+            self.failed = true;
+            self.lacks(key, "an effect");
             return NO_KEYWORD;
         };
-        let found = effects::NAMES.iter().position(|known| *known == name);
-        found.map_or_else(
-            || {
-                let message = format!("no effect named `{name}`");
-                let problem = Diagnostic::error("unknown-effect", param.value.span, message);
-                let problem = problem.help("see `arcade docs effects` for all effects");
-                let reported = self.reported + self.problems.len();
-                self.problems.push(problem.suggest_after(reported, name, effects::NAMES.iter().copied()));
-                NO_KEYWORD
-            },
-            |at| at as u16,
-        )
+        let found = number_of(name);
+        if found.is_none() {
+            self.unknown_effect(&param.value);
+        }
+        found.unwrap_or(NO_KEYWORD)
     }
 
     fn timed(&mut self) -> u16 {
@@ -621,19 +624,7 @@ impl Arguments for Reader<'_> {
         // The line as the planned effect reads it.
         self.used.extend(["timer", "repeating"]);
         if let Some(effect) = effects::build(name, self) {
-            let (score_change, apply_score, score_faults) = (0, true, [false; 2]);
-            let (counting, in_batch, steady, line) = (None, false, false, 0);
-            let info = EffectInfo {
-                effect,
-                score_change,
-                apply_score,
-                score_faults,
-                counting,
-                in_batch,
-                steady,
-                line,
-            };
-            self.planned = Some((info, keyword));
+            self.planned = Some((EffectInfo::of(effect), keyword));
         }
         self.timed
     }

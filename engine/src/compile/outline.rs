@@ -48,12 +48,12 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
         mapping.push(MappingLine { names, ..line.clone() });
     }
     let end = TerminationLine {
-        class: word("Timeout"),
-        params: vec![Param { key: word("limit"), value: word("9") }],
+        class: "Timeout".into(),
+        params: vec![Param::new("limit", 9)],
         ..TerminationLine::default()
     };
     let description = Description {
-        header: Header { class: word("BasicGame"), ..Header::default() },
+        header: Header { class: "BasicGame".into(), ..Header::default() },
         sprites: sprites.lines,
         mapping,
         terminations: vec![end],
@@ -82,15 +82,11 @@ impl Sprites {
         self.sure &= class.is_some() || line.class.is_none() && !line.children.is_empty();
         if self.names.insert(line.name.text.clone()) {
             let class = if class.is_some_and(SpriteClass::is_avatar) { "MovingAvatar" } else { "Immovable" };
-            let class = Some(word(class));
+            let class = Some(class.into());
             self.lines.push(SpriteLine { name: line.name.clone(), class, ..SpriteLine::default() });
         }
         for child in &line.children {
             self.add(child, class);
         }
     }
-}
-
-fn word(text: &str) -> Word {
-    Word { text: text.to_owned(), ..Word::default() }
 }

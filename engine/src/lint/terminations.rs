@@ -148,13 +148,7 @@ impl Linter<'_> {
 
     /// Returns the reason why play cannot attain a goal, and a suggestion; None if another warning gives it.
     fn unattained(&self, goal: &Goal) -> Option<(String, String)> {
-        let stypes = match &self.game.0.terminations[goal.line].condition {
-            Condition::SpriteCounter { stype, .. }
-            | Condition::SpriteCounterMore { stype, .. }
-            | Condition::MultiSpriteCounterSubTypes { stype, .. } => std::slice::from_ref(stype),
-            Condition::MultiSpriteCounter { stypes, .. } => stypes,
-            Condition::Timeout { .. } | Condition::StopCounter { .. } => &[],
-        };
+        let stypes = self.game.0.terminations[goal.line].counts();
         let names = || {
             let names = stypes.iter().map(|&stype| format!("`{}`", self.game.name(stype)));
             names.collect::<Vec<_>>().join(" and ")
