@@ -75,6 +75,7 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
     let name = |stype: SpriteType| analysis.game().name(stype);
     let (s, b) = (&one.name, &two.name);
     let die = one.verb("die", "disappears");
+    let turn = one.verb("turn", "turns");
     let on = format!("on touching {b}");
     let when = format!("when {s} {} {b}", one.verb("touch", "touches"));
     let and_gone = |gone: bool| {
@@ -88,7 +89,9 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
             "{s} and {b} both {} when they touch",
             if one.you || two.you { "die" } else { "disappear" }
         ),
-        Effect::KillAll { stype } => format!("{when}, every {} disappears", name(*stype)),
+        Effect::KillAll { .. } | Effect::ChangeSpeed { .. } => {
+            format!("{when}, {}", by_itself(analysis, effect, None))
+        }
         Effect::KillIfFromAbove => {
             format!("{s} {die} if {b} {} on {} from above", two.verb("fall", "falls"), one.again())
         }
@@ -129,28 +132,20 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
         Effect::UndoAll { .. } => {
             format!("{s} cannot enter {b}: {when}, every move of that tick is taken back")
         }
-        Effect::TurnAround => format!("{s} {} around at {b}, further down", one.verb("turn", "turns")),
-        Effect::ReverseDirection => format!("{s} {} back at {b}", one.verb("turn", "turns")),
-        Effect::FlipDirection => format!("{s} {} in a random direction {on}", one.verb("turn", "turns")),
+        Effect::TurnAround => format!("{s} {turn} around at {b}, further down"),
+        Effect::ReverseDirection => format!("{s} {turn} back at {b}"),
+        Effect::FlipDirection => format!("{s} {turn} in a random direction {on}"),
         Effect::HalfSpeed => format!("{s} {} to half speed {on}", one.verb("slow down", "slows down")),
         Effect::WrapAround { .. } => {
             format!("{s} {} in again at the opposite edge on reaching {b}", one.verb("come", "comes"))
         }
         Effect::Align { .. } => format!("{s} {} put in the place of {b} {on}", one.verb("are", "is")),
         Effect::AttractGaze { prob, .. } => {
-            format!("{s} {} to face the way of {b} {on}{}", one.verb("turn", "turns"), chance(*prob))
+            format!("{s} {turn} to face the way of {b} {on}{}", chance(*prob))
         }
         Effect::BounceForward => format!("{b} {} {s}", two.verb("push", "pushes")),
         Effect::PullWithIt { .. } => format!("{b} {} {s} along", two.verb("carry", "carries")),
         Effect::TeleportToExit => format!("{s} {} to where {b} leads {on}", one.verb("jump", "jumps")),
-        Effect::ChangeSpeed { stype, value, how } => {
-            let stype = name(*stype);
-            match how {
-                SpeedChange::Increase => format!("{when}, every {stype} becomes faster by {value}"),
-                SpeedChange::Decrease => format!("{when}, every {stype} becomes slower by {value}"),
-                SpeedChange::Set => format!("{when}, the speed of every {stype} becomes {value}"),
-            }
-        }
         Effect::Spawn { stype, prob } => {
             format!("{when}, {} appears there{}", a(name(*stype)), chance(*prob))
         }
@@ -179,24 +174,14 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
         }
         Effect::CloneSprite => format!("{when}, another one like {} appears", one.again()),
         Effect::TransformTo { stype, kill_second, .. } => {
-            format!(
-                "{s} {} into {} {on}{}",
-                one.verb("turn", "turns"),
-                a(name(*stype)),
-                and_gone(*kill_second)
-            )
+            format!("{s} {turn} into {} {on}{}", a(name(*stype)), and_gone(*kill_second))
         }
         Effect::TransformToAll { stype, to, kill_second, .. } => {
             format!("{when}, every {} turns into {}{}", name(*stype), a(name(*to)), and_gone(*kill_second))
         }
         Effect::TransformToRandomChild { options, kill_second, .. } => {
             let names: Vec<String> = options.iter().map(|&stype| a(name(stype))).collect();
-            format!(
-                "{s} {} into {} {on}{}",
-                one.verb("turn", "turns"),
-                list(&names, "or"),
-                and_gone(*kill_second)
-            )
+            format!("{s} {turn} into {} {on}{}", list(&names, "or"), and_gone(*kill_second))
         }
         Effect::CollectResource { .. } => format!("{b} {} {s}", two.verb("collect", "collects")),
         Effect::CollectResourceIfHeld { held, value, .. } => {
@@ -227,7 +212,6 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
             a(name(*otherwise))
         ),
         Effect::TransformIfCount(rule) => {
-            let turn = one.verb("turn", "turns");
             let many = match (rule.at_least, rule.at_most) {
                 (least, 10_000) => format!("at least {least}"),
                 (0, most) => format!("at most {most}"),
@@ -239,19 +223,17 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
             let (to, counted) = (a(name(rule.stype)), name(rule.counted));
             format!("{s} {turn} into {to} {on} if there are {many} {counted}{otherwise}")
         }
-        Effect::TransformToSingleton { stype, other, .. } => format!(
-            "{s} {} into the {} {on}, and who was that before becomes {}",
-            one.verb("turn", "turns"),
-            name(*stype),
-            a(name(*other))
-        ),
+        Effect::TransformToSingleton { stype, other, .. } => {
+            let (to, other) = (name(*stype), a(name(*other)));
+            format!("{s} {turn} into the {to} {on}, and who was that before becomes {other}")
+        }
         Effect::WaterPhysics => format!("{s} {} slowly from then on {on}", one.verb("sink", "sinks")),
         Effect::BounceDirection { .. } => {
             format!("{s} {} off {b}, the steeper the further from its middle", one.verb("bounce", "bounces"))
         }
         Effect::WallStop => format!("{s} {} at {b}, and can only go along it", one.verb("stop", "stops")),
         Effect::WallBounce => format!("{s} {} off {b}", one.verb("bounce", "bounces")),
-        Effect::WallReverse => format!("{s} {} back at {b}", one.verb("turn", "turns")),
+        Effect::WallReverse => format!("{s} {turn} back at {b}"),
         Effect::AddTimer { timed } => {
             let rules = &analysis.game().0;
             let timed = &rules.timed[usize::from(*timed)];
