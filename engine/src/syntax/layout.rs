@@ -22,6 +22,14 @@ pub(super) struct Line<'a> {
     pub(super) beside: Option<&'a str>,
 }
 
+impl Line<'_> {
+    /// The place of a part of `text`.
+    pub(super) fn span_of(&self, part: &str) -> Span {
+        let start = self.span.start + (part.as_ptr() as usize - self.text.as_ptr() as usize);
+        Span::new(start, start + part.len())
+    }
+}
+
 /// The lines of `source`, and the comments below the last one. Terminators are `\n`, `\r\n` and `\r`.
 pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     let mut lines = Vec::new();

@@ -94,8 +94,7 @@ impl Reader {
             self.problems.push(problem.help(help));
             return None;
         };
-        let start = line.span.start + (word.as_ptr() as usize - line.text.as_ptr() as usize);
-        let span = Span::new(start, start + word.len());
+        let span = line.span_of(word);
         let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is not ` > `: {shape}"));
         self.problems.push(problem.help(format!("write ` {fixed} `, with blanks around the `>`")));
         Some(fixed)
@@ -104,15 +103,14 @@ impl Reader {
     pub(super) fn mapping(&mut self, line: &Line<'_>) {
         let shape = "a mapping is `c > sprite sprite …`";
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {
-            let start = |text: &str| line.span.start + (text.as_ptr() as usize - line.text.as_ptr() as usize);
+            let start = |text: &str| line.span_of(text).start;
             let mut words = line.text.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty());
             let Some(arrow) = words.clone().find(|&word| word == ">") else {
                 self.mend_arrow(line, false, shape, "after the character");
                 return;
             };
             if let Some(param) = words.find(|word| word.contains('=') && start(word) > start(arrow)) {
-                let span = Span::new(start(param), start(param) + param.len());
-                self.stray_word(&Word { text: param.to_owned(), span }, shape);
+                self.stray_word(&Word { text: param.to_owned(), span: line.span_of(param) }, shape);
                 return;
             }
             let before = line.text[..start(arrow) - line.span.start].trim_end();

@@ -241,12 +241,7 @@ impl<'a> Tree<'a> {
 /// The words of a line, separated by blanks only.
 fn tokens(line: &Line<'_>) -> Vec<Word> {
     let words = line.text.split(|c: char| c <= ' ').filter(|word| !word.is_empty());
-    words
-        .map(|word| {
-            let start = line.span.start + (word.as_ptr() as usize - line.text.as_ptr() as usize);
-            Word { text: word.to_owned(), span: Span::new(start, start + word.len()) }
-        })
-        .collect()
+    words.map(|word| Word { text: word.to_owned(), span: line.span_of(word) }).collect()
 }
 
 /// The parameter in a word with an equals sign: the text before the first one, and the text between it and the next.

@@ -34,6 +34,12 @@ impl Board {
         ((cell % width) as i32 - 1, (cell / width) as i32 - 1)
     }
 
+    /// The cell of the board with that index among [`Level::cells`](crate::Level::cells).
+    pub(super) fn of_level(self, cell: usize) -> usize {
+        let columns = self.columns as usize;
+        self.at((cell % columns) as i32, (cell / columns) as i32)
+    }
+
     /// The index of a cell of the board among [`Level::cells`](crate::Level::cells).
     pub(super) fn on_level(self, cell: usize) -> usize {
         let (x, y) = self.place(cell);

@@ -300,7 +300,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         if self.analysis.applies(other, stype) {
             return None;
         }
-        if !self.all(other).contains(self.inner(cell)) {
+        if !self.all(other).contains(self.events.board().of_level(cell)) {
             return Some(Missing::Unreachable(self.unreachable(other, cell, reported)));
         }
         let blocks = |earlier: &&Encounter| {
@@ -413,7 +413,7 @@ impl<'a, 'e> Chains<'a, 'e> {
             self.analysis.encounters.iter().any(|encounter| self.ended(encounter, stype).is_some())
         };
         let mut seen = Cells::none(board);
-        let start = self.inner(target);
+        let start = self.events.board().of_level(target);
         seen.insert(start);
         let (mut queue, mut found) = (vec![start], BTreeSet::new());
         while let Some(cell) = queue.pop() {
@@ -450,11 +450,6 @@ impl<'a, 'e> Chains<'a, 'e> {
             }
         }
         all
-    }
-
-    fn inner(&self, cell: usize) -> usize {
-        let board = self.events.board();
-        board.at(cell as i32 % board.columns, cell as i32 / board.columns)
     }
 }
 

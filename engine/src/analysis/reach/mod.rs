@@ -110,12 +110,12 @@ impl Reach {
 
     /// Returns `true` if a sprite of the type can be in a cell between two ticks.
     pub fn can_be(&self, stype: SpriteType, cell: usize) -> bool {
-        self.rest[stype.index()].contains(self.inner(cell))
+        self.rest[stype.index()].contains(self.board.of_level(cell))
     }
 
     /// Returns `true` if a sprite of the type can be in a cell at some moment of a tick.
     pub fn can_touch(&self, stype: SpriteType, cell: usize) -> bool {
-        self.touch[stype.index()].contains(self.inner(cell))
+        self.touch[stype.index()].contains(self.board.of_level(cell))
     }
 
     /// Returns `true` if an avatar of any type can be in a cell between two ticks.
@@ -149,11 +149,6 @@ impl Reach {
     /// and no termination is hindered.
     pub fn is_coarse(&self) -> bool {
         self.coarse
-    }
-
-    fn inner(&self, cell: usize) -> usize {
-        let columns = self.board.columns as usize;
-        self.board.at((cell % columns) as i32, (cell / columns) as i32)
     }
 
     fn on_board<'a>(&'a self, cells: &'a Cells) -> impl Iterator<Item = usize> + 'a {
