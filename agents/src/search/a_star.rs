@@ -1,7 +1,7 @@
 //! A* with transpositions: the shortest win, or the proof that there is none.
 
-use super::tree::{Expanded, NodeId, ROOT, StoredState, Tree};
-use super::{Answer, Pushes, SearchLimits, Searched};
+use super::tree::{Frontier, NodeId, StoredState, Tree};
+use super::{Pushes, SearchLimits, Searched};
 use engine::State;
 use engine::analysis::Analysis;
 
@@ -9,31 +9,10 @@ use engine::analysis::Analysis;
 /// [`Pushes`] that they need (Hart, Nilsson and Raphael 1968). If nothing is pushed this is breadth-first search.
 ///
 /// `start` is a state from which play is deterministic ([`Analysis::is_deterministic_from`]); from any other state,
-/// the answer is [`Answer::OutOfCalls`] at no cost, because nothing could be proved. Cost: at most the number of
-/// states times the number of actions, in calls; O(size of a state) for each call.
+/// the answer is [`Answer::OutOfCalls`](super::Answer::OutOfCalls) at no cost, because nothing could be proved. Cost:
+/// at most the number of states times the number of actions, in calls; O(size of a state) for each call.
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
-    let mut tree = Tree::new(analysis, pushes, start, limits);
-    if start.is_over() || !analysis.is_deterministic_from(start) {
-        return tree.answer(Answer::OutOfCalls);
-    }
-    let mut queue = Buckets::default();
-    if let Some(least) = pushes.least(start) {
-        queue.push(least, (ROOT, tree.root()));
-    }
-    while let Some((node, kept)) = queue.pop() {
-        let expanded = tree.expand(node, &kept, &mut |tree, id, _, least, kept| {
-            // Every push takes a tick, every tick has at most one push, and at least one tick is needed: the estimate
-            // never falls by more than the tick that passes, so each state is expanded with its shortest way known.
-            queue.push(tree.depth(id) + least.max(1), (id, kept));
-        });
-        match expanded {
-            Expanded::On => {}
-            Expanded::Won(node) => return tree.won(node, true),
-            Expanded::OutOfCalls => return tree.answer(Answer::OutOfCalls),
-            Expanded::OutOfMemory => return tree.answer(Answer::OutOfMemory),
-        }
-    }
-    tree.answer(Answer::Impossible)
+    Tree::new(analysis, pushes, start, limits).search(|_, _| Buckets::default())
 }
 
 /// Open states by their estimate, a small number of ticks; of equals, the last one first.
@@ -43,13 +22,17 @@ struct Buckets {
     least: usize,
 }
 
-impl Buckets {
-    fn push(&mut self, estimate: u32, open: (NodeId, StoredState)) {
-        let estimate = estimate as usize;
+impl Frontier for Buckets {
+    const SHORTEST: bool = true;
+
+    fn push(&mut self, _: &State, node: NodeId, depth: u32, least: u32, kept: StoredState) {
+        // Every push takes a tick, every tick has at most one push, and at least one tick is needed: the estimate
+        // never falls by more than the tick that passes, so each state is expanded with its shortest way known.
+        let estimate = (depth + least.max(1)) as usize;
         if self.buckets.len() <= estimate {
             self.buckets.resize_with(estimate + 1, Vec::new);
         }
-        self.buckets[estimate].push(open);
+        self.buckets[estimate].push((node, kept));
         self.least = self.least.min(estimate);
     }
 

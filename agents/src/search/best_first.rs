@@ -1,12 +1,12 @@
 //! Best-first width search: finds some win soon, not the shortest one.
 
-use super::tree::{Expanded, NodeId, ROOT, StoredState, Tree};
-use super::{Answer, Pushes, SearchLimits, Searched};
+use super::tree::{Frontier, NodeId, StoredState, Tree};
+use super::{Pushes, SearchLimits, Searched};
 use crate::features::{Atoms, Features};
 use crate::progress::Progress;
 use engine::State;
 use engine::analysis::Analysis;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
 /// Prefers novel states among states equally far from the goal: those with a sprite where none of its type was yet,
 /// or more of a resource. (Lipovetzky and Geffner 2017, "Best-first width search: exploration and exploitation in
@@ -16,32 +16,12 @@ use std::collections::{BTreeMap, BinaryHeap};
 /// Unlike in the paper, states that are not novel are not pruned, so the search is complete: without a win it proves
 /// that there is none. Conditions and costs are those of [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
-    let mut tree = Tree::new(analysis, pushes, start, limits);
-    if start.is_over() || !analysis.is_deterministic_from(start) {
-        return tree.answer(Answer::OutOfCalls);
-    }
-    let mut queue = Queue {
+    Tree::new(analysis, pushes, start, limits).search(|tree, start| Queue {
         progress: Progress::of(analysis),
-        features: Features::of(analysis, tree.abstraction(), start),
+        features: Features::of(analysis, &tree.abstraction, start),
         seen: BTreeMap::new(),
-        open: BinaryHeap::new(),
-    };
-    if let Some(least) = pushes.least(start) {
-        let root = tree.root();
-        queue.push(start, ROOT, 0, least, root);
-    }
-    while let Some(Open { node, kept, .. }) = queue.open.pop() {
-        let expanded = tree.expand(node, &kept, &mut |tree, id, state, least, kept| {
-            queue.push(state, id, tree.depth(id), least, kept);
-        });
-        match expanded {
-            Expanded::On => {}
-            Expanded::Won(node) => return tree.won(node, false),
-            Expanded::OutOfCalls => return tree.answer(Answer::OutOfCalls),
-            Expanded::OutOfMemory => return tree.answer(Answer::OutOfMemory),
-        }
-    }
-    tree.answer(Answer::Impossible)
+        open: BTreeMap::new(),
+    })
 }
 
 struct Queue<'a> {
@@ -49,51 +29,28 @@ struct Queue<'a> {
     features: Features,
     /// The atoms seen, by distance from the goal and score.
     seen: BTreeMap<(u32, i64), Atoms>,
-    open: BinaryHeap<Open>,
+    /// By rank: nodes of equal rank are expanded in the order of their discovery.
+    open: BTreeMap<(Rank, NodeId), StoredState>,
 }
 
-impl Queue<'_> {
+/// Novel states first; then by distance from the goal with the pushes needed, by score, and by depth.
+type Rank = (u32, u32, i64, u32);
+
+impl Frontier for Queue<'_> {
+    const SHORTEST: bool = false;
+
     fn push(&mut self, state: &State, node: NodeId, depth: u32, least: u32, kept: StoredState) {
         let missing = self.progress.missing(state);
         let score = state.score() as i64;
         let seen = self.seen.entry((missing, score)).or_insert_with(|| Atoms::new(self.features.len()));
         let mut new = 0;
         self.features.each(state, |atom| new += u32::from(seen.insert(atom)));
-        let order = (u32::from(new == 0), missing.saturating_add(least), -score, depth);
-        self.open.push(Open { order, node, kept });
+        let rank = (u32::from(new == 0), missing.saturating_add(least), -score, depth);
+        // A node that is added again has a smaller depth, so no entry is replaced.
+        self.open.insert((rank, node), kept);
     }
-}
 
-struct Open {
-    order: (u32, u32, i64, u32),
-    node: NodeId,
-    kept: StoredState,
-}
-
-impl Open {
-    /// Ties go to the older node.
-    fn rank(&self) -> ((u32, u32, i64, u32), NodeId) {
-        (self.order, self.node)
-    }
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Open) -> bool {
-        self.rank() == other.rank()
-    }
-}
-
-impl Eq for Open {}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Open) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Open {
-    /// The heap returns the greatest first.
-    fn cmp(&self, other: &Open) -> std::cmp::Ordering {
-        other.rank().cmp(&self.rank())
+    fn pop(&mut self) -> Option<(NodeId, StoredState)> {
+        self.open.pop_first().map(|((_, node), kept)| (node, kept))
     }
 }

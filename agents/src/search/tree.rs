@@ -12,7 +12,7 @@ use std::rc::Rc;
 /// A node, by its index.
 pub(super) type NodeId = u32;
 /// The node of the initial state.
-pub(super) const ROOT: NodeId = 0;
+const ROOT: NodeId = 0;
 
 /// A node: the step by which a state was reached.
 #[derive(Clone, Copy)]
@@ -56,10 +56,21 @@ pub(super) struct StoredState {
     steps: ArrayVec<Action, MAX_REPLAYED>,
 }
 
+/// The open states of a search, in the order in which they are expanded.
+pub(super) trait Frontier {
+    /// `true` if the first win found in this order is a shortest one.
+    const SHORTEST: bool;
+
+    /// Adds a state, with the ticks to reach it and the least number of pushes that it needs.
+    fn push(&mut self, state: &State, node: NodeId, depth: u32, least: u32, kept: StoredState);
+
+    fn pop(&mut self) -> Option<(NodeId, StoredState)>;
+}
+
 /// The tree of a search.
 pub(super) struct Tree<'a> {
     analysis: &'a Analysis,
-    abstraction: StateAbstraction,
+    pub(super) abstraction: StateAbstraction,
     pushes: &'a Pushes,
     progress: Progress<'a>,
     /// The node nearest to a win, with its distance.
@@ -78,7 +89,7 @@ pub(super) struct Tree<'a> {
 }
 
 /// The result of an expansion.
-pub(super) enum Expanded {
+enum Expanded {
     /// Its new successors were passed on.
     On,
     /// A successor wins.
@@ -123,13 +134,33 @@ impl<'a> Tree<'a> {
         }
     }
 
-    pub(super) fn abstraction(&self) -> &StateAbstraction {
-        &self.abstraction
-    }
-
-    pub(super) fn root(&mut self) -> StoredState {
-        let base = self.base.clone();
-        self.keep(&base)
+    /// Expands states in the order of a frontier until one wins, none is open, or a limit is reached. Without a
+    /// deterministic future nothing could be proved: then the answer is [`Answer::OutOfCalls`] at no cost.
+    pub(super) fn search<F: Frontier>(mut self, frontier: impl FnOnce(&Tree<'_>, &State) -> F) -> Searched {
+        let start = self.base.clone();
+        if start.is_over() || !self.analysis.is_deterministic_from(&start) {
+            return self.answer(Answer::OutOfCalls);
+        }
+        let mut open = frontier(&self, &start);
+        if let Some(least) = self.pushes.least(&start) {
+            let root = self.keep(&start);
+            open.push(&start, ROOT, 0, least, root);
+        }
+        while let Some((node, kept)) = open.pop() {
+            let expanded = self.expand(node, &kept, &mut |tree, id, state, least, kept| {
+                open.push(state, id, tree.depth(id), least, kept);
+            });
+            match expanded {
+                Expanded::On => {}
+                Expanded::Won(node) => {
+                    let won = Answer::Won { actions: self.way(node), shortest: F::SHORTEST };
+                    return self.answer(won);
+                }
+                Expanded::OutOfCalls => return self.answer(Answer::OutOfCalls),
+                Expanded::OutOfMemory => return self.answer(Answer::OutOfMemory),
+            }
+        }
+        self.answer(Answer::Impossible)
     }
 
     fn keep(&mut self, state: &State) -> StoredState {
@@ -140,7 +171,7 @@ impl<'a> Tree<'a> {
 
     /// Generates all successors of a state, passes the new ones that are neither over nor dead ends to `open`, and
     /// drops the state.
-    pub(super) fn expand(
+    fn expand(
         &mut self,
         node: NodeId,
         kept: &StoredState,
@@ -233,7 +264,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Returns the ticks of the shortest known way to a node.
-    pub(super) fn depth(&self, node: NodeId) -> u32 {
+    fn depth(&self, node: NodeId) -> u32 {
         self.nodes[node as usize].depth
     }
 
@@ -256,11 +287,7 @@ impl<'a> Tree<'a> {
         actions
     }
 
-    pub(super) fn won(&self, node: NodeId, shortest: bool) -> Searched {
-        self.answer(Answer::Won { actions: self.way(node), shortest })
-    }
-
-    pub(super) fn answer(&self, answer: Answer) -> Searched {
+    fn answer(&self, answer: Answer) -> Searched {
         let states = self.met.len() as u64;
         Searched { answer, calls: self.calls, states, nearest: self.way(self.nearest.1) }
     }
