@@ -81,13 +81,13 @@ impl GoalGuide {
     }
 
     /// Returns the progress of a state: minus one for each missing sprite, plus up to one for the keys held.
-    pub(crate) fn progress(&self, game: &Game, state: &State) -> f64 {
+    pub(crate) fn progress(&self, state: &State) -> f64 {
         let missing = self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min();
         let avatar = state.avatar_sprite_type();
         let keys = self.analysis.locks().iter().map(|lock| match &lock.key {
             Key::Avatar(stype) => f64::from(u8::from(avatar == Some(*stype))),
             Key::Resource { resource, amount, .. } => {
-                f64::from(game.held(state, *resource).clamp(0, *amount)) / f64::from((*amount).max(1))
+                f64::from(state.amount_held(*resource).clamp(0, *amount)) / f64::from((*amount).max(1))
             }
             Key::Switch(..) => 0.0,
         });
@@ -96,7 +96,7 @@ impl GoalGuide {
     }
 
     /// Returns the closeness of the nearest useful target, in [0, 1); 0 if there is none. Cost: O(cells + sprites).
-    pub(crate) fn closeness(&self, game: &Game, state: &State, distances: &mut Distances) -> f64 {
+    pub(crate) fn closeness(&self, state: &State, distances: &mut Distances) -> f64 {
         let Some(targets) = state.avatar_sprite_type().and_then(|avatar| self.targets_of(avatar)) else {
             return 0.0;
         };
@@ -120,7 +120,7 @@ impl GoalGuide {
             nearest = nearest.min(steps + further);
         };
         for target in &targets.targets {
-            if target.needs.is_none_or(|(resource, amount)| game.held(state, resource) >= amount) {
+            if target.needs.is_none_or(|(resource, amount)| state.amount_held(resource) >= amount) {
                 state.places(target.stype).for_each(|place| consider(place, 0.0, distances));
             }
         }
@@ -240,8 +240,8 @@ mod tests {
         for &action in actions {
             game.step(&mut state, action);
         }
-        assert_eq!(guide.progress(&game, &state), progress);
-        let closeness = guide.closeness(&game, &state, &mut Distances::default());
+        assert_eq!(guide.progress(&state), progress);
+        let closeness = guide.closeness(&state, &mut Distances::default());
         assert_eq!(closeness, if steps.is_finite() { HALF_WAY / (HALF_WAY + steps) } else { 0.0 });
     }
 

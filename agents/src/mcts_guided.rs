@@ -16,54 +16,37 @@ use std::collections::{BTreeMap, VecDeque};
 /// Breaks ties and guards divisions.
 const EPSILON: f64 = 1e-6;
 
-/// The parameters of the search.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct GuidedMctsConfig {
-    /// Ticks that tree and rollout together look ahead.
-    pub depth: u32,
-    /// Weight of exploration in UCT.
-    pub exploration: f64,
-    /// The value that a win adds to a result, whose other parts are between −1 and 1 each. The reference adds 10⁷ to
-    /// the score.
-    pub win: f64,
-    /// The value that a loss subtracts from it.
-    pub loss: f64,
-    /// Weight of the points gained, relative to the most that was gained in this episode's searches.
-    pub score: f64,
-    /// The factor on a result for each tick until it; 1 in the reference.
-    pub discount: f64,
-    /// `true` if doing nothing is an action; not in the reference.
-    pub nil: bool,
-    /// `true` if the tree under the chosen action is kept for the next decision; not in the reference.
-    pub reuse: bool,
-    /// In rollouts an action is repeated for 1 to this many ticks; 1 in the reference.
-    pub repeat: usize,
-    /// Weight of reaching a position, with the same progress, that the avatar has not visited in this episode; 0 in
-    /// the reference.
-    pub novelty: f64,
-    /// Weight of progress by the rules: of coming nearer to useful targets; 0 in the reference.
-    pub guidance: f64,
-    /// `true` if a win that the search found in a deterministic game is played to its end without another search.
-    pub commit: bool,
-}
-
-impl Default for GuidedMctsConfig {
-    fn default() -> GuidedMctsConfig {
-        GuidedMctsConfig {
-            depth: 20,
-            exploration: 0.7,
-            win: 2.0,
-            loss: 1.0,
-            score: 1.0,
-            discount: 0.99,
-            nil: true,
-            reuse: true,
-            repeat: 1,
-            novelty: 0.5,
-            guidance: 1.0,
-            commit: true,
-        }
+engine::with_defaults! {
+    /// The parameters of the search.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct GuidedMctsConfig {
+        /// Ticks that tree and rollout together look ahead.
+        pub depth: u32 = 20,
+        /// Weight of exploration in UCT.
+        pub exploration: f64 = 0.7,
+        /// The value that a win adds to a result, whose other parts are between −1 and 1 each. The reference adds 10⁷
+        /// to the score.
+        pub win: f64 = 2.0,
+        /// The value that a loss subtracts from it.
+        pub loss: f64 = 1.0,
+        /// Weight of the points gained, relative to the most that was gained in this episode's searches.
+        pub score: f64 = 1.0,
+        /// The factor on a result for each tick until it; 1 in the reference.
+        pub discount: f64 = 0.99,
+        /// `true` if doing nothing is an action; not in the reference.
+        pub nil: bool = true,
+        /// `true` if the tree under the chosen action is kept for the next decision; not in the reference.
+        pub reuse: bool = true,
+        /// In rollouts an action is repeated for 1 to this many ticks; 1 in the reference.
+        pub repeat: usize = 1,
+        /// Weight of reaching a position, with the same progress, that the avatar has not visited in this episode; 0 in
+        /// the reference.
+        pub novelty: f64 = 0.5,
+        /// Weight of progress by the rules: of coming nearer to useful targets; 0 in the reference.
+        pub guidance: f64 = 1.0,
+        /// `true` if a win that the search found in a deterministic game is played to its end without another search.
+        pub commit: bool = true,
     }
 }
 
@@ -211,7 +194,7 @@ impl GuidedMcts {
             gained.tick(state);
             self.played.push(action);
         }
-        let result = self.result(game, state, root, &gained);
+        let result = self.result(state, root, &gained);
         for &node in &self.path {
             self.tree[node].visits += 1.0;
             self.tree[node].total += result;
@@ -220,7 +203,7 @@ impl GuidedMcts {
     }
 
     /// Returns the result of a rollout: points, progress, novelty and outcome.
-    fn result(&mut self, game: &Game, state: &State, root: &Root, gained: &Gains) -> f64 {
+    fn result(&mut self, state: &State, root: &Root, gained: &Gains) -> f64 {
         let config = &self.config;
         self.scale = self.scale.max(gained.value.abs());
         let points = if self.scale > 0.0 { config.score * gained.value / self.scale } else { 0.0 };
@@ -232,12 +215,12 @@ impl GuidedMcts {
         let guide = self.guide.as_ref().expect("made when the decision began");
         let mut worth = 0.0;
         if config.guidance > 0.0 {
-            let done = (guide.progress(game, state) - root.progress).clamp(-1.0, 1.0);
-            let nearer = guide.closeness(game, state, &mut self.distances) - root.closeness;
+            let done = (guide.progress(state) - root.progress).clamp(-1.0, 1.0);
+            let nearer = guide.closeness(state, &mut self.distances) - root.closeness;
             worth += config.guidance * (done + if done > 0.0 { 0.0 } else { nearer });
         }
         if config.novelty > 0.0 {
-            let visits = self.visits.get(&novelty_key(game, state, guide)).copied().unwrap_or(0);
+            let visits = self.visits.get(&novelty_key(state, guide)).copied().unwrap_or(0);
             worth += config.novelty / (1.0 + f64::from(visits)).sqrt();
         }
         points + end * worth
@@ -288,12 +271,12 @@ impl Gains {
 }
 
 /// Hashes the avatar's position and type and the progress of the game: a known number means no novelty.
-fn novelty_key(game: &Game, state: &State, guide: &GoalGuide) -> u64 {
+fn novelty_key(state: &State, guide: &GoalGuide) -> u64 {
     let (x, y) = state.avatar_place().unwrap_or((-1, -1));
     let block = state.block().max(1);
     let mut key = (x / block) as u64 & 0xFFFF | ((y / block) as u64 & 0xFFFF) << 16;
     key |= u64::from(state.avatar_sprite_type().map_or(u16::MAX, |stype| stype.0)) << 32;
-    let done = (guide.progress(game, state) * 16.0) as i64 as u64;
+    let done = (guide.progress(state) * 16.0) as i64 as u64;
     key ^ done.wrapping_mul(0x9E37_79B9_7F4A_7C15)
 }
 
@@ -309,11 +292,11 @@ impl Planner for GuidedMcts {
             return (self.actions[0], 0);
         }
         let guide = self.guide.as_ref().expect("just made");
-        *self.visits.entry(novelty_key(game, state, guide)).or_default() += 1;
+        *self.visits.entry(novelty_key(state, guide)).or_default() += 1;
         let root = Root {
             score: state.score(),
-            progress: guide.progress(game, state),
-            closeness: guide.closeness(game, state, &mut self.distances),
+            progress: guide.progress(state),
+            closeness: guide.closeness(state, &mut self.distances),
         };
         let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
         let mut calls = 0;

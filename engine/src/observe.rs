@@ -192,11 +192,6 @@ impl Game {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
 
-    /// The amount of a resource that the avatar holds.
-    pub fn held(&self, state: &State, resource: SpriteType) -> i32 {
-        state.amount(state.avatar, resource)
-    }
-
     /// The types that have sprites, in registry order. Cost: O(types).
     pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         self.sprite_types().filter(|&stype| state.group(stype).count > 0)
