@@ -51,21 +51,9 @@ pub struct GameRow {
 
 impl GameRow {
     /// The columns of [`GameRow::cells`].
-    pub(crate) const COLUMNS: [&str; 13] = [
-        "won",
-        "rules",
-        "run",
-        "sprites",
-        "there",
-        "mechanics",
-        "drama",
-        "strongest",
-        "floor",
-        "points",
-        "95 %",
-        "score",
-        "order",
-    ];
+    pub(crate) fn columns() -> impl Iterator<Item = &'static str> {
+        COLUMNS.iter().map(|(name, _)| *name)
+    }
 
     /// The row of a game whose judges were asked for `winnable` and `skill`. Cost: the recorded episodes are replayed three
     /// times, and that of [`PlayMeasures::of`].
@@ -104,34 +92,47 @@ impl GameRow {
     }
 
     /// The row as cells of a table.
-    pub(crate) fn cells(&self) -> [TableCell; 13] {
-        let edge = self.edge.as_ref();
-        let points = |value: f64| format!("{:+.0}", 100.0 * value);
-        let signed = |value: Option<f64>| TableCell::figure(value.map(|value| format!("{value:+.2}")));
-        [
-            TableCell::Figure(format!("{} of {}", self.won, self.levels)),
-            TableCell::Count(self.rules),
-            TableCell::Count(self.executed),
-            TableCell::Count(self.types),
-            TableCell::Count(self.there),
-            TableCell::count(self.mechanics),
-            TableCell::number(self.drama, 2),
-            TableCell::figure(edge.map(|edge| format!("{} {} of {}", edge.strongest, edge.wins, edge.plays))),
-            TableCell::figure(edge.map(|edge| format!("{} {}", edge.floor, edge.floor_wins))),
-            TableCell::figure(edge.map(|edge| points(edge.points))),
-            TableCell::figure(edge.map(|edge| edge.interval.map(points).join(" to "))),
-            signed(edge.and_then(|edge| edge.score)),
-            signed(self.order),
-        ]
+    pub(crate) fn cells(&self) -> impl Iterator<Item = TableCell> {
+        COLUMNS.iter().map(|(_, cell)| cell(self))
     }
+}
+
+/// A column of the table of games: its name, and its cell in a row.
+type Column = (&'static str, fn(&GameRow) -> TableCell);
+
+const COLUMNS: [Column; 13] = [
+    ("won", |row| TableCell::Figure(format!("{} of {}", row.won, row.levels))),
+    ("rules", |row| TableCell::Count(row.rules)),
+    ("run", |row| TableCell::Count(row.executed)),
+    ("sprites", |row| TableCell::Count(row.types)),
+    ("there", |row| TableCell::Count(row.there)),
+    ("mechanics", |row| TableCell::count(row.mechanics)),
+    ("drama", |row| TableCell::number(row.drama, 2)),
+    ("strongest", |row| of_edge(row, |edge| format!("{} {} of {}", edge.strongest, edge.wins, edge.plays))),
+    ("floor", |row| of_edge(row, |edge| format!("{} {}", edge.floor, edge.floor_wins))),
+    ("points", |row| of_edge(row, |edge| points(edge.points))),
+    ("95 %", |row| of_edge(row, |edge| edge.interval.map(points).join(" to "))),
+    ("score", |row| signed(row.edge.as_ref().and_then(|edge| edge.score))),
+    ("order", |row| signed(row.order)),
+];
+
+fn of_edge(row: &GameRow, text: impl Fn(&Edge) -> String) -> TableCell {
+    TableCell::figure(row.edge.as_ref().map(text))
+}
+
+fn points(value: f64) -> String {
+    format!("{:+.0}", 100.0 * value)
+}
+
+fn signed(value: Option<f64>) -> TableCell {
+    TableCell::figure(value.map(|value| format!("{value:+.2}")))
 }
 
 impl fmt::Display for GameRow {
     /// One line for people who wait: `hailglass: won 3 of 3, rules 9, …`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:", self.name)?;
-        let cells = self.cells();
-        let known = GameRow::COLUMNS.iter().zip(&cells).filter(|(_, cell)| **cell != TableCell::Missing);
+        let known = GameRow::columns().zip(self.cells()).filter(|(_, cell)| *cell != TableCell::Missing);
         known.enumerate().try_for_each(|(at, (column, cell))| {
             let comma = if at == 0 { "" } else { "," };
             write!(f, "{comma} {column} {}", cell.plain())

@@ -118,12 +118,9 @@ impl GameEntry {
 }
 
 pub(super) fn table(entries: &[GameEntry]) -> Table {
-    let columns = [
-        &["game", "verdict"][..],
-        &GameRow::COLUMNS[..],
-        &["held out", "nearest", "in the corpus", "digest"],
-    ];
-    let mut table = Table::new("games", "Every game", "", &columns.concat());
+    let columns = ["game", "verdict"].into_iter().chain(GameRow::columns());
+    let columns = columns.chain(["held out", "nearest", "in the corpus", "digest"]);
+    let mut table = Table::new("games", "Every game", "", &columns.collect::<Vec<&str>>());
     for entry in entries {
         let verdict = entry.obstacle.as_ref().map(|criterion| format!("{criterion} not passed"));
         let mut cells = vec![
