@@ -3,8 +3,7 @@
 //! Minting does not need this: its recipe bounds each criterion by itself. A designer names one number and wants an
 //! answer after about as much work, whatever the game.
 
-use crate::verdict::{Case, Finding, Validator};
-use crate::{Criteria, NotIdle, NotRandom};
+use crate::Criteria;
 use engine::{Action, Game, Level, Meeting, Seed, Watch};
 
 /// The work of a tick, as `engine` counts it, up to which a call counts as one.
@@ -91,32 +90,6 @@ impl Allowance {
     /// Calls of the ablation of all rules together.
     pub(crate) fn ablation(self) -> u64 {
         self.share(4, 1, 1)
-    }
-}
-
-/// [`NotIdle`] with plays of a limited number of ticks.
-pub(crate) struct IdleWithin(pub(crate) NotIdle, pub(crate) usize);
-
-impl Validator for IdleWithin {
-    fn name(&self) -> &'static str {
-        self.0.name()
-    }
-
-    fn validate(&self, case: Case<'_>) -> Finding {
-        self.0.judge(case, self.1)
-    }
-}
-
-/// [`NotRandom`] with plays of a limited number of ticks.
-pub(crate) struct RandomWithin(pub(crate) NotRandom, pub(crate) usize);
-
-impl Validator for RandomWithin {
-    fn name(&self) -> &'static str {
-        self.0.name()
-    }
-
-    fn validate(&self, case: Case<'_>) -> Finding {
-        self.0.judge(case, self.1)
     }
 }
 

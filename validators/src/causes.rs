@@ -2,7 +2,7 @@
 //! to the first obstacle.
 
 use crate::evidence::{Evidence, Line};
-use crate::verdict::{Case, Finding, Reason, Verdict};
+use crate::verdict::{Case, Finding, Verdict};
 use engine::analysis::{
     Blocker, Cause, Chain, EffectSummary, Missing, Motion, Obstacle, Shortage, Side, Unreachable,
 };
@@ -53,8 +53,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
         evidence.extend(words.links);
     }
     let Some(reason) = reason else { return };
-    finding.verdict =
-        Verdict::Fail { reason: Reason(format!("the level cannot be won: {reason}")), witness: None };
+    finding.verdict = Verdict::fail(format!("the level cannot be won: {reason}"));
     finding.evidence = evidence;
 }
 

@@ -2,7 +2,7 @@
 
 use crate::ending::Ending;
 use crate::evidence::Evidence;
-use crate::verdict::{Case, Finding, Reason, Validator, Verdict};
+use crate::verdict::{Case, Finding, Validator, Verdict};
 use engine::{Action, Episode, Outcome, Seed, State};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -61,7 +61,7 @@ impl Validator for NoEarlyDeath {
             let shown = results.iter().filter(|result| !result.survived && result.complete);
             let longest = shown.max_by_key(|result| result.longest.actions.len()).expect("one is doomed");
             let reason = self.failure_reason(longest.longest.actions.len(), doomed, seeds);
-            Verdict::Fail { reason: Reason(reason), witness: Some(longest.longest.clone()) }
+            Verdict::fail_with(reason, longest.longest.clone())
         } else if share(doomed + open) > self.share {
             Verdict::Unknown { spent }
         } else {

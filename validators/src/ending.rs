@@ -2,8 +2,9 @@
 
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};
+use crate::measures::MeetingRecorder;
 use engine::analysis::{Encounter, Side};
-use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType, Watch};
+use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType};
 
 /// The ending of an episode.
 #[derive(Clone, Debug)]
@@ -21,32 +22,13 @@ pub(crate) struct Ending {
     action: Option<Action>,
 }
 
-/// Records the meetings of a tick.
-#[derive(Default)]
-struct MeetingRecorder(Vec<Meeting>);
-
-/// The most meetings of a tick to record.
-const MAX_MEETINGS: usize = 256;
-
-impl Watch for MeetingRecorder {
-    fn interaction(&mut self, _: usize) {}
-
-    fn wants_meetings(&self) -> bool {
-        self.0.len() < MAX_MEETINGS
-    }
-
-    fn meeting(&mut self, meeting: Meeting) {
-        self.0.push(meeting);
-    }
-}
-
 impl Ending {
     /// Replays an episode and records its last tick. Cost: that of the episode.
     pub(crate) fn of(analysis: &Analysis, level: &Level, episode: &Episode) -> Ending {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
         let mut before = None;
-        let mut recorder = MeetingRecorder::default();
+        let mut recorder = MeetingRecorder::new(game);
         if let Some((&last, rest)) = episode.actions.split_last() {
             for &action in rest {
                 game.step(&mut state, action);
@@ -69,7 +51,7 @@ impl Ending {
             ticks: episode.actions.len(),
             outcome: state.outcome(),
             termination,
-            cause: recorder.0.into_iter().rev().find(|meeting| ends(analysis, meeting, &ended)),
+            cause: recorder.meetings.into_iter().rev().find(|meeting| ends(analysis, meeting, &ended)),
             before,
             action: episode.actions.last().copied(),
         }

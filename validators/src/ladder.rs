@@ -1,8 +1,8 @@
 //! Players from weak to strong on one level: the win rate of each, and the difficulty that follows.
 
 use crate::verdict::{Case, Rate};
-use agents::{Budget, Limits, Play, UnknownPlanner, planner, play};
-use engine::{Episode, Outcome, Seed};
+use agents::{Budget, Limits, PlannerSpec, Play, UnknownPlanner, play};
+use engine::{Episode, Outcome};
 use itertools::Itertools;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rung {
     name: String,
-    planner: String,
+    planner: PlannerSpec,
     budget: Budget,
 }
 
@@ -23,24 +23,21 @@ impl Rung {
     /// # Errors
     /// There is no such planner, or the text after the colon is not a number.
     pub fn new(name: &str, calls: u64) -> Result<Rung, UnknownPlanner> {
-        let (planner_name, written) = name.split_once(':').map_or((name, None), |(a, b)| (a, Some(b)));
-        let unknown = || UnknownPlanner(name.to_owned());
-        let calls = written.map_or(Ok(calls), |written| written.parse().map_err(|_| unknown()))?;
-        planner(planner_name, Seed::from_text(""))?;
-        Ok(Rung { name: name.to_owned(), planner: planner_name.to_owned(), budget: Budget(calls) })
+        let planner: PlannerSpec = name.parse()?;
+        let budget = planner.budget().unwrap_or(Budget(calls));
+        Ok(Rung { name: name.to_owned(), planner, budget })
     }
 
     /// Returns `true` if the player looks ahead. Players that do nothing or act at random are the baselines.
     pub fn looks_ahead(&self) -> bool {
-        !BASELINES.contains(&self.planner.as_str())
+        !BASELINES.contains(&self.planner.name())
     }
 
     fn play(&self, case: Case<'_>, run: u64, limits: Limits) -> Play {
         // All players get the same seed in plays of the same number, so that they can be compared play by play.
         let chance = case.seed.child("chance", run);
         let seed = case.seed.child(&self.name, run);
-        let mut planner = planner(&self.planner, seed).expect("the name was checked");
-        play(case.game, case.level, &mut *planner, self.budget, chance, limits)
+        play(case.game, case.level, &mut self.planner.player(seed), self.budget, chance, limits)
     }
 }
 

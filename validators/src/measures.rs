@@ -90,7 +90,7 @@ impl Measures {
             game.step_watched(&mut state, action, &mut recorder);
             pushes += pushed(analysis, &recorder.meetings, &before, &state);
         }
-        let rules: Vec<usize> = (0..recorder.lines.len()).filter(|&line| recorder.lines[line]).collect();
+        let rules = recorder.executed();
         let inner = |line: &usize| !is_guard(game, *line);
         let (of, used) =
             ((0..recorder.lines.len()).filter(inner).count(), rules.iter().copied().filter(inner).count());
@@ -127,18 +127,12 @@ impl SkillGap {
 /// The interactions that an episode executes: indices into [`Description::interactions`](engine::Description), ascending.
 /// Cost: that of the episode.
 pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
-    struct Lines(Vec<bool>);
-    impl Watch for Lines {
-        fn interaction(&mut self, line: usize) {
-            self.0[line] = true;
-        }
-    }
-    let mut lines = Lines(vec![false; game.description().interactions.len()]);
+    let mut recorder = MeetingRecorder::new(game);
     let mut state = game.start(level, episode.seed);
     for &action in &episode.actions {
-        game.step_watched(&mut state, action, &mut lines);
+        game.step_watched(&mut state, action, &mut recorder);
     }
-    (0..lines.0.len()).filter(|&line| lines.0[line]).collect()
+    recorder.executed()
 }
 
 /// The name of the edge of the screen in interactions.
@@ -213,17 +207,22 @@ fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &Sta
 }
 
 /// Records the executed interactions, and the meetings of the current tick.
-struct MeetingRecorder {
+pub(crate) struct MeetingRecorder {
     lines: Vec<bool>,
-    meetings: Vec<Meeting>,
+    pub(crate) meetings: Vec<Meeting>,
 }
 
 /// The most meetings of a tick to record.
 const MAX_MEETINGS: usize = 256;
 
 impl MeetingRecorder {
-    fn new(game: &Game) -> MeetingRecorder {
+    pub(crate) fn new(game: &Game) -> MeetingRecorder {
         MeetingRecorder { lines: vec![false; game.description().interactions.len()], meetings: Vec::new() }
+    }
+
+    /// Returns the executed interactions, ascending.
+    fn executed(&self) -> Vec<usize> {
+        (0..self.lines.len()).filter(|&line| self.lines[line]).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! The panel of all validators.
 
 use crate::ablation::RulesMatter;
-use crate::allowance::{Allowance, IdleWithin, RandomWithin};
+use crate::allowance::Allowance;
 use crate::causes;
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameReport, GameValidator};
@@ -182,11 +182,8 @@ impl Panel {
         let level: [(Stage, Box<dyn Validator + Send>); 8] = [
             (Stage::Start, Box::new(WellFormed)),
             (Stage::Start, Box::new(Readable)),
-            (Stage::Play, Box::new(IdleWithin(NotIdle { plays: c.idle_plays }, idle))),
-            (
-                Stage::Play,
-                Box::new(RandomWithin(NotRandom { plays: c.random_plays, most: c.random_wins }, random)),
-            ),
+            (Stage::Play, Box::new(NotIdle { plays: c.idle_plays, ticks: idle })),
+            (Stage::Play, Box::new(NotRandom { plays: c.random_plays, most: c.random_wins, ticks: random })),
             (
                 Stage::Play,
                 Box::new(NoEarlyDeath {

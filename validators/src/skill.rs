@@ -2,7 +2,7 @@
 
 use crate::evidence::Evidence;
 use crate::ladder::{Ladder, LadderConfig, LadderPlays, PlayerResult};
-use crate::verdict::{Case, Finding, Reason, Validator, Verdict};
+use crate::verdict::{Case, Finding, Validator, Verdict};
 use agents::Play;
 use engine::Outcome;
 use statistics::{Interval, Z95};
@@ -82,9 +82,8 @@ impl Validator for SkillPays {
             Verdict::Unknown { spent }
         } else {
             let strongest = advantages.last().or(held.last()).map(|advantage| advantage.text.as_str());
-            let reason =
-                format!("playing well does not pay: {}", strongest.unwrap_or("no player looks ahead"));
-            Verdict::Fail { reason: Reason(reason), witness: None }
+            let strongest = strongest.unwrap_or("no player looks ahead");
+            Verdict::fail(format!("playing well does not pay: {strongest}"))
         };
         let mut evidence: Vec<Evidence> =
             advantages.iter().chain(&held).map(|advantage| Evidence::new(advantage.text.clone())).collect();

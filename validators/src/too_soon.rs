@@ -2,7 +2,7 @@
 
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};
-use crate::verdict::{Case, Finding, Reason, Verdict};
+use crate::verdict::{Case, Finding, Verdict};
 use agents::{PortfolioConfig, Solution, solve};
 use engine::analysis::Condition;
 use engine::{Analysis, Description, Game};
@@ -39,7 +39,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
         "the level cannot be won before `{}` ends the game; without it, it is won in {ticks} ticks{fewest}",
         rule.text
     );
-    finding.verdict = Verdict::Fail { reason: Reason(reason), witness: None };
+    finding.verdict = Verdict::fail(reason);
     // The board at the time limit, on the way to that win.
     let mut state = game.start(level, episode.seed);
     let mut until = 0;

@@ -84,7 +84,8 @@ impl<'a> LevelGate<'a> {
     /// More plays of random keys: who has the fewest wins of many was lucky, too.
     fn more_random_plays(&self, level: &Level, seed: Seed) -> Finding {
         let Criteria { random_plays, random_wins, .. } = self.order.criteria;
-        let more = NotRandom { plays: LUCK_PLAYS * random_plays, most: LUCK_WINS * random_wins };
+        let (plays, most) = (LUCK_PLAYS * random_plays, LUCK_WINS * random_wins);
+        let more = NotRandom { plays, most, ticks: usize::MAX };
         let seed = seed.child("luck", 0);
         more.validate(Case {
             game: self.analysis.game(),

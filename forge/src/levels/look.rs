@@ -154,11 +154,12 @@ impl<'a> Looker<'a> {
             return None;
         }
         // A level that is won without skill is no better for being won with it.
-        let idle = ask(&NotIdle { plays: IDLE_PLAYS }, 0, spent);
-        let random = ask(&NotRandom { plays: RANDOM_PLAYS, most: RANDOM_WINS }, 0, spent);
+        let idle = ask(&NotIdle { plays: IDLE_PLAYS, ticks: usize::MAX }, 0, spent);
+        let random_play = |plays, most| NotRandom { plays, most, ticks: usize::MAX };
+        let random = ask(&random_play(RANDOM_PLAYS, RANDOM_WINS), 0, spent);
         let mut luck = win_share(&random);
         if random.verdict.is_pass() && luck > 0.0 {
-            let more = ask(&NotRandom { plays: MORE_RANDOM_PLAYS, most: 1.0 }, 1, spent);
+            let more = ask(&random_play(MORE_RANDOM_PLAYS, 1.0), 1, spent);
             let [first, more_plays] = [RANDOM_PLAYS, MORE_RANDOM_PLAYS].map(f64::from);
             luck = (luck * first + win_share(&more) * more_plays) / (first + more_plays);
         }
