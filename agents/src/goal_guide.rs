@@ -83,7 +83,7 @@ impl GoalGuide {
     /// Returns the progress of a state: minus one for each missing sprite, plus up to one for the keys held.
     pub(crate) fn progress(&self, state: &State) -> f64 {
         let missing = self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min();
-        let avatar = state.avatar_sprite_type();
+        let avatar = state.avatar_type();
         let keys = self.analysis.locks().iter().map(|lock| match &lock.key {
             Key::Avatar(stype) => f64::from(u8::from(avatar == Some(*stype))),
             Key::Resource { resource, amount, .. } => {
@@ -97,7 +97,7 @@ impl GoalGuide {
 
     /// Returns the closeness of the nearest useful target, in [0, 1); 0 if there is none. Cost: O(cells + sprites).
     pub(crate) fn closeness(&self, state: &State, distances: &mut Distances) -> f64 {
-        let Some(targets) = state.avatar_sprite_type().and_then(|avatar| self.targets_of(avatar)) else {
+        let Some(targets) = state.avatar_type().and_then(|avatar| self.targets_of(avatar)) else {
             return 0.0;
         };
         let Some(place) = state.avatar_place() else { return 0.0 };

@@ -275,7 +275,7 @@ fn novelty_key(state: &State, guide: &GoalGuide) -> u64 {
     let (x, y) = state.avatar_place().unwrap_or((-1, -1));
     let block = state.block().max(1);
     let mut key = (x / block) as u64 & 0xFFFF | ((y / block) as u64 & 0xFFFF) << 16;
-    key |= u64::from(state.avatar_sprite_type().map_or(u16::MAX, |stype| stype.0)) << 32;
+    key |= u64::from(state.avatar_type().map_or(u16::MAX, |stype| stype.0)) << 32;
     let done = (guide.progress(state) * 16.0) as i64 as u64;
     key ^ done.wrapping_mul(0x9E37_79B9_7F4A_7C15)
 }

@@ -259,11 +259,6 @@ impl State {
         })
     }
 
-    /// The type of the player's avatar, if there is a living one.
-    pub fn avatar_sprite_type(&self) -> Option<SpriteType> {
-        self.avatar_type()
-    }
-
     /// The creation number of the player's avatar, disabled or not.
     pub fn avatar_id(&self) -> Option<u32> {
         self.sprites.get(usize::from(self.avatar)).map(|sprite| sprite.id)

@@ -424,7 +424,7 @@ impl State {
     }
 
     /// The type of the player's avatar, if there is a living one.
-    pub(crate) fn avatar_type(&self) -> Option<SpriteType> {
+    pub fn avatar_type(&self) -> Option<SpriteType> {
         let sprite = self.sprites.get(usize::from(self.avatar))?;
         (!sprite.is(flag::DISABLED)).then_some(sprite.stype)
     }

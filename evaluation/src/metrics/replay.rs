@@ -217,7 +217,7 @@ struct Seen {
 
 impl Seen {
     fn of(game: &Game, state: &State) -> Seen {
-        let player = state.avatar_sprite_type().and(state.avatar_id());
+        let player = state.avatar_type().and(state.avatar_id());
         let hidden: Vec<bool> = game.sprite_types().map(|stype| game.is_hidden(stype)).collect();
         let mut seen = Seen { avatar: None, others: Vec::new() };
         for record in game.records(state) {
