@@ -1,6 +1,6 @@
 //! The InteractionSet as a flat program: effects, edge passes, pair passes in execution order (`spec/01` §1.8).
 
-use super::params::{Expected, Value, convert, wrong_type};
+use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Policy, Setting, too_many};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed, TypeInfo};
@@ -332,9 +332,7 @@ impl<'a> Reader<'a> {
     /// Reports that the effect lacks a parameter with the name of a thing.
     fn lacks(&mut self, key: &str, thing: &str) {
         let effect = &self.line.effect;
-        let message = format!("`{}` needs `{key}=`, the name of {thing}", effect.text);
-        let problem = Diagnostic::error("missing-parameter", effect.span, message);
-        self.problems.push(problem.help(format!("add `{key}=` and the name")));
+        self.problems.push(missing_name(&format!("`{}`", effect.text), effect.span, key, thing));
     }
 
     /// Tests whether the line is written with TIME: on the left, or first on the right.

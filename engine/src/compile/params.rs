@@ -1,6 +1,6 @@
 //! Parameter values: conversion from text to the type of the field (`spec/01` §1.10).
 
-use crate::diagnostic::{Diagnostic, nearest};
+use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::constants::{COLORS, Constant, constant, direction_names};
@@ -95,6 +95,12 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
             format!("write `{key}=` and {}; the reference engine ignores any other value", expected.words())
         }
     })
+}
+
+/// The problem of a missing parameter that names a thing which the subject needs.
+pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) -> Diagnostic {
+    let message = format!("{subject} needs `{key}=`, the name of {thing}");
+    Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
 /// The number at the start of a value: `5` of `5x`.

@@ -1,7 +1,7 @@
 //! The sprites that a type's parameters name: the types that it makes, follows, spends, is collected as or leads to.
 
 use super::Names;
-use super::params::{Expected, Value, convert, wrong_type};
+use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::SpriteType;
 use crate::limits::MAX_LIST;
@@ -59,9 +59,8 @@ pub(super) fn references(
     let nameless = class == C::ResourcePack && resource.is_none();
     for (key, missing) in [(key, missing), ("resource_name", nameless)] {
         if missing && sprite.leaf && sprite.given(key).is_none() {
-            let message = format!("{} `{}` needs `{key}=`, the name of a sprite", class.name(), sprite.name);
-            let problem = Diagnostic::error("missing-parameter", sprite.span, message);
-            problems.push(problem.help(format!("add `{key}=` and the name")));
+            let subject = format!("{} `{}`", class.name(), sprite.name);
+            problems.push(missing_name(&subject, sprite.span, key, "a sprite"));
         }
     }
     if shoots || produces || matches!(class, C::FlakAvatar | C::Spreader) {

@@ -1,6 +1,6 @@
 //! The TerminationSet.
 
-use super::params::{Expected, Value, convert, wrong_type};
+use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::game::SpriteType;
@@ -212,8 +212,7 @@ impl<'a> Reader<'a> {
     }
 
     fn needs(&mut self, key: &str) {
-        let message = format!("{} needs `{key}=`, the name of a sprite", self.line.class.text);
-        let problem = Diagnostic::error("missing-parameter", self.line.class.span, message);
-        self.problems.push(problem.help(format!("add `{key}=` and the name")));
+        let class = &self.line.class;
+        self.problems.push(missing_name(&class.text, class.span, key, "a sprite"));
     }
 }
