@@ -31,14 +31,13 @@ pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
     };
     let mut problems = Vec::new();
     for (end, line) in rules.terminations.iter().zip(&rules.description.terminations) {
-        let (stypes, holds) = match &end.condition {
-            Condition::SpriteCounter { stype, limit } => (&[*stype][..], count(*stype) <= i64::from(*limit)),
-            Condition::SpriteCounterMore { stype, limit } => {
-                (&[*stype][..], count(*stype) >= i64::from(*limit))
-            }
-            Condition::MultiSpriteCounter { stypes, limit, min } => {
-                let sum = stypes.iter().map(|&stype| count(stype)).sum::<i64>();
-                (&stypes[..], sum == i64::from(*limit) || *min && sum > i64::from(*limit))
+        let stypes = end.counts();
+        let sum: i64 = stypes.iter().map(|&stype| count(stype)).sum();
+        let holds = match end.condition {
+            Condition::SpriteCounter { limit, .. } => sum <= i64::from(limit),
+            Condition::SpriteCounterMore { limit, .. } => sum >= i64::from(limit),
+            Condition::MultiSpriteCounter { limit, min, .. } => {
+                sum == i64::from(limit) || min && sum > i64::from(limit)
             }
             _ => continue,
         };
@@ -74,21 +73,21 @@ impl Linter<'_> {
         let all = &self.game.0.terminations;
         let stoppable = can_be_held_up(&self.game.0);
         for (end, line) in all.iter().zip(lines) {
-            let absent = |stypes: &[SpriteType]| stypes.iter().all(|&stype| !self.at_start(stype));
-            let at_once = match &end.condition {
-                Condition::SpriteCounter { stype, limit } => *limit >= 0 && absent(&[*stype]),
-                Condition::SpriteCounterMore { limit, .. } => *limit <= 0,
-                Condition::MultiSpriteCounter { stypes, limit, min } => {
-                    (*limit == 0 || *min && *limit < 0) && absent(stypes)
+            let absent = || end.counts().iter().all(|&stype| !self.at_start(stype));
+            let at_once = match end.condition {
+                Condition::SpriteCounter { limit, .. } => limit >= 0 && absent(),
+                Condition::SpriteCounterMore { limit, .. } => limit <= 0,
+                Condition::MultiSpriteCounter { limit, min, .. } => {
+                    (limit == 0 || min && limit < 0) && absent()
                 }
                 Condition::Timeout { limit } => {
-                    if *limit > MAX_TICKS {
+                    if limit > MAX_TICKS {
                         let message =
                             format!("an episode has at most {MAX_TICKS} ticks, so this never happens");
                         let problem = Diagnostic::warning("never-ends", limit_of(line), message);
                         problems.push(problem.help(format!("write a limit below {MAX_TICKS}")));
                     }
-                    *limit <= 0
+                    limit <= 0
                 }
                 _ => false,
             };
