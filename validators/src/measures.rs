@@ -136,7 +136,7 @@ pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
 }
 
 /// The name of the edge of the screen in interactions.
-const EDGE: &str = "EOS";
+pub(crate) const EDGE: &str = "EOS";
 
 /// Returns `true` if an interaction is with the edge of the screen.
 pub fn is_guard(game: &Game, line: usize) -> bool {

@@ -1,6 +1,7 @@
 //! A rule of a game as a person names it: `box hole`, `box hole killSprite`, or the number of its line.
 
 use crate::evidence::Line;
+use crate::measures::EDGE;
 use engine::{Analysis, EFFECTS, Episode, Level, Meeting, SpriteType, Watch, nearest};
 use itertools::Itertools;
 
@@ -25,8 +26,6 @@ pub struct RuleRefError {
     pub reason: String,
 }
 
-/// The name of the edge of the screen in interactions.
-const EDGE: &str = "EOS";
 /// The most interactions that a message lists.
 const MAX_LISTED: usize = 4;
 

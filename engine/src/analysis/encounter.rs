@@ -232,9 +232,10 @@ fn summarise(effect: &Effect) -> (SmallVec<[EffectSummary; 2]>, Precondition) {
         Effect::KillSprite | Effect::KillIfAlive => always(smallvec![EffectSummary::Kill(First)]),
         Effect::KillBoth => always(smallvec![EffectSummary::Kill(First), EffectSummary::Kill(Second)]),
         Effect::KillAll { stype } => always(smallvec![EffectSummary::KillAll(stype)]),
-        Effect::KillIfFromAbove | Effect::KillIfFrontal { .. } => {
-            (smallvec![EffectSummary::Kill(First)], Precondition::Movement)
-        }
+        Effect::KillIfFromAbove
+        | Effect::KillIfFrontal { .. }
+        | Effect::KillIfSpeed { .. }
+        | Effect::KillIfNotUpright => (smallvec![EffectSummary::Kill(First)], Precondition::Movement),
         Effect::KillIfHasLess { resource, limit } => {
             (smallvec![EffectSummary::Kill(First)], Precondition::HoldsAtMost(First, resource, limit))
         }
@@ -298,9 +299,6 @@ fn summarise(effect: &Effect) -> (SmallVec<[EffectSummary; 2]>, Precondition) {
         Effect::ChangeResource { resource, value, kill_resource } => {
             let change = EffectSummary::Change { side: First, resource, by: value };
             always(with(change, kill_resource, EffectSummary::Kill(Second)))
-        }
-        Effect::KillIfSpeed { .. } | Effect::KillIfNotUpright => {
-            (smallvec![EffectSummary::Kill(First)], Precondition::Movement)
         }
         Effect::RemoveScore { kill_second, .. } => {
             always(if kill_second { smallvec![EffectSummary::Kill(Second)] } else { smallvec![] })

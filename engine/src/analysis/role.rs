@@ -4,7 +4,7 @@ use super::Analysis;
 use super::facts::Motion;
 use super::lock::{Fate, Lock};
 use super::marks::Marks;
-use super::touch::{Harm, Removal};
+use super::touch::{Harm, Removal, Touch};
 use crate::game::SpriteType;
 use crate::ontology::class::SpriteClass;
 
@@ -76,7 +76,7 @@ impl Analysis {
         if self.avatars.iter().any(|avatar| avatar.stype == stype) || fact.motion == Motion::Steered {
             return Role::Avatar;
         }
-        if self.is_shot(stype) {
+        if self.avatars.iter().any(|avatar| avatar.shots.contains(&stype)) {
             return Role::Shot;
         }
         if touches().any(|touch| touch.teleports) {
@@ -146,15 +146,12 @@ impl Analysis {
         if still && marks.holds_up_enemies && self.is_refuge(stype) {
             return Role::Refuge;
         }
-        let touched = touches().any(|touch| touch.any && *touch != neutral_touch());
+        let without_effect = Touch { any: true, ..Touch::default() };
+        let touched = touches().any(|touch| touch.any && *touch != without_effect);
         if still && !touched && (self.beside_avatar(stype) || !marks.takes_part) {
             return Role::Floor;
         }
         Role::Neutral
-    }
-
-    fn is_shot(&self, stype: SpriteType) -> bool {
-        self.avatars.iter().any(|avatar| avatar.shots.contains(&stype))
     }
 
     fn is_portal_exit(&self, stype: SpriteType) -> bool {
@@ -168,7 +165,7 @@ impl Analysis {
     fn is_exit(&self, stype: SpriteType, locked: bool) -> bool {
         let at = stype.index();
         let traits = &self.game.0.types[at].traits;
-        let creates = |row: &Vec<super::Touch>| {
+        let creates = |row: &Vec<Touch>| {
             let touch = &row[at];
             touch.makes.iter().any(|made| self.aims.create.contains(made))
                 || touch.changes.is_some_and(|to| self.aims.create.contains(&to))
@@ -211,9 +208,4 @@ impl Analysis {
             .map(|&symbol| &self.game.0.mapping[usize::from(symbol)])
             .any(|types| types.iter().any(is_avatar))
     }
-}
-
-/// Returns a touch without any effect on the avatar.
-fn neutral_touch() -> super::Touch {
-    super::Touch { any: true, ..super::Touch::default() }
 }

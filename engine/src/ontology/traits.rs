@@ -116,7 +116,7 @@ impl Traits {
         }
         match class {
             C::Immovable => self.is_static = true,
-            C::Door => {
+            C::Door | C::Portal => {
                 self.is_static = true;
                 self.portal = true;
             }
@@ -156,10 +156,6 @@ impl Traits {
                 self.max_speed = 5.0;
                 self.is_oriented = true;
                 self.jump_strength = if class == C::WalkerJumper { 1.0 } else { 0.0 };
-            }
-            C::Portal => {
-                self.is_static = true;
-                self.portal = true;
             }
             C::SpawnPoint => {
                 self.cooldown = 1;

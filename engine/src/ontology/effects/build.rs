@@ -65,9 +65,7 @@ effects! {
     },
     "addTimer" => Effect::AddTimer { timed: args.timed() },
     "align" => Effect::Align { orient: args.flag("orient", true) },
-    "attractGaze" => {
-        Effect::AttractGaze { align: args.flag("align", false), prob: args.number("prob", 1.0) }
-    },
+    "attractGaze" => Effect::AttractGaze { align: args.flag("align", false), prob: args.number("prob", 1.0) },
     // Converts degrees to radians as the reference does.
     "bounceDirection" => Effect::BounceDirection {
         most: args.number("maxBounceAngleDeg", 60.0) * 0.017_453_292_519_943_295,
