@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 /// Returns the reason why a leftover is kept, with advice; none if it is to be removed.
 fn kept(args: &Args, kind: &LeftoverKind) -> Option<&'static str> {
     match kind {
-        LeftoverKind::Draft(draft) if draft.finished_jobs() > 0 && !args.interrupted => Some(
+        LeftoverKind::Draft(draft) if draft.finished_jobs > 0 && !args.interrupted => Some(
             "continue it with the same command and --resume, or remove it with `arcade clean --interrupted`",
         ),
         LeftoverKind::Shard(_) if !args.shards => {
