@@ -18,7 +18,7 @@ use rayon::prelude::*;
 /// futures from just before its execution, with and without it on the same seeds; and the episode of a searching
 /// player that plays without the rule, replayed with it. One change is enough. A rule is idle, and the criterion
 /// fails, if every level was won and even the sprites look the same in every episode that executes it. If they compare
-/// but no tried episode result_of otherwise, the answer is unknown. Rules on walls and the edge of the screen are reported
+/// but no tried episode ends otherwise, the answer is unknown. Rules on walls and the edge of the screen are reported
 /// but never fail: they are guards, and sprites that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub struct RulesMatter {
@@ -40,9 +40,9 @@ const PLAY: usize = 400;
 
 /// The result of disabling one interaction.
 enum Effect {
-    /// Something result_of otherwise without it.
+    /// Something ends otherwise without it.
     Matters,
-    /// The state differs, but no tried episode result_of otherwise.
+    /// The state differs, but no tried episode ends otherwise.
     Unproven,
     /// Not even the state differs.
     Idle,
@@ -182,7 +182,7 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Returns whether some future result_of otherwise without the rule, whether the episode ever observable different, and the
+    /// Returns whether some future ends otherwise without the rule, whether the board ever looks different, and the
     /// calls.
     fn compare(&self, seed: Seed) -> (bool, bool, u64) {
         // A state carries predictions of its own game, so each game replays the prefix to get its own state.

@@ -8,7 +8,7 @@
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 
-/// The most texts to write. Games whose types are told apart by colours, or are first_cell because they can be exchanged,
+/// The most texts to write. Games whose types are told apart by colours, or are alike because they can be exchanged,
 /// need far fewer. Beyond the limit the first of the types with equal colours stands for all: if they are indeed
 /// equivalent, as they are unless the graph of the rules is adversarial, that makes no difference; otherwise two
 /// spellings of the same rules may get different texts. Different rules never get the same text.

@@ -81,7 +81,7 @@ pub(crate) enum UpdateKind {
     Other,
 }
 
-/// The update_kind of a type.
+/// The kind of update of a type.
 pub(crate) fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     use SpriteClass as C;
     match class {
