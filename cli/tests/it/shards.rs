@@ -6,13 +6,24 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// Three jobs, each within a second or two.
-const RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'slices'\n[generated]\ngames = 1\nlevels = 1\n\
-    candidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\n\
-    depths = [10, 25]\nrandom_plays = 20\n";
+/// Four jobs, each within a second; with this seed few candidates fail.
+const RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'pieces'\n[generated]\ngames = 1\nlevels = 1\n\
+    candidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 100\nbudget = 80000\n\
+    depths = [10, 25]\nrandom_plays = 10\n";
 
 fn recipe(folder: &Path) {
     fs::write(folder.join("slices.toml"), RECIPE).unwrap();
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    for jobs in ["1", "3"] {
+        run(folder, &["release", "slices.toml", "--jobs", jobs, "--out", jobs], 0);
+    }
+    assert_eq!(files(&folder.join("1")), files(&folder.join("3")));
 }
 
 #[test]
