@@ -17,7 +17,8 @@ engine::with_defaults! {
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After
     /// that, and in stochastic games from the start, planners play episodes in rounds of growing length: [`Width`]
     /// looks far ahead, [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
-    /// risks.
+    /// risks. Last, where that is asked for, comes a [`best_first`] search of a stochastic game that foresees all chance of one
+    /// episode.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
@@ -27,6 +28,8 @@ engine::with_defaults! {
         pub shortest: f64 = 0.1,
         /// The share of it to spend on any win by systematic search.
         pub systematic: f64 = 0.4,
+        /// The share of it that is kept for a search with foresight, in a stochastic game.
+        pub foresight: f64 = 0.0,
         /// The memory limit of a systematic search, in bytes.
         pub bytes: usize = 1 << 30,
         /// The most calls of a decision of the planners: fewer if a play of [`USUAL_TICKS`], or one until the winning
@@ -78,43 +81,47 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     let mut solved = Solved { solution: Solution::Unknown, calls: 0, plays: Vec::new() };
     let chance = seed.child("systematic", 0);
     let start = game.start(level, chance);
-    if !start.is_over() && analysis.is_deterministic_from(&start) {
-        let pushes = Pushes::of(analysis, level);
-        let share = |share: f64| SearchLimits {
-            calls: (config.budget as f64 * share.clamp(0.0, 1.0)) as u64,
-            bytes: config.bytes,
-        };
-        let mut take = |searched: Searched| {
-            solved.calls += searched.calls;
-            match searched.answer {
-                Answer::Won { actions, shortest } => {
-                    let (mut episode, mut state) = Episode::begin(game, level, chance);
-                    for action in actions {
-                        episode.play(game, &mut state, action);
-                    }
-                    solved.solution = Solution::Won { episode: Box::new(episode), shortest };
+    let pushes = Pushes::of(analysis, level);
+    let share = |share: f64| SearchLimits {
+        calls: (config.budget as f64 * share.clamp(0.0, 1.0)) as u64,
+        bytes: config.bytes,
+    };
+    let take = |solved: &mut Solved, searched: Searched| {
+        solved.calls += searched.calls;
+        match searched.answer {
+            Answer::Won { actions, shortest } => {
+                let (mut episode, mut state) = Episode::begin(game, level, chance);
+                for action in actions {
+                    episode.play(game, &mut state, action);
                 }
-                Answer::Impossible => {
-                    let Searched { states, nearest, .. } = searched;
-                    solved.solution = Solution::Impossible { states, nearest };
-                }
-                Answer::OutOfCalls | Answer::OutOfMemory => return false,
+                solved.solution = Solution::Won { episode: Box::new(episode), shortest };
             }
-            true
-        };
-        if take(a_star(analysis, &pushes, &start, share(config.shortest)))
-            || take(best_first(analysis, &pushes, &start, share(config.systematic)))
-        {
-            return solved;
+            Answer::Impossible => {
+                let Searched { states, nearest, .. } = searched;
+                solved.solution = Solution::Impossible { states, nearest };
+            }
+            Answer::OutOfCalls | Answer::OutOfMemory => return false,
         }
+        true
+    };
+    let is_certain = analysis.is_deterministic_from(&start);
+    if !start.is_over()
+        && is_certain
+        && (take(&mut solved, a_star(analysis, &pushes, &start, share(config.shortest)))
+            || take(&mut solved, best_first(analysis, &pushes, &start, share(config.systematic))))
+    {
+        return solved;
     }
-    let mut share = config.budget / FIRST_ROUND;
+    // The end of the budget is for the search with foresight.
+    let foresight = if is_certain || start.is_over() { 0 } else { share(config.foresight).calls };
+    let budget = config.budget - foresight;
+    let mut round_calls = budget / FIRST_ROUND;
     for round in 0.. {
-        let left = config.budget.saturating_sub(solved.calls);
+        let left = budget.saturating_sub(solved.calls);
         if left == 0 || round == MAX_ROUNDS {
             break;
         }
-        let plays = play_round(analysis, level, config, share.min(left), seed.child("round", round));
+        let plays = play_round(analysis, level, config, round_calls.min(left), seed.child("round", round));
         solved.calls += plays.iter().map(|play| play.calls).sum::<u64>();
         let won = plays.iter().filter(|play| play.episode.outcome == Outcome::Won);
         let shortest = won.min_by_key(|play| play.episode.actions.len());
@@ -125,7 +132,10 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
         if matches!(solved.solution, Solution::Won { .. }) {
             break;
         }
-        share = share.saturating_mul(2);
+        round_calls = round_calls.saturating_mul(2);
+    }
+    if foresight > 0 && matches!(solved.solution, Solution::Unknown) {
+        take(&mut solved, best_first(analysis, &pushes, &start, share(config.foresight)));
     }
     solved
 }

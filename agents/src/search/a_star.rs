@@ -8,8 +8,7 @@ use engine::analysis::Analysis;
 /// Expands states in the order of the least number of ticks of a win through them: the ticks to reach them, plus the
 /// [`Pushes`] that they need (Hart, Nilsson and Raphael 1968). If nothing is pushed this is breadth-first search.
 ///
-/// `start` is a state from which play is deterministic ([`Analysis::is_deterministic_from`]); from any other state,
-/// the answer is [`Answer::OutOfCalls`](super::Answer::OutOfCalls) at no cost, because nothing could be proved. Cost:
+/// Proofs need a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost:
 /// at most the number of states times the number of actions, in calls; O(size of a state) for each call.
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     Tree::new(analysis, pushes, start, limits).search(|_, _| Buckets::default())

@@ -1,5 +1,5 @@
-//! Systematic search, for states from which play is deterministic: it proves that a level can be won in some number
-//! of ticks, or not at all.
+//! Systematic search: from states with a deterministic future it proves that a level can be won in some number of ticks, or
+//! not at all. Elsewhere it searches the future of one random state, as if the player foresaw all chance, and proves nothing.
 //!
 //! States are told apart by [`engine::analysis::StateAbstraction`], stored as differences from the start ([`engine::Packed`]),
 //! and counted in forward-model calls. A search stops at the first win, after all reachable states, or at its limits:
@@ -59,7 +59,7 @@ pub enum Answer {
     },
     /// There is no win: all reachable states were searched.
     Impossible,
-    /// Not known: the calls were spent.
+    /// Not known: the calls were spent, or all states of one random future were searched.
     OutOfCalls,
     /// Not known: the memory was full.
     OutOfMemory,

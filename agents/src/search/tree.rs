@@ -134,13 +134,14 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Expands states in the order of a frontier until one wins, none is open, or a limit is reached. Without a
-    /// deterministic future nothing could be proved: then the answer is [`Answer::OutOfCalls`] at no cost.
+    /// Expands states in the order of a frontier until one wins, none is open, or a limit is reached. Where chance plays a
+    /// part, keys include the random state, and nothing is proved: exhausted states are an [`Answer::OutOfCalls`].
     pub(super) fn search<F: Frontier>(mut self, frontier: impl FnOnce(&Tree<'_>, &State) -> F) -> Searched {
         let start = self.base.clone();
-        if start.is_over() || !self.analysis.is_deterministic_from(&start) {
+        if start.is_over() {
             return self.answer(Answer::OutOfCalls);
         }
+        let is_certain = self.analysis.is_deterministic_from(&start);
         let mut open = frontier(&self, &start);
         if let Some(least) = self.pushes.least(&start) {
             let root = self.keep(&start);
@@ -153,14 +154,14 @@ impl<'a> Tree<'a> {
             match expanded {
                 Expanded::On => {}
                 Expanded::Won(node) => {
-                    let won = Answer::Won { actions: self.way(node), shortest: F::SHORTEST };
-                    return self.answer(won);
+                    let shortest = F::SHORTEST && is_certain;
+                    return self.answer(Answer::Won { actions: self.way(node), shortest });
                 }
                 Expanded::OutOfCalls => return self.answer(Answer::OutOfCalls),
                 Expanded::OutOfMemory => return self.answer(Answer::OutOfMemory),
             }
         }
-        self.answer(Answer::Impossible)
+        self.answer(if is_certain { Answer::Impossible } else { Answer::OutOfCalls })
     }
 
     fn keep(&mut self, state: &State) -> StoredState {
