@@ -10,6 +10,7 @@ mod error;
 mod feasible_infeasible;
 pub mod games;
 mod generator;
+pub mod kernels;
 pub mod levels;
 mod map_elites;
 mod search;

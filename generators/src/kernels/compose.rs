@@ -1,0 +1,327 @@
+//! From a kernel, its numbers and a scene to the rules and the words of a game.
+
+use super::course::{self, Board, Traits};
+use super::kernel::{Casting, Kernel, Slot};
+use super::phrase::{self, Nouns};
+use super::scene::Scene;
+use super::template::Template;
+use crate::GenerateError;
+use crate::games::{english, palette};
+use engine::syntax::{self, MappingLine, Param, SpriteLine};
+use engine::{Description, Sampler, Seed};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The choices that make a game of a kernel.
+#[derive(Clone, Debug)]
+pub(crate) struct Choices<'a> {
+    pub(crate) kernel: &'static Kernel,
+    /// The indices of the variants that the game has.
+    pub(crate) variants: &'a [usize],
+    pub(crate) values: &'a [u32],
+    pub(crate) scene: &'static Scene,
+    pub(crate) nouns: Seed,
+    /// The ticks after which the game is lost, unless surviving them is the goal.
+    pub(crate) time: u32,
+}
+
+/// A game without levels: rules, nouns, words, and what its levels are built of.
+#[derive(Clone, Debug)]
+pub(crate) struct Composed {
+    pub(crate) description: Description,
+    pub(crate) title: String,
+    pub(crate) summary: String,
+    pub(crate) goal: String,
+    pub(crate) course: Course,
+}
+
+/// The maps of the levels of a game, and the characters to write them with.
+#[derive(Clone, Debug)]
+pub struct Course {
+    kernel: &'static Kernel,
+    values: Vec<u32>,
+    traits: Traits,
+    nouns: Nouns,
+    /// The characters of the types, by their names in the kernel.
+    symbols: BTreeMap<String, char>,
+}
+
+/// A level of a course, before anyone has played it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CourseLevel {
+    /// The level in the characters of the game.
+    pub text: String,
+    /// Its slot.
+    pub slot: Slot,
+    /// Its question to the player, in a sentence.
+    pub asks: String,
+}
+
+impl Course {
+    /// Builds a level for a slot: draws one of the maps of the slot, lays it out and furnishes it. Cost: about a
+    /// millisecond.
+    ///
+    /// # Errors
+    /// If no layout of the map has room for everything.
+    pub fn level(&self, slot: Slot, seed: Seed) -> Result<CourseLevel, GenerateError> {
+        let plans: Vec<_> = self.kernel.levels.iter().filter(|level| level.slot == slot).collect();
+        let plan = *seed.child("plan", 0).sampler().choose(&plans);
+        let map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?;
+        let board = course::lay_out(&map, self.kernel, &self.traits, seed).ok_or_else(|| {
+            GenerateError::Unlucky(format!("no layout has room for a map of slot {slot:?}"))
+        })?;
+        let asks = phrase::fill(&plan.asks, &self.nouns).map_err(GenerateError::Unsuitable)?;
+        Ok(CourseLevel { text: self.text(&board), slot, asks: phrase::sentence(&asks) })
+    }
+
+    fn text(&self, board: &Board) -> String {
+        let row = |y: usize| -> String {
+            let symbol = |x: usize| board.at((x, y)).map_or('.', |stype| self.symbols[stype]);
+            (0..board.columns).map(symbol).collect()
+        };
+        (0..board.rows).map(|y| row(y) + "\n").collect()
+    }
+}
+
+impl Choices<'_> {
+    /// Composes the game.
+    ///
+    /// # Errors
+    /// The rules cannot be read with these numbers, or the words name unknown types: faults of a kernel or a scene.
+    pub(crate) fn compose(&self) -> Result<Composed, GenerateError> {
+        let text = self.rules();
+        let (mut description, problems) = syntax::parse(&text);
+        if let Some(problem) = problems.first() {
+            let message = format!("kernel {}: {}", self.kernel.name, problem.message);
+            return Err(GenerateError::Unsuitable(message));
+        }
+        let mut sampler = self.nouns.sampler();
+        let nouns = self.cast(&mut sampler)?;
+        let traits = traits(&description);
+        self.color(&mut description.sprites);
+        let symbols = self.map_symbols(&mut description, &nouns);
+        let mut wall = SpriteLine { name: nouns["wall"].as_str().into(), ..SpriteLine::default() };
+        wall.params.push(Param::new("color", &self.scene.wall_color));
+        if let Some(line) = description.sprites.iter_mut().find(|line| line.name.text == "wall") {
+            line.children.push(wall);
+        }
+        let mut renamed = nouns.clone();
+        renamed.remove("wall");
+        let description = description.renamed(&renamed);
+        let fill = |text: &str| phrase::fill(text, &nouns).map_err(GenerateError::Unsuitable);
+        let sentence = |text: &str| Ok::<String, GenerateError>(phrase::sentence(&fill(text)?));
+        let titles: Vec<&String> = self.kernel.titles.iter().chain(&self.scene.titles).collect();
+        let title = self.fill_numbers(titles[sampler.below(titles.len())]);
+        let title = phrase::title(&title, &nouns).map_err(GenerateError::Unsuitable)?;
+        let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].fact);
+        let facts = self.kernel.facts.iter().chain(variants);
+        let sentences = [&self.scene.story, &self.kernel.dilemma].into_iter().chain(facts);
+        let summary =
+            sentences.map(|text| sentence(&self.fill_numbers(text))).collect::<Result<Vec<_>, _>>()?;
+        Ok(Composed {
+            title,
+            summary: summary.join(" "),
+            goal: sentence(&self.fill_numbers(&self.kernel.goal))?,
+            course: Course {
+                kernel: self.kernel,
+                values: self.values.to_vec(),
+                traits,
+                nouns: nouns.clone(),
+                symbols,
+            },
+            description,
+        })
+    }
+
+    /// Fills the numbers of the kernel into a text.
+    fn fill_numbers(&self, text: &str) -> String {
+        let numbers = &mut self.kernel.numbers.clone();
+        Template::read(text, numbers).map_or_else(|_| text.to_owned(), |text| text.fill(self.values))
+    }
+
+    /// The rules as text, under the names of the kernel.
+    fn rules(&self) -> String {
+        let variants: Vec<_> = self.variants.iter().map(|&variant| &self.kernel.variants[variant]).collect();
+        let mut text =
+            "BasicGame\n    SpriteSet\n        floor > Immovable\n        wall > Immovable\n".to_owned();
+        let mut add = |lines: &str| text.push_str(&indented(lines));
+        let rules = &self.kernel.rules;
+        add(&rules.sprites.fill(self.values));
+        variants.iter().for_each(|variant| add(&variant.rules.sprites.fill(self.values)));
+        // The characters of levels are chosen once the nouns are.
+        add("LevelMapping\n");
+        add(". > floor\n");
+        add("InteractionSet\n");
+        variants.iter().for_each(|variant| add(&variant.first.fill(self.values)));
+        add(&rules.interactions.fill(self.values));
+        variants.iter().for_each(|variant| add(&variant.rules.interactions.fill(self.values)));
+        add("TerminationSet\n");
+        add(&rules.terminations.fill(self.values));
+        variants.iter().for_each(|variant| add(&variant.rules.terminations.fill(self.values)));
+        if !text.contains("Timeout") {
+            text.push_str(&format!("        Timeout limit={} win=False\n", self.time));
+        }
+        text
+    }
+
+    /// The castings of all types of the game.
+    fn roles(&self) -> impl Iterator<Item = (&String, &Casting)> {
+        let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].roles);
+        self.kernel.roles.iter().chain(variants.flatten())
+    }
+
+    /// Gives every type a noun that no other has.
+    fn cast(&self, sampler: &mut Sampler) -> Result<Nouns, GenerateError> {
+        let mut nouns = Nouns::new();
+        // Nouns of roles that types have in some state only.
+        let mut shared = Nouns::new();
+        let mut draw = |role: &str, taken: &Nouns| {
+            let mut free = self.scene.nouns(role, &self.kernel.name).unwrap_or_default();
+            free.retain(|noun| !taken.values().any(|taken| taken == noun));
+            let missing =
+                || format!("scene {} has no noun left for {role} of {}", self.scene.name, self.kernel.name);
+            if free.is_empty() {
+                return Err(GenerateError::Unsuitable(missing()));
+            }
+            Ok((*sampler.choose(&free)).to_owned())
+        };
+        for role in ["floor", "wall"] {
+            nouns.insert(role.to_owned(), draw(role, &nouns)?);
+        }
+        for (stype, casting) in self.roles() {
+            if let Casting::Role(role) = casting {
+                nouns.insert(stype.clone(), draw(role, &nouns)?);
+            }
+        }
+        for (stype, casting) in self.roles() {
+            if let Casting::State { of, adjective } = casting {
+                if !nouns.contains_key(of) && !shared.contains_key(of) {
+                    shared.insert(of.clone(), draw(of, &nouns)?);
+                }
+                let noun = nouns.get(of).unwrap_or_else(|| &shared[of]);
+                let name = format!("{adjective}{}", english::capital(noun));
+                nouns.insert(stype.clone(), name);
+            }
+        }
+        Ok(nouns)
+    }
+
+    /// Gives every type a colour.
+    fn color(&self, lines: &mut [SpriteLine]) {
+        let roles: BTreeMap<&str, &Casting> =
+            self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
+        let mut taken = vec![self.scene.floor_color.clone(), self.scene.wall_color.clone()];
+        color_lines(lines, &roles, &self.scene.floor_color, &mut taken);
+    }
+
+    /// Writes the LevelMapping: floor, walls, the hero, then all types that levels place.
+    fn map_symbols(&self, description: &mut Description, nouns: &Nouns) -> BTreeMap<String, char> {
+        let maps = self.kernel.levels.iter().filter_map(|level| level.map(self.values).ok());
+        let placed: BTreeSet<String> = maps
+            .flat_map(|map| map.types().map(str::to_owned).collect::<Vec<_>>())
+            .chain(self.kernel.legend.values().cloned())
+            .chain(self.kernel.divider.clone())
+            .collect();
+        let own: Vec<String> =
+            description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone()).collect();
+        let interactions = description.interactions.clone();
+        let mentioned: BTreeSet<&str> = interactions
+            .iter()
+            .flat_map(|line| line.second.iter().chain([&line.first]))
+            .map(|word| word.text.as_str())
+            .collect();
+        let mut symbols = BTreeMap::from([("wall".to_owned(), 'w'), ("hero".to_owned(), 'A')]);
+        let mut taken = vec!['.', 'w', 'A'];
+        description.mapping.clear();
+        let mut line = |symbol, names: &[&str]| {
+            let names = names.iter().map(|&name| name.into()).collect();
+            description.mapping.push(MappingLine { symbol, names, ..MappingLine::default() });
+        };
+        line('.', &["floor"]);
+        line('w', &[nouns["wall"].as_str()]);
+        line('A', &["floor", "hero"]);
+        for stype in own
+            .iter()
+            .filter(|stype| placed.contains(*stype) && !symbols.contains_key(*stype))
+            .collect::<Vec<_>>()
+        {
+            let symbol = palette::symbol(&nouns[stype], &taken);
+            taken.push(symbol);
+            // Floor is not seen under what no rule moves or removes.
+            match mentioned.contains(stype.as_str()) {
+                true => line(symbol, &["floor", stype]),
+                false => line(symbol, &[stype]),
+            }
+            symbols.insert(stype.clone(), symbol);
+        }
+        symbols
+    }
+}
+
+/// Indents the lines of a section below its name, whatever their indentation in the file.
+fn indented(lines: &str) -> String {
+    let depth = |line: &str| line.len() - line.trim_start().len();
+    let least = lines.lines().filter(|line| !line.trim().is_empty()).map(depth).min().unwrap_or(0);
+    let is_name = |line: &str| line.ends_with("Set") || line == "LevelMapping";
+    let line = |line: &str| {
+        let margin = if is_name(line) { 4 } else { 8 };
+        format!("{}{}\n", " ".repeat(margin), &line[least..])
+    };
+    lines.lines().filter(|line| !line.trim().is_empty()).map(line).collect()
+}
+
+fn color_lines(
+    lines: &mut [SpriteLine],
+    roles: &BTreeMap<&str, &Casting>,
+    floor: &str,
+    taken: &mut Vec<String>,
+) {
+    for line in lines {
+        let name = line.name.text.as_str();
+        let color = match (name, roles.get(name)) {
+            ("floor", _) => Some(floor.to_owned()),
+            ("wall", _) | (_, None) => None,
+            (_, Some(casting)) => {
+                let role = match casting {
+                    Casting::Role(role) => role.as_str(),
+                    Casting::State { of, .. } => match roles.get(of.as_str()) {
+                        Some(Casting::Role(role)) => role.as_str(),
+                        _ => of.as_str(),
+                    },
+                };
+                let color = super::vocabulary::color(role, taken);
+                taken.push(color.to_owned());
+                Some(color.to_owned())
+            }
+        };
+        line.params.extend(color.map(|color| Param::new("color", color)));
+        color_lines(&mut line.children, roles, floor, taken);
+    }
+}
+
+/// Reads from the rules what builders of levels have to know.
+fn traits(description: &Description) -> Traits {
+    let mut traits = Traits::default();
+    for (_, line) in description.sprite_lines() {
+        traits.present.insert(line.name.text.clone());
+        let param = |key: &str| {
+            line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.as_str())
+        };
+        if line.class.as_ref().is_some_and(|class| class.text == "Missile") {
+            let upright = matches!(param("orientation"), Some("UP" | "DOWN"));
+            traits.lanes.insert(line.name.text.clone(), upright);
+        }
+    }
+    for line in &description.interactions {
+        let hero = |name: &str| matches!(name, "hero" | "avatar");
+        let partners = line.second.iter().map(|word| word.text.clone());
+        match line.effect.text.as_str() {
+            "stepBack" | "undoAll" if hero(&line.first.text) => traits.solid.extend(partners),
+            "bounceForward" if line.second.iter().any(|word| hero(&word.text)) => {
+                traits.solid.insert(line.first.text.clone());
+            }
+            "killSprite" | "killBoth" if hero(&line.first.text) => traits.deadly.extend(partners),
+            _ => {}
+        }
+    }
+    traits
+}

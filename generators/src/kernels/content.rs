@@ -1,0 +1,17 @@
+//! The files of kernels and scenes that this crate embeds.
+
+use include_dir::{Dir, include_dir};
+
+/// The files of kernels.
+pub(crate) static KERNELS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/kernels");
+/// The files of scenes.
+pub(crate) static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenes");
+
+/// The TOML files of a folder, by name without the ending, in the order of their names.
+pub(crate) fn files(folder: &'static Dir<'static>) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let file = |path: &'static std::path::Path| path.file_name()?.to_str()?.strip_suffix(".toml");
+    let mut files: Vec<(&str, &str)> =
+        folder.files().filter_map(|entry| Some((file(entry.path())?, entry.contents_utf8()?))).collect();
+    files.sort_unstable();
+    files.into_iter()
+}

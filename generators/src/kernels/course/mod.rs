@@ -1,0 +1,108 @@
+//! Levels from maps: a graph of rooms laid out on a board, built, and furnished.
+
+mod embedding;
+mod furniture;
+mod room;
+
+use super::kernel::Kernel;
+use super::map::Map;
+use embedding::Embedding;
+use engine::Seed;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The greatest number of columns and rows of a level.
+const LARGEST: (usize, usize) = (24, 14);
+/// The number of layouts to draw for a map.
+const DRAWS: u64 = 24;
+
+/// A cell, as column and row.
+pub(crate) type Cell = (usize, usize);
+
+/// What builders of levels have to know about the types of a game.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Traits {
+    /// The types that the game has.
+    pub(crate) present: BTreeSet<String>,
+    /// The types that stop the hero, or that it pushes.
+    pub(crate) solid: BTreeSet<String>,
+    /// The types whose touch kills the hero.
+    pub(crate) deadly: BTreeSet<String>,
+    /// The types that go to and fro, with `true` for up and down.
+    pub(crate) lanes: BTreeMap<String, bool>,
+}
+
+/// A board of named types; `None` is floor.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Board {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    cells: Vec<Option<String>>,
+}
+
+impl Board {
+    fn walls(columns: usize, rows: usize) -> Board {
+        Board { columns, rows, cells: vec![Some("wall".to_owned()); columns * rows] }
+    }
+
+    /// The type in a cell; `None` is floor.
+    pub(crate) fn at(&self, (x, y): Cell) -> Option<&str> {
+        self.cells[y * self.columns + x].as_deref()
+    }
+
+    fn put(&mut self, (x, y): Cell, stype: Option<&str>) {
+        self.cells[y * self.columns + x] = stype.map(str::to_owned);
+    }
+
+    fn is_wall(&self, cell: Cell) -> bool {
+        self.at(cell) == Some("wall")
+    }
+
+    fn is_floor(&self, cell: Cell) -> bool {
+        self.at(cell).is_none()
+    }
+
+    /// The cells beside a cell, within the board.
+    fn beside(&self, (x, y): Cell) -> impl Iterator<Item = Cell> + use<> {
+        let (columns, rows) = (self.columns, self.rows);
+        let steps = [(1, 0), (-1, 0), (0, 1), (0, -1)];
+        steps.into_iter().filter_map(move |(dx, dy): (isize, isize)| {
+            let (x, y) = (x.checked_add_signed(dx)?, y.checked_add_signed(dy)?);
+            (x < columns && y < rows).then_some((x, y))
+        })
+    }
+
+    /// The number of steps from a cell to every cell that is reached through cells which `open` accepts.
+    fn steps_from(&self, start: Cell, open: impl Fn(Cell) -> bool) -> BTreeMap<Cell, usize> {
+        let mut steps = BTreeMap::from([(start, 0)]);
+        let mut front = vec![start];
+        let mut step = 0;
+        while !front.is_empty() {
+            step += 1;
+            let mut next = Vec::new();
+            for cell in front {
+                for beside in self.beside(cell) {
+                    if open(beside) && !steps.contains_key(&beside) {
+                        steps.insert(beside, step);
+                        next.push(beside);
+                    }
+                }
+            }
+            front = next;
+        }
+        steps
+    }
+}
+
+/// Lays out a map; `None` if no layout that was drawn has room for everything.
+pub(crate) fn lay_out(map: &Map, kernel: &Kernel, traits: &Traits, seed: Seed) -> Option<Board> {
+    (0..DRAWS).find_map(|draw| {
+        let sampler = &mut seed.child("layout", draw).sampler();
+        let needs: Vec<(usize, usize)> =
+            map.rooms.iter().map(|room| room::least_size(room, kernel, sampler)).collect();
+        let embedding = Embedding::draw(map, &needs, LARGEST, sampler)?;
+        let mut board = Board::walls(embedding.columns, embedding.rows);
+        let openings = room::build(map, kernel, traits, &embedding, &mut board, sampler)?;
+        furniture::furnish(map, traits, &embedding, &openings, &mut board, sampler)?;
+        Some(board)
+    })
+}

@@ -1,0 +1,171 @@
+//! Genomes of games: the representation that a search varies.
+
+use super::compose::{Choices, Course};
+use super::kernel::Kernel;
+use super::scene::Scene;
+use crate::GenerateError;
+use crate::games::Kind;
+use engine::{Description, Digest, Game, Sampler, Seed, syntax};
+
+/// The ticks of a game whose levels nobody has played yet.
+const LONG: u32 = 400;
+
+/// A game with its words, and what its levels are built of.
+#[derive(Clone, Debug)]
+pub struct KernelGame {
+    /// The rules; they compile without errors or warnings.
+    pub description: Description,
+    /// The title.
+    pub title: String,
+    /// The scene, the dilemma and the facts, in a few sentences.
+    pub summary: String,
+    /// The instructions for winning, in one sentence.
+    pub goal: String,
+    /// The kind of game.
+    pub kind: Kind,
+    /// `true` if something moves even when the player does not act.
+    pub real_time: bool,
+    /// The names of the kernel, its variants and the scene.
+    pub patterns: Vec<String>,
+    /// The maps of its levels.
+    pub course: Course,
+}
+
+/// A game as a list of choices: a kernel with its variants and numbers, and a scene with its nouns.
+///
+/// The same genome builds the same game on every machine.
+#[derive(Clone, Debug)]
+pub struct KernelGenome {
+    pub(crate) kernel: &'static Kernel,
+    /// The indices of the kernel's variants that the game has, in order.
+    pub(crate) variants: Vec<usize>,
+    /// The values of the kernel's numbers.
+    pub(crate) values: Vec<u32>,
+    pub(crate) scene: &'static Scene,
+    pub(crate) nouns: Seed,
+    /// The ticks after which the game is lost.
+    pub(crate) time: u32,
+}
+
+impl KernelGenome {
+    /// Draws a kernel of one of the kinds, its numbers and a scene.
+    ///
+    /// # Errors
+    /// If no kernel of these kinds has a scene.
+    pub fn draw(kinds: &[Kind], seed: Seed) -> Result<KernelGenome, GenerateError> {
+        let staged = |kernel: &&Kernel| kinds.contains(&kernel.kind) && Scene::of(kernel).next().is_some();
+        let kernels: Vec<&'static Kernel> = Kernel::all().iter().filter(staged).collect();
+        if kernels.is_empty() {
+            return Err(GenerateError::Unsuitable("no kernel is of the kinds that are allowed".to_owned()));
+        }
+        let sampler = &mut seed.child("genome", 0).sampler();
+        Ok(KernelGenome::of(kernels[sampler.below(kernels.len())], sampler))
+    }
+
+    /// Draws a game of a kernel that has scenes.
+    pub(crate) fn of(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
+        let scenes: Vec<&'static Scene> = Scene::of(kernel).collect();
+        KernelGenome {
+            kernel,
+            variants: (0..kernel.variants.len()).filter(|_| sampler.ratio(1, 3)).collect(),
+            values: kernel.numbers.draw(sampler),
+            scene: scenes[sampler.below(scenes.len())],
+            nouns: Seed::from_text("nouns").child("draw", sampler.bits()),
+            time: LONG,
+        }
+    }
+
+    /// The kind of game.
+    pub fn kind(&self) -> Kind {
+        self.kernel.kind
+    }
+
+    /// The same game with another limit of ticks.
+    #[must_use]
+    pub fn timed(&self, ticks: u32) -> KernelGenome {
+        KernelGenome { time: ticks, ..self.clone() }
+    }
+
+    /// Builds the game. Cost: well under a millisecond.
+    ///
+    /// # Errors
+    /// If the rules do not compile, or if the compiler or the analysis warns about them, for example that the game cannot
+    /// be won.
+    pub fn build(&self) -> Result<KernelGame, GenerateError> {
+        let composed = self.choices().compose()?;
+        // Compiles the printed text: frozen games are compiled from it.
+        let game = Game::from_source(&syntax::print(&composed.description)).map_err(|problems| {
+            GenerateError::Unlucky(format!(
+                "kernel {}: the rules do not compile: {problems}",
+                self.kernel.name
+            ))
+        })?;
+        if let Some(warning) = game.warnings().first() {
+            let message =
+                format!("kernel {}: the rules compile with a warning: {}", self.kernel.name, warning.message);
+            return Err(GenerateError::Unlucky(message));
+        }
+        let variants = self.variants.iter().map(|&at| format!("variant/{}", self.kernel.variants[at].name));
+        let patterns = [format!("kernel/{}", self.kernel.name)].into_iter().chain(variants);
+        Ok(KernelGame {
+            real_time: has_movers(&composed.description),
+            description: composed.description,
+            title: composed.title,
+            summary: composed.summary,
+            goal: composed.goal,
+            kind: self.kernel.kind,
+            patterns: patterns.chain([format!("scene/{}", self.scene.name)]).collect(),
+            course: composed.course,
+        })
+    }
+
+    /// The digest of the printed rules: genomes with the same key build the same rules under the same names.
+    pub fn key(&self) -> Digest {
+        let text = self.choices().compose().map(|composed| syntax::print_bare(&composed.description));
+        Digest::of(text.unwrap_or_default().as_bytes())
+    }
+
+    fn choices(&self) -> Choices<'_> {
+        Choices {
+            kernel: self.kernel,
+            variants: &self.variants,
+            values: &self.values,
+            scene: self.scene,
+            nouns: self.nouns,
+            time: self.time,
+        }
+    }
+}
+
+/// Builds the game of a kernel file under the names of its types, for authors of kernels, with all or none of its variants.
+///
+/// # Errors
+/// The faults of the file, or of its rules.
+pub fn preview(
+    name: &str,
+    text: &str,
+    variants: bool,
+    seed: Seed,
+) -> Result<(String, Course), GenerateError> {
+    let kernel = Kernel::read(name, text).map_err(|fault| GenerateError::Unsuitable(fault.to_string()))?;
+    let kernel: &'static Kernel = Box::leak(Box::new(kernel));
+    let scene: &'static Scene = Box::leak(Box::new(Scene::plain(kernel)));
+    let variants = if variants { (0..kernel.variants.len()).collect() } else { Vec::new() };
+    let values = kernel.numbers.draw(&mut seed.sampler());
+    let genome = KernelGenome { kernel, variants, values, scene, nouns: seed, time: LONG };
+    let game = genome.build()?;
+    let mut description = game.description;
+    description.header.trivia.above.extend([game.title, game.summary, game.goal]);
+    Ok((syntax::print(&description), game.course))
+}
+
+/// Tests whether anything moves, appears or ends by itself.
+fn has_movers(description: &Description) -> bool {
+    const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
+    let moves = |class: &str| !STILL.contains(&class) && !class.ends_with("Avatar");
+    description
+        .sprite_lines()
+        .iter()
+        .filter_map(|(_, line)| line.class.as_ref())
+        .any(|class| moves(&class.text))
+}

@@ -1,0 +1,301 @@
+//! A kernel: a small set of coupled rules round one dilemma, with the maps of its levels.
+//!
+//! It is a file of `generators/kernels/`: rules in VGDL without names of any scene, the role of every type, and for
+//! each of five slots the maps that argue the dilemma. `docs/kernels.md` is the manual.
+
+use super::map::Map;
+use super::template::{Numbers, Template};
+use crate::games::Kind;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+/// A kernel, ready for drawing numbers and nouns.
+#[derive(Debug)]
+pub(crate) struct Kernel {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+    /// The one sentence that says the whole game, with nouns as `<type>`.
+    pub(crate) dilemma: String,
+    pub(crate) goal: String,
+    pub(crate) facts: Vec<String>,
+    pub(crate) titles: Vec<String>,
+    /// The type that rooms are divided by, instead of walls.
+    pub(crate) divider: Option<String>,
+    pub(crate) rules: Sections,
+    pub(crate) roles: BTreeMap<String, Casting>,
+    pub(crate) pieces: BTreeMap<String, Vec<String>>,
+    pub(crate) legend: BTreeMap<char, String>,
+    pub(crate) levels: Vec<LevelPlan>,
+    pub(crate) variants: Vec<Variant>,
+    pub(crate) numbers: Numbers,
+}
+
+/// The lines of the sections of a game, without LevelMapping; indented as in their file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Sections {
+    pub(crate) sprites: Template,
+    pub(crate) interactions: Template,
+    pub(crate) terminations: Template,
+}
+
+/// The way in which a type gets its noun.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+pub(crate) enum Casting {
+    /// The scene's noun for this role.
+    Role(String),
+    /// Another state of a type.
+    State {
+        /// The type, or a role that no other type has.
+        of: String,
+        /// The word before its noun.
+        adjective: String,
+    },
+}
+
+/// The intent of a level in a course of five.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
+#[serde(rename_all = "kebab-case")]
+pub enum Slot {
+    /// The trick in its safe and small form.
+    Introduce,
+    /// The same where a mistake costs.
+    Confirm,
+    /// Together with another mechanic.
+    Combine,
+    /// The known thing used the other way round.
+    Twist,
+    /// Everything, with little slack.
+    Exam,
+}
+
+impl Slot {
+    /// The slots in the order of a course.
+    pub const ALL: [Slot; 5] = [Slot::Introduce, Slot::Confirm, Slot::Combine, Slot::Twist, Slot::Exam];
+}
+
+/// The map of a level, and its question to the player.
+#[derive(Debug)]
+pub(crate) struct LevelPlan {
+    pub(crate) slot: Slot,
+    pub(crate) asks: String,
+    map: Template,
+}
+
+/// Rules that deepen the dilemma of some games.
+#[derive(Debug)]
+pub(crate) struct Variant {
+    pub(crate) name: String,
+    pub(crate) fact: String,
+    /// Interactions before those of the kernel.
+    pub(crate) first: Template,
+    pub(crate) rules: Sections,
+    pub(crate) roles: BTreeMap<String, Casting>,
+}
+
+/// A fault in a kernel file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("kernel {kernel}: {message}")]
+pub(crate) struct KernelError {
+    kernel: String,
+    message: String,
+}
+
+/// The file as written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    kind: Kind,
+    dilemma: String,
+    goal: String,
+    #[serde(default)]
+    facts: Vec<String>,
+    titles: Vec<String>,
+    divider: Option<String>,
+    rules: String,
+    roles: BTreeMap<String, Casting>,
+    #[serde(default)]
+    pieces: BTreeMap<String, String>,
+    #[serde(default)]
+    legend: BTreeMap<char, String>,
+    level: Vec<LevelFile>,
+    #[serde(default)]
+    variant: Vec<VariantFile>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LevelFile {
+    slot: Slot,
+    asks: String,
+    map: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VariantFile {
+    name: String,
+    fact: String,
+    #[serde(default)]
+    sprites: String,
+    #[serde(default)]
+    first: String,
+    #[serde(default)]
+    interactions: String,
+    #[serde(default)]
+    terminations: String,
+    #[serde(default)]
+    roles: BTreeMap<String, Casting>,
+}
+
+impl Kernel {
+    /// The kernels of this crate, by name.
+    pub(crate) fn all() -> &'static [Kernel] {
+        static ALL: OnceLock<Vec<Kernel>> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let files = super::content::files(&super::content::KERNELS);
+            files
+                .map(|(name, text)| Kernel::read(name, text).unwrap_or_else(|fault| panic!("{fault}")))
+                .collect()
+        })
+    }
+
+    /// Reads a kernel file.
+    ///
+    /// # Errors
+    /// The first fault: of the format, of a number, of a map, or a slot without a level.
+    pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
+        let fail = |message: String| KernelError { kernel: name.to_owned(), message };
+        let file: File = toml::from_str(text).map_err(|error| fail(error.to_string()))?;
+        let mut numbers = Numbers::default();
+        let mut template = |text: &str| Template::read(text, &mut numbers).map_err(fail);
+        let [sprites, interactions, terminations] = split(&file.rules).map_err(fail)?;
+        let rules = Sections {
+            sprites: template(&sprites)?,
+            interactions: template(&interactions)?,
+            terminations: template(&terminations)?,
+        };
+        let variants = file.variant.into_iter().map(|variant| {
+            Ok(Variant {
+                name: variant.name,
+                fact: variant.fact,
+                first: template(&variant.first)?,
+                rules: Sections {
+                    sprites: template(&variant.sprites)?,
+                    interactions: template(&variant.interactions)?,
+                    terminations: template(&variant.terminations)?,
+                },
+                roles: variant.roles,
+            })
+        });
+        let variants = variants.collect::<Result<_, _>>()?;
+        let levels = file
+            .level
+            .into_iter()
+            .map(|level| Ok(LevelPlan { slot: level.slot, asks: level.asks, map: template(&level.map)? }));
+        let levels: Vec<LevelPlan> = levels.collect::<Result<_, _>>()?;
+        let mut roles = file.roles;
+        roles.remove("avatar");
+        roles.entry("hero".to_owned()).or_insert_with(|| Casting::Role("hero".to_owned()));
+        let rows = |(name, piece): (String, String)| {
+            let rows: Vec<String> =
+                piece.lines().filter(|row| !row.trim().is_empty()).map(str::to_owned).collect();
+            (name, rows)
+        };
+        let kernel = Kernel {
+            name: name.to_owned(),
+            kind: file.kind,
+            dilemma: file.dilemma,
+            goal: file.goal,
+            facts: file.facts,
+            titles: file.titles,
+            divider: file.divider,
+            rules,
+            roles,
+            pieces: file.pieces.into_iter().map(rows).collect(),
+            legend: file.legend,
+            levels,
+            variants,
+            numbers,
+        };
+        kernel.check().map_err(fail)?;
+        Ok(kernel)
+    }
+
+    /// Checks that every slot has a level, and that maps and pieces can be drawn.
+    fn check(&self) -> Result<(), String> {
+        for slot in Slot::ALL {
+            if !self.levels.iter().any(|level| level.slot == slot) {
+                return Err(format!("no level of slot {slot:?}"));
+            }
+        }
+        for (name, rows) in &self.pieces {
+            let width = rows.first().map_or(0, |row| row.chars().count());
+            if width == 0 || rows.iter().any(|row| row.chars().count() != width) {
+                return Err(format!("the rows of piece `{name}` differ in length"));
+            }
+            let unknown = rows
+                .iter()
+                .flat_map(|row| row.chars())
+                .find(|&symbol| symbol != '.' && symbol != '#' && !self.legend.contains_key(&symbol));
+            if let Some(symbol) = unknown {
+                return Err(format!("`{symbol}` of piece `{name}` is not in the legend"));
+            }
+        }
+        let least: Vec<u32> = self.numbers.0.iter().map(|number| number.least).collect();
+        for level in &self.levels {
+            let map = level.map(&least)?;
+            for room in &map.rooms {
+                if let Some(piece) =
+                    room.piece.as_ref().filter(|piece| !self.pieces.contains_key(&piece.name))
+                {
+                    return Err(format!("there is no piece `{}`", piece.name));
+                }
+            }
+            if let Some(stype) = map.types().find(|stype| !self.knows(stype)) {
+                return Err(format!("a map of slot {:?} places `{stype}`, which is no type", level.slot));
+            }
+        }
+        if let Some(stype) = self.legend.values().find(|stype| !self.knows(stype)) {
+            return Err(format!("the legend names `{stype}`, which is no type"));
+        }
+        Ok(())
+    }
+
+    /// Tests whether the kernel or one of its variants has a type.
+    fn knows(&self, stype: &str) -> bool {
+        stype == "wall"
+            || self.roles.contains_key(stype)
+            || self.variants.iter().any(|variant| variant.roles.contains_key(stype))
+    }
+}
+
+impl LevelPlan {
+    /// The map with these numbers.
+    pub(crate) fn map(&self, values: &[u32]) -> Result<Map, String> {
+        Map::read(&self.map.fill(values)).map_err(|fault| format!("slot {:?}: {fault}", self.slot))
+    }
+}
+
+/// Splits rules at the names of their sections.
+fn split(rules: &str) -> Result<[String; 3], String> {
+    const NAMES: [&str; 3] = ["SpriteSet", "InteractionSet", "TerminationSet"];
+    let mut sections = [const { String::new() }; 3];
+    let mut current = None;
+    for line in rules.lines().filter(|line| !line.trim().is_empty() && !line.trim().starts_with('#')) {
+        match NAMES.iter().position(|name| line.trim_end() == *name) {
+            Some(section) => current = Some(section),
+            None => {
+                let section =
+                    current.ok_or_else(|| format!("`{}` stands before any section", line.trim()))?;
+                sections[section].push_str(line.trim_end());
+                sections[section].push('\n');
+            }
+        }
+    }
+    match sections.iter().position(String::is_empty) {
+        Some(empty) => Err(format!("the rules have no {}", NAMES[empty])),
+        None => Ok(sections),
+    }
+}

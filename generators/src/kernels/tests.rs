@@ -1,0 +1,109 @@
+//! Properties of all kernels and scenes.
+
+use super::genome::KernelGenome;
+use super::kernel::Kernel;
+use super::scene::Scene;
+use super::{Slot, preview};
+use engine::{Game, Seed, syntax};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The least number of scenes that a kernel can be set in.
+const SCENES: usize = 3;
+/// The least number of kernels that a scene is for.
+const KERNELS: usize = 4;
+
+#[test]
+fn there_are_enough_kernels_and_scenes() {
+    let kernels = Kernel::all();
+    assert!(kernels.len() >= 30 && Scene::all().len() >= 40, "{} and {}", kernels.len(), Scene::all().len());
+    for kernel in kernels {
+        let scenes = Scene::of(kernel).count();
+        assert!(scenes >= SCENES, "{}: {scenes} scenes", kernel.name);
+    }
+    for scene in Scene::all() {
+        let fitting = kernels.iter().filter(|kernel| scene.fits(kernel)).count();
+        assert!(fitting >= KERNELS, "{}: {fitting} kernels", scene.name);
+        let named: BTreeSet<&String> = scene.kernels.keys().collect();
+        let known = |name: &&String| kernels.iter().any(|kernel| kernel.name == **name && scene.fits(kernel));
+        assert!(named.iter().all(known), "{}: a kernel that is none, or a role without a noun", scene.name);
+    }
+}
+
+#[test]
+fn no_title_of_a_scene_is_taken_twice() {
+    let mut taken: BTreeMap<&str, &str> = BTreeMap::new();
+    for scene in Scene::all() {
+        for title in &scene.titles {
+            let other = taken.insert(title, &scene.name);
+            assert_eq!(other, None, "{title} of {}", scene.name);
+        }
+    }
+}
+
+/// In every scene, with every noun: the rules compile without warnings, and the words name types only.
+#[test]
+fn every_kernel_builds_in_every_scene() {
+    for kernel in Kernel::all() {
+        for (number, scene) in (0..).zip(Scene::of(kernel)) {
+            let seed = Seed::from_text(&kernel.name).child("scene", number);
+            let genome = KernelGenome { scene, ..KernelGenome::of(kernel, &mut seed.sampler()) };
+            let game =
+                genome.build().unwrap_or_else(|error| panic!("{} in {}: {error}", kernel.name, scene.name));
+            let text = syntax::print(&game.description);
+            for text in [&game.title, &game.summary, &game.goal] {
+                assert!(!text.contains(['<', '>', '{', '}']) && !text.contains("  "), "{text}");
+            }
+            assert!(Game::from_source(&text).unwrap().warnings().is_empty());
+        }
+    }
+}
+
+/// Each map of each slot can be laid out with its own game.
+#[test]
+fn every_map_becomes_levels() {
+    for kernel in Kernel::all() {
+        let seed = Seed::from_text(&kernel.name);
+        let genome = KernelGenome::of(kernel, &mut seed.sampler());
+        let built = genome.build().unwrap();
+        let game = Game::compile(&built.description).unwrap();
+        for slot in Slot::ALL {
+            let levels = (0..12).map(|number| built.course.level(slot, seed.child("level", number)));
+            let asked: BTreeSet<String> = levels
+                .filter_map(Result::ok)
+                .map(|level| {
+                    game.level(&level.text).unwrap_or_else(|problems| panic!("{}: {problems}", kernel.name));
+                    level.asks
+                })
+                .collect();
+            assert!(!asked.is_empty(), "{}: no level of slot {slot:?}", kernel.name);
+        }
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_game_and_levels() {
+    let draw = || {
+        let seed = Seed::from_text("twice");
+        let game = KernelGenome::draw(crate::games::Kind::ALL, seed).unwrap().build().unwrap();
+        let level = game.course.level(Slot::Exam, seed).map(|level| level.text).ok();
+        (syntax::print(&game.description), game.title, game.summary, level)
+    };
+    assert_eq!(draw(), draw());
+}
+
+#[test]
+fn a_faulty_kernel_is_refused_with_its_fault() {
+    let file = include_str!("../../kernels/weight-on-the-plate.toml");
+    let seed = Seed::from_text("faults");
+    assert!(preview("sound", file, false, seed).is_ok());
+    let check = |from: &str, to: &str, said: &str| {
+        let altered = file.replacen(from, to, 1);
+        assert_ne!(altered, file, "{from}");
+        let error = preview("faulty", &altered, false, seed).unwrap_err().to_string();
+        assert!(error.contains("kernel faulty") && error.contains(said), "{error}");
+    };
+    check("kind =", "sort =", "unknown field `sort`");
+    check("slot = \"exam\"", "slot = \"final\"", "unknown variant `final`");
+    check(": hero", ": hero@nowhere", "there is no place `@nowhere`");
+    check("TerminationSet", "", "the rules have no TerminationSet");
+}

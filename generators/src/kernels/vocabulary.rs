@@ -1,0 +1,53 @@
+//! The roles of kernels and scenes, and their colours.
+
+/// The colours of VGDL, those that stand out from floors first.
+const COLORS: [&str; 20] = [
+    "YELLOW",
+    "RED",
+    "LIGHTBLUE",
+    "PINK",
+    "ORANGE",
+    "LIGHTGREEN",
+    "WHITE",
+    "GOLD",
+    "BLUE",
+    "LIGHTRED",
+    "BROWN",
+    "LIGHTORANGE",
+    "DARKGREEN",
+    "LIGHTYELLOW",
+    "DARKBLUE",
+    "LIGHTGRAY",
+    "GREEN",
+    "GRAY",
+    "BLACK",
+    "DARKGRAY",
+];
+
+/// The colours that suit roles.
+const SUITING: &[(&[&str], &[&str])] = &[
+    (&["hero"], &["GREEN", "LIGHTGREEN"]),
+    (&["exit", "haven", "outlet", "portal"], &["LIGHTBLUE", "BLUE"]),
+    (&["key", "prize", "coin", "treasure"], &["GOLD", "YELLOW", "LIGHTYELLOW"]),
+    (&["door", "gate", "crate", "bridge", "soil", "plot"], &["BROWN", "ORANGE", "LIGHTORANGE"]),
+    (&["gulf", "pit", "shade", "flood"], &["DARKBLUE", "BLACK", "BLUE"]),
+    (&["ice", "pane", "screen"], &["LIGHTBLUE", "WHITE"]),
+    (&["rubble", "guard", "plate", "socket"], &["LIGHTGRAY", "GRAY", "DARKGRAY"]),
+    (&["hunter", "fire", "pest", "thief"], &["RED", "LIGHTRED"]),
+    (&["patrol", "stroller", "beast", "rival", "shooter"], &["LIGHTRED", "ORANGE", "PINK", "RED"]),
+    (&["sleeper", "nest"], &["GRAY", "DARKGRAY", "DARKGREEN"]),
+    (&["friend", "cargo", "customer", "prey", "keeper"], &["PINK", "LIGHTYELLOW", "LIGHTORANGE"]),
+    (&["shot", "bolt", "blast", "charge", "embers"], &["ORANGE", "LIGHTORANGE"]),
+    (&["plant", "seed", "food", "bait", "trail"], &["DARKGREEN", "LIGHTGREEN"]),
+    (&["fuel", "lamp", "fireplace"], &["LIGHTYELLOW", "ORANGE", "YELLOW"]),
+    (&["remedy", "armour", "disguise", "tool", "ammo", "lever"], &["WHITE", "BLUE", "LIGHTGRAY"]),
+    (&["well"], &["BLUE", "LIGHTBLUE"]),
+];
+
+/// The colour of a type of this role that no other type has, as long as there are enough.
+pub(crate) fn color(role: &str, taken: &[String]) -> &'static str {
+    let suiting =
+        SUITING.iter().find(|(roles, _)| roles.contains(&role)).map_or(&[][..], |(_, colors)| colors);
+    let free = |color: &&&'static str| !taken.iter().any(|taken| taken == **color);
+    suiting.iter().find(free).or_else(|| COLORS.iter().find(free)).unwrap_or(&"WHITE")
+}
