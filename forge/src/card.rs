@@ -26,11 +26,12 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// The patterns of mechanics that a generated game was composed of, without duplicates: excluding its theme, and
-    /// the edits of search and shrinking.
+    /// The patterns of mechanics that a generated game was composed of, without duplicates: excluding its theme or
+    /// scene, and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
-        let kept = |pattern: &&str| !["edit/", "fiction/"].iter().any(|other| pattern.starts_with(other));
+        let kept =
+            |pattern: &&str| !["edit/", "fiction/", "scene/"].iter().any(|other| pattern.starts_with(other));
         patterns.iter().map(String::as_str).filter(kept).collect()
     }
 }

@@ -17,6 +17,9 @@ engine::with_defaults! {
         pub budget: u64 = 3_000_000,
         /// The share of them that may go into proving how many ticks the shortest win takes, in a deterministic game.
         pub shortest: f64 = 0.1,
+        /// The share of them that is kept for a search that foresees all chance of an episode, in a stochastic game.
+        #[serde(skip_serializing_if = "is_zero")]
+        pub foresight: f64 = 0.0,
         /// Look-ahead in ticks of the bold tree searches among the players that look for a win.
         pub depths: Vec<u32> = vec![20],
         /// Episodes of plain tree search that the card of a level reports.
@@ -67,6 +70,12 @@ pub const LEVEL_CRITERIA: &[&str] =
 
 /// The criteria of a game over all its levels, in the order of checking.
 pub const GAME_CRITERIA: &[&str] = &["skill-overall", "rule-use", "ablation"];
+
+/// Tests whether a share is 0, which files need not say.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(share: &f64) -> bool {
+    *share == 0.0
+}
 
 fn names(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.to_owned()).collect()

@@ -175,6 +175,7 @@ impl Panel {
         let search = PortfolioConfig {
             budget: c.budget,
             shortest: c.shortest,
+            foresight: c.foresight,
             decision: c.decision,
             depths: c.depths.clone(),
             ..PortfolioConfig::default()

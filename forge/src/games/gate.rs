@@ -1,12 +1,13 @@
 //! The last word on a game: levels for it, what it can do without, and the panel.
 
 use super::candidate::{Candidate, MadeGame};
-use super::levels::{FoundLevel, Levels};
+use super::levels::{FoundLevel, LevelSource, Levels};
 use super::order::GameOrder;
 use super::shrink::shrunk;
 use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
 use generators::games::GameGenome;
+use generators::kernels::KernelGenome;
 use std::collections::BTreeSet;
 use validators::game_measures::Guards;
 use validators::novelty::{GameForm, NEAR};
@@ -20,6 +21,9 @@ pub(super) struct GameGate<'a> {
     canary: &'a str,
     panel: Panel,
 }
+
+/// The ticks that a game of a kernel lasts, as a multiple of the longest win that is known of its levels.
+const TIME_PER_WIN: f64 = 1.7;
 
 /// The reason for turning down a game in which too little happens.
 const MEAGRE: &str = "meagre";
@@ -61,7 +65,7 @@ impl<'a> GameGate<'a> {
         let levels = Levels {
             count: self.order.levels,
             tries: self.order.level_tries,
-            config: &self.order.board.levels(),
+            source: LevelSource::Rules(&self.order.board.levels()),
             criteria: &self.order.criteria,
             panel: &self.panel,
             seed,
@@ -102,6 +106,63 @@ impl<'a> GameGate<'a> {
         made
     }
 
+    /// Finds a course of levels for a game of a kernel, sets its time limit by the wins found, and judges it; `None`, with the
+    /// reason in the tally, if anything stands in its way.
+    pub(super) fn judge_course(
+        &self,
+        genome: &KernelGenome,
+        number: u32,
+        seed: Seed,
+        tally: &mut Tally,
+    ) -> Option<MadeGame> {
+        let build = |genome: &KernelGenome| {
+            let made = genome.build().ok()?;
+            let course = made.course.clone();
+            Some((Candidate::composed(made, number).ok()?, course))
+        };
+        let Some((first, course)) = build(genome) else {
+            tally.game_rejected("the rules do not compile");
+            return None;
+        };
+        if self.is_known(&first) {
+            tally.game_rejected(NEAR_KNOWN);
+            return None;
+        }
+        let levels = Levels {
+            count: self.order.levels,
+            tries: self.order.level_tries,
+            source: LevelSource::Course(&course),
+            criteria: &self.order.criteria,
+            panel: &self.panel,
+            seed,
+        };
+        let found = levels.each(&first.game, tally)?;
+        let longest = found
+            .iter()
+            .filter_map(|found| found.report.witness.as_ref())
+            .map(|win| win.actions.len())
+            .max()?;
+        let ticks = (longest as f64 * TIME_PER_WIN / 10.0).ceil() as u32 * 10;
+        let (candidate, _) = build(&genome.timed(ticks))?;
+        let again = found.iter().map(|found| levels.again(&candidate.game, found, tally));
+        let Some(found) = again.collect::<Option<Vec<_>>>() else {
+            tally.game_rejected("time limit");
+            return None;
+        };
+        let together =
+            levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
+        if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {
+            tally.game_rejected(SECOND_JUDGES);
+            return None;
+        }
+        let found = levels.told(&candidate.game, found, together, tally);
+        let made = candidate.finish(found, self.canary);
+        if made.is_some() {
+            tally.game_accepted();
+        }
+        made
+    }
+
     fn is_known(&self, candidate: &Candidate) -> bool {
         let form = GameForm::of(&candidate.game);
         form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
@@ -123,9 +184,11 @@ fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::card::Origin;
+    use crate::games::make_games;
     use crate::levels::Method;
     use generators::Variation;
-    use generators::games::GameVariation;
+    use generators::games::{GameVariation, Kind};
     use validators::Criteria;
 
     /// Two levels, and few and weak players.
@@ -189,6 +252,29 @@ mod tests {
     }
 
     #[test]
+    fn a_game_of_a_kernel_has_a_course_and_time_for_it() {
+        let order = GameOrder::of_kernels(1);
+        let criteria =
+            Criteria { budget: 150_000, idle_plays: 4, random_plays: 10, ..order.criteria.clone() };
+        let order = GameOrder { levels: 2, kinds: vec![Kind::Demolition], criteria, ..order };
+        let seed = Seed::from_text("course");
+        let make = || make_games(&order, &[], "canary", seed, &()).unwrap().games.remove(0);
+        let made = make();
+        assert_eq!(made.text, make().text);
+        let Origin::Generated { generator, patterns, .. } = &made.card.origin else {
+            panic!("{:?}", made.card.origin)
+        };
+        assert!(generator == "kernels" && patterns[0].starts_with("kernel/"), "{patterns:?}");
+        assert!(made.card.levels.iter().all(|level| level.generator == "course"));
+        let limit =
+            made.game.description().terminations.iter().find(|line| line.class.text == "Timeout").unwrap();
+        let limit: usize = limit.params[0].value.text.parse().unwrap();
+        let wins = made.witnesses.iter().map(|witness| witness.actions.len());
+        let longest = wins.max().unwrap();
+        assert!((longest..=3 * longest).contains(&limit), "{longest} of {limit}");
+    }
+
+    #[test]
     fn second_judges_ask_again_what_chance_has_a_say_in() {
         let variation = GameVariation::default();
         let seed = Seed::from_text("gate");
@@ -201,7 +287,8 @@ mod tests {
             alter(&mut order.criteria);
             let GameOrder { levels: count, level_tries: tries, board, criteria, .. } = &order;
             let (config, panel) = (&board.levels(), &Panel::new(criteria).unwrap());
-            let levels = Levels { count: *count, tries: *tries, config, criteria, panel, seed };
+            let source = LevelSource::Rules(config);
+            let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed };
             levels.hold(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
         };
         assert!(hold(&|_| {}));

@@ -3,8 +3,9 @@
 use crate::card::LevelCard;
 use crate::tally::Tally;
 use engine::{Digest, Episode, Game, Level, Seed};
-use generators::Generator;
+use generators::kernels::{Course, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
+use generators::{GenerateError, Generator};
 use validators::{Criteria, Finding, Judgement, Panel, Rate, Report, SkillOverall, mcts_rate};
 
 /// A level that its judges let in.
@@ -14,6 +15,8 @@ pub struct FoundLevel {
     pub level: Level,
     /// The findings of its judges; its witness wins it.
     pub report: Report,
+    /// The generator that made it.
+    pub generator: &'static str,
     /// The difficulty that its generator was asked for, from 0 to 1.
     pub difficulty: f64,
     /// Its number among the candidates for its place, from 0.
@@ -33,14 +36,51 @@ pub struct FoundLevels {
     pub together: Vec<Judgement>,
 }
 
+/// The generator of the candidates for levels.
+#[derive(Clone, Copy)]
+pub enum LevelSource<'a> {
+    /// Levels from the rules alone; each place has a difficulty of its own.
+    Rules(&'a LevelConfig),
+    /// The maps of a kernel; each place has a slot.
+    Course(&'a Course),
+}
+
+impl LevelSource<'_> {
+    /// The name in cards.
+    fn name(self) -> &'static str {
+        match self {
+            LevelSource::Rules(_) => "constructive",
+            LevelSource::Course(_) => "course",
+        }
+    }
+}
+
+/// A generator of candidates for one place.
+enum PlaceGenerator<'a> {
+    Rules(Box<ConstructiveLevels<'a>>),
+    Course(&'a Course, Slot),
+}
+
+impl PlaceGenerator<'_> {
+    fn generate(&self, game: &Game, seed: Seed) -> Result<Level, GenerateError> {
+        match self {
+            PlaceGenerator::Rules(levels) => levels.generate(seed),
+            PlaceGenerator::Course(course, slot) => {
+                let text = course.level(*slot, seed)?.text;
+                game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))
+            }
+        }
+    }
+}
+
 /// The levels of one candidate game.
 pub struct Levels<'a> {
     /// The number of levels.
     pub count: u32,
     /// Candidates for each, at most.
     pub tries: u32,
-    /// The configuration of the generator; each place has a difficulty of its own.
-    pub config: &'a LevelConfig,
+    /// The generator of candidates.
+    pub source: LevelSource<'a>,
     /// The criteria that each level and all levels together have to meet.
     pub criteria: &'a Criteria,
     /// The judges of these criteria.
@@ -100,8 +140,10 @@ impl Levels<'_> {
         }
         levels.sort_by_key(|(number, _)| *number);
         let mut levels: Vec<FoundLevel> = levels.into_iter().map(|(_, level)| level).collect();
-        // What was asked for is a guess: how the ladder fared is known. Of equals, what was asked for.
-        levels.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
+        // What was asked for is a guess: how the ladder fared is known. Of equals, what was asked for. A course has an order.
+        if matches!(self.source, LevelSource::Rules(_)) {
+            levels.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
+        }
         Some(levels)
     }
 
@@ -180,8 +222,18 @@ impl Levels<'_> {
 
     fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<FoundLevel> {
         let difficulty = f64::from(number) / f64::from((self.count - 1).max(1));
-        let config = LevelConfig { difficulty, ..self.config.clone() };
-        let generator = match ConstructiveLevels::new(game, config) {
+        let generator = match self.source {
+            LevelSource::Rules(config) => {
+                let config = LevelConfig { difficulty, ..config.clone() };
+                ConstructiveLevels::new(game, config).map(|levels| PlaceGenerator::Rules(Box::new(levels)))
+            }
+            LevelSource::Course(course) => {
+                let last = Slot::ALL.len() - 1;
+                let slot = Slot::ALL[(difficulty * last as f64).round() as usize];
+                Ok(PlaceGenerator::Course(course, slot))
+            }
+        };
+        let generator = match generator {
             Ok(generator) => generator,
             Err(error) => {
                 tally.game_rejected(&error.to_string());
@@ -190,7 +242,7 @@ impl Levels<'_> {
         };
         for candidate in 0..self.tries {
             let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
-            let level = match generator.generate(seed.child("layout", 0)) {
+            let level = match generator.generate(game, seed.child("layout", 0)) {
                 Ok(level) if taken.contains(&level.digest()) => {
                     tally.level(0, Some("the same level twice"));
                     continue;
@@ -224,6 +276,7 @@ impl Levels<'_> {
         (obstacle.is_none() && report.witness.is_some()).then_some(FoundLevel {
             level,
             report,
+            generator: self.source.name(),
             difficulty,
             candidate,
             seed,
@@ -263,7 +316,7 @@ impl FoundLevel {
             digest: self.level.digest(),
             columns: self.level.columns(),
             rows: self.level.rows(),
-            generator: "constructive".to_owned(),
+            generator: self.generator.to_owned(),
             difficulty: self.difficulty,
             candidate: self.candidate,
             witness_ticks: witness.actions.len(),

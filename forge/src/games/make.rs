@@ -3,12 +3,13 @@
 use super::candidate::{MadeGame, Step};
 use super::gate::{GameGate, NEAR_KNOWN};
 use super::look::{Looker, axes};
-use super::order::GameOrder;
+use super::order::{GameOrder, RuleSource};
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search, spread};
 use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
 use generators::games::{GameConfig, GameGenome, GameVariation, Kind};
+use generators::kernels::KernelGenome;
 use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Variation};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -144,8 +145,22 @@ impl Maker<'_> {
         let mut attempted = Attempted { made: None, tally: Tally::default(), looks: 0 };
         let seed = self.seed.child("game", u64::from(number));
         for attempt in from..self.order.effort.attempts {
-            let variation = GameVariation::new(GameConfig { kinds: vec![self.kind(number, attempt)] });
             let seed = seed.child("attempt", u64::from(attempt));
+            if self.order.rules == RuleSource::Kernels {
+                let genome = KernelGenome::draw(&[self.kind(number, attempt)], seed.child("rules", 0));
+                let Ok(genome) = genome else { continue };
+                let judges = seed.child("judges", 0);
+                let made = self.gate.judge_course(&genome, attempt, judges, &mut attempted.tally);
+                self.progress.looked();
+                if let Some(mut made) = made {
+                    self.progress.made(&made.card.title);
+                    made.path = path([("game", number.into()), ("attempt", attempt.into()), ("judges", 0)]);
+                    attempted.made = Some((made, attempt + 1));
+                    return attempted;
+                }
+                continue;
+            }
+            let variation = GameVariation::new(GameConfig { kinds: vec![self.kind(number, attempt)] });
             let proposed: Vec<GameGenome> = match self.order.method {
                 Method::Constructive => self.drawn(&variation, seed, &mut attempted).into_iter().collect(),
                 _ => self.searched(&variation, seed.child("search", 0), &mut attempted),

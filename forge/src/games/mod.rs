@@ -15,6 +15,6 @@ mod shrink;
 pub mod report;
 
 pub use candidate::{Candidate, MadeGame, Step, marked};
-pub use levels::{FoundLevel, FoundLevels, Levels};
+pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{GameSet, GamesError, Progress, make_games, make_one};
-pub use order::{Board, GameEffort, GameOrder};
+pub use order::{Board, GameEffort, GameOrder, RuleSource};

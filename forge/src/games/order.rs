@@ -6,11 +6,23 @@ use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
 use validators::{Criteria, CriteriaError};
 
+/// The source of the rules of games.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RuleSource {
+    /// Patterns of mechanics, combined.
+    #[default]
+    Patterns,
+    /// Kernels in scenes, with courses of levels.
+    Kernels,
+}
+
 /// An order of games.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
     /// The method of making them.
     pub method: Method,
+    /// The source of their rules; kernels are drawn by the constructive method only.
+    pub rules: RuleSource,
     /// The number of games.
     pub count: u32,
     /// The kinds, which take turns.
@@ -72,6 +84,7 @@ impl GameOrder {
         };
         GameOrder {
             method,
+            rules: RuleSource::Patterns,
             count,
             kinds: Kind::ALL.to_vec(),
             levels: 5,
@@ -82,6 +95,21 @@ impl GameOrder {
             criteria: GameOrder::criteria_by_default(),
             effort: GameEffort { attempts, patience, looks: 24, batch: 4 },
         }
+    }
+
+    /// `count` games of kernels, five levels each.
+    pub fn of_kernels(count: u32) -> GameOrder {
+        let ask = ["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length"];
+        let criteria = Criteria {
+            ask: ask.map(str::to_owned).to_vec(),
+            budget: 1_000_000,
+            foresight: 0.4,
+            least_ticks: 16,
+            most_ticks: 160,
+            ..GameOrder::criteria_by_default()
+        };
+        let order = GameOrder::new(Method::Constructive, count);
+        GameOrder { rules: RuleSource::Kernels, level_tries: 16, criteria, ..order }
     }
 
     /// All criteria of a release, but somewhat stricter where chance has a say, so that judges with other dice find the same:

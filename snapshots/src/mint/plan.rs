@@ -12,7 +12,9 @@ use engine::{Game, Level, Sampler, Seed, syntax};
 use forge::Tally;
 use forge::card::Origin;
 use forge::games::Step;
-use forge::games::{Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, make_games, make_one};
+use forge::games::{
+    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, make_games, make_one,
+};
 use forge::levels::Method;
 use generators::games::Rethemed;
 use generators::levels::{Examples, LevelConfig};
@@ -297,7 +299,7 @@ impl<'a> Plan<'a> {
             let levels = Levels {
                 count: recipe.corpus.levels,
                 tries: recipe.corpus.level_tries,
-                config: &config,
+                source: LevelSource::Rules(&config),
                 criteria,
                 panel: &panel,
                 seed: seed.child("levels", u64::from(number)),
