@@ -5,7 +5,6 @@ use crate::card::{Card, Origin};
 use engine::{Description, Episode, Game, syntax};
 use generators::GenerateError;
 use generators::games::GeneratedGame;
-use generators::kernels::KernelGame;
 use validators::Judgement;
 
 /// A step from a seed to a child: purpose and index.
@@ -63,13 +62,6 @@ impl Candidate {
         let origin = Origin::Generated { generator: generator.to_owned(), patterns, candidate };
         let kind = kind.name().to_owned();
         Ok(Candidate { game, title, description: summary, goal, kind, real_time, origin })
-    }
-
-    /// A game of a kernel.
-    pub(crate) fn composed(made: KernelGame, candidate: u32) -> Result<Candidate, GenerateError> {
-        let KernelGame { description, title, summary, goal, kind, real_time, patterns, .. } = made;
-        let game = GeneratedGame { description, title, summary, goal, kind, real_time, patterns };
-        Candidate::generated(game, "kernels", candidate)
     }
 
     /// The game with its levels; none if its judges were not asked what cards tell.

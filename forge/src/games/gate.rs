@@ -7,7 +7,7 @@ use super::shrink::shrunk;
 use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
 use generators::games::GameGenome;
-use generators::kernels::KernelGenome;
+use generators::kernels::{KernelGame, KernelGenome};
 use std::collections::BTreeSet;
 use validators::game_measures::Guards;
 use validators::novelty::{GameForm, NEAR};
@@ -92,18 +92,7 @@ impl<'a> GameGate<'a> {
             tally.game_rejected(MEAGRE);
             return None;
         }
-        let together =
-            levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
-        if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {
-            tally.game_rejected(SECOND_JUDGES);
-            return None;
-        }
-        let found = levels.told(&candidate.game, found, together, tally);
-        let made = candidate.finish(found, self.canary);
-        if made.is_some() {
-            tally.game_accepted();
-        }
-        made
+        self.accept(candidate, &levels, found, tally)
     }
 
     /// Finds a course of levels for a game of a kernel, sets its time limit by the wins found, and judges it; `None`, with the
@@ -116,9 +105,8 @@ impl<'a> GameGate<'a> {
         tally: &mut Tally,
     ) -> Option<MadeGame> {
         let build = |genome: &KernelGenome| {
-            let made = genome.build().ok()?;
-            let course = made.course.clone();
-            Some((Candidate::composed(made, number).ok()?, course))
+            let KernelGame { game, course } = genome.build().ok()?;
+            Some((Candidate::generated(game, "kernels", number).ok()?, course))
         };
         let Some((first, course)) = build(genome) else {
             tally.game_rejected("the rules do not compile");
@@ -149,6 +137,18 @@ impl<'a> GameGate<'a> {
             tally.game_rejected("time limit");
             return None;
         };
+        self.accept(candidate, &levels, found, tally)
+    }
+
+    /// Judges a game over all its levels, by second judges too, and finishes it.
+    fn accept(
+        &self,
+        candidate: Candidate,
+        levels: &Levels<'_>,
+        found: Vec<FoundLevel>,
+        tally: &mut Tally,
+    ) -> Option<MadeGame> {
+        let seed = levels.seed;
         let together =
             levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
         if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {

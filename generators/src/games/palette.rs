@@ -25,7 +25,7 @@ pub(crate) fn free_symbol(name: &str, taken: &[char]) -> Option<char> {
 }
 
 /// The colours of VGDL, those that stand out from floors first.
-const COLORS: [&str; 20] = [
+pub(crate) const COLORS: [&str; 20] = [
     "YELLOW",
     "RED",
     "LIGHTBLUE",

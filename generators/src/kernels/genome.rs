@@ -4,29 +4,17 @@ use super::compose::{Choices, Course};
 use super::kernel::Kernel;
 use super::scene::Scene;
 use crate::GenerateError;
-use crate::games::Kind;
+use crate::games::{GeneratedGame, Kind};
 use engine::{Description, Digest, Game, Sampler, Seed, syntax};
 
 /// The ticks of a game whose levels nobody has played yet.
 const LONG: u32 = 400;
 
-/// A game with its words, and what its levels are built of.
+/// A game, and the maps of its levels.
 #[derive(Clone, Debug)]
 pub struct KernelGame {
-    /// The rules; they compile without errors or warnings.
-    pub description: Description,
-    /// The title.
-    pub title: String,
-    /// The scene, the dilemma and the facts, in a few sentences.
-    pub summary: String,
-    /// The instructions for winning, in one sentence.
-    pub goal: String,
-    /// The kind of game.
-    pub kind: Kind,
-    /// `true` if something moves even when the player does not act.
-    pub real_time: bool,
-    /// The names of the kernel, its variants and the scene.
-    pub patterns: Vec<String>,
+    /// The game; its patterns are the kernel, its variants and the scene.
+    pub game: GeneratedGame,
     /// The maps of its levels.
     pub course: Course,
 }
@@ -107,7 +95,7 @@ impl KernelGenome {
         }
         let variants = self.variants.iter().map(|&at| format!("variant/{}", self.kernel.variants[at].name));
         let patterns = [format!("kernel/{}", self.kernel.name)].into_iter().chain(variants);
-        Ok(KernelGame {
+        let game = GeneratedGame {
             real_time: has_movers(&composed.description),
             description: composed.description,
             title: composed.title,
@@ -115,8 +103,8 @@ impl KernelGenome {
             goal: composed.goal,
             kind: self.kernel.kind,
             patterns: patterns.chain([format!("scene/{}", self.scene.name)]).collect(),
-            course: composed.course,
-        })
+        };
+        Ok(KernelGame { game, course: composed.course })
     }
 
     /// The digest of the printed rules: genomes with the same key build the same rules under the same names.
@@ -153,10 +141,10 @@ pub fn preview(
     let variants = if variants { (0..kernel.variants.len()).collect() } else { Vec::new() };
     let values = kernel.numbers.draw(&mut seed.sampler());
     let genome = KernelGenome { kernel, variants, values, scene, nouns: seed, time: LONG };
-    let game = genome.build()?;
+    let KernelGame { game, course } = genome.build()?;
     let mut description = game.description;
     description.header.trivia.above.extend([game.title, game.summary, game.goal]);
-    Ok((syntax::print(&description), game.course))
+    Ok((syntax::print(&description), course))
 }
 
 /// Tests whether anything moves, appears or ends by itself.

@@ -1,6 +1,6 @@
 //! Properties of all kernels and scenes.
 
-use super::genome::KernelGenome;
+use super::genome::{KernelGame, KernelGenome};
 use super::kernel::Kernel;
 use super::scene::Scene;
 use super::{Slot, preview};
@@ -47,8 +47,10 @@ fn every_kernel_builds_in_every_scene() {
         for (number, scene) in (0..).zip(Scene::of(kernel)) {
             let seed = Seed::from_text(&kernel.name).child("scene", number);
             let genome = KernelGenome { scene, ..KernelGenome::of(kernel, &mut seed.sampler()) };
-            let game =
-                genome.build().unwrap_or_else(|error| panic!("{} in {}: {error}", kernel.name, scene.name));
+            let game = genome
+                .build()
+                .unwrap_or_else(|error| panic!("{} in {}: {error}", kernel.name, scene.name))
+                .game;
             let text = syntax::print(&game.description);
             for text in [&game.title, &game.summary, &game.goal] {
                 assert!(!text.contains(['<', '>', '{', '}']) && !text.contains("  "), "{text}");
@@ -65,7 +67,7 @@ fn every_map_becomes_levels() {
         let seed = Seed::from_text(&kernel.name);
         let genome = KernelGenome::of(kernel, &mut seed.sampler());
         let built = genome.build().unwrap();
-        let game = Game::compile(&built.description).unwrap();
+        let game = Game::compile(&built.game.description).unwrap();
         for slot in Slot::ALL {
             let levels = (0..12).map(|number| built.course.level(slot, seed.child("level", number)));
             let asked: BTreeSet<String> = levels
@@ -84,8 +86,9 @@ fn every_map_becomes_levels() {
 fn the_same_seed_gives_the_same_game_and_levels() {
     let draw = || {
         let seed = Seed::from_text("twice");
-        let game = KernelGenome::draw(crate::games::Kind::ALL, seed).unwrap().build().unwrap();
-        let level = game.course.level(Slot::Exam, seed).map(|level| level.text).ok();
+        let genome = KernelGenome::draw(crate::games::Kind::ALL, seed).unwrap();
+        let KernelGame { game, course } = genome.build().unwrap();
+        let level = course.level(Slot::Exam, seed).map(|level| level.text).ok();
         (syntax::print(&game.description), game.title, game.summary, level)
     };
     assert_eq!(draw(), draw());

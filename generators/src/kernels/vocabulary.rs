@@ -1,28 +1,6 @@
 //! The roles of kernels and scenes, and their colours.
 
-/// The colours of VGDL, those that stand out from floors first.
-const COLORS: [&str; 20] = [
-    "YELLOW",
-    "RED",
-    "LIGHTBLUE",
-    "PINK",
-    "ORANGE",
-    "LIGHTGREEN",
-    "WHITE",
-    "GOLD",
-    "BLUE",
-    "LIGHTRED",
-    "BROWN",
-    "LIGHTORANGE",
-    "DARKGREEN",
-    "LIGHTYELLOW",
-    "DARKBLUE",
-    "LIGHTGRAY",
-    "GREEN",
-    "GRAY",
-    "BLACK",
-    "DARKGRAY",
-];
+use crate::games::palette::COLORS;
 
 /// The colours that suit roles.
 const SUITING: &[(&[&str], &[&str])] = &[
