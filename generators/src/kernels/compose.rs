@@ -1,10 +1,11 @@
 //! From a kernel, its numbers and a scene to the rules and the words of a game.
 
 use super::course::{self, Board, Traits};
+use super::graft::Graft;
 use super::kernel::{Casting, Kernel, Slot};
 use super::phrase::{self, Nouns};
 use super::scene::Scene;
-use super::template::Template;
+use super::template;
 use crate::GenerateError;
 use crate::games::{english, palette};
 use engine::syntax::{self, MappingLine, Param, SpriteLine};
@@ -18,6 +19,7 @@ pub(crate) struct Choices<'a> {
     /// The indices of the variants that the game has.
     pub(crate) variants: &'a [usize],
     pub(crate) values: &'a [u32],
+    pub(crate) grafts: &'a [&'static Graft],
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     /// The ticks after which the game is lost, unless surviving them is the goal.
@@ -39,6 +41,7 @@ pub(crate) struct Composed {
 pub struct Course {
     kernel: &'static Kernel,
     values: Vec<u32>,
+    grafts: Vec<&'static Graft>,
     traits: Traits,
     nouns: Nouns,
     /// The characters of the types, by their names in the kernel.
@@ -65,7 +68,16 @@ impl Course {
     pub fn level(&self, slot: Slot, seed: Seed) -> Result<CourseLevel, GenerateError> {
         let plans: Vec<_> = self.kernel.levels.iter().filter(|level| level.slot == slot).collect();
         let plan = *seed.child("plan", 0).sampler().choose(&plans);
-        let map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?;
+        let mut map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?;
+        // What another kernel brings comes into play when the kernel's own trick is known.
+        if slot >= Slot::Combine {
+            let sampler = &mut seed.child("grafts", 0).sampler();
+            for graft in &self.grafts {
+                let items = graft.items.iter().map(|item| graft.placed(item));
+                let room = sampler.below(map.rooms.len());
+                map.rooms[room].items.extend(items);
+            }
+        }
         let board = course::lay_out(&map, self.kernel, &self.traits, seed).ok_or_else(|| {
             GenerateError::Unlucky(format!("no layout has room for a map of slot {slot:?}"))
         })?;
@@ -88,11 +100,14 @@ impl Choices<'_> {
     /// # Errors
     /// The rules cannot be read with these numbers, or the words name unknown types: faults of a kernel or a scene.
     pub(crate) fn compose(&self) -> Result<Composed, GenerateError> {
-        let text = self.rules();
-        let (mut description, problems) = syntax::parse(&text);
+        let (mut description, problems) = syntax::parse(&self.rules());
         if let Some(problem) = problems.first() {
             let message = format!("kernel {}: {}", self.kernel.name, problem.message);
             return Err(GenerateError::Unsuitable(message));
+        }
+        for graft in self.grafts {
+            description.sprites.extend(graft.sprites.iter().cloned());
+            description.interactions.extend(graft.interactions.iter().cloned());
         }
         let mut sampler = self.nouns.sampler();
         let nouns = self.cast(&mut sampler)?;
@@ -115,8 +130,16 @@ impl Choices<'_> {
         let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].fact);
         let facts = self.kernel.facts.iter().chain(variants);
         let sentences = [&self.scene.story, &self.kernel.dilemma].into_iter().chain(facts);
-        let summary =
+        let mut summary =
             sentences.map(|text| sentence(&self.fill_numbers(text))).collect::<Result<Vec<_>, _>>()?;
+        for graft in self.grafts {
+            let noun = |(from, to): (&String, &String)| Some((from.clone(), nouns.get(to)?.clone()));
+            let own: Nouns = graft.names.iter().filter_map(noun).collect();
+            for fact in &graft.facts {
+                let fact = phrase::fill(fact, &own).map_err(GenerateError::Unsuitable)?;
+                summary.push(phrase::sentence(&fact));
+            }
+        }
         Ok(Composed {
             title,
             summary: summary.join(" "),
@@ -124,6 +147,7 @@ impl Choices<'_> {
             course: Course {
                 kernel: self.kernel,
                 values: self.values.to_vec(),
+                grafts: self.grafts.to_vec(),
                 traits,
                 nouns: nouns.clone(),
                 symbols,
@@ -134,29 +158,12 @@ impl Choices<'_> {
 
     /// Fills the numbers of the kernel into a text.
     fn fill_numbers(&self, text: &str) -> String {
-        let numbers = &mut self.kernel.numbers.clone();
-        Template::read(text, numbers).map_or_else(|_| text.to_owned(), |text| text.fill(self.values))
+        template::filled(text, &self.kernel.numbers, self.values)
     }
 
     /// The rules as text, under the names of the kernel.
     fn rules(&self) -> String {
-        let variants: Vec<_> = self.variants.iter().map(|&variant| &self.kernel.variants[variant]).collect();
-        let mut text =
-            "BasicGame\n    SpriteSet\n        floor > Immovable\n        wall > Immovable\n".to_owned();
-        let mut add = |lines: &str| text.push_str(&indented(lines));
-        let rules = &self.kernel.rules;
-        add(&rules.sprites.fill(self.values));
-        variants.iter().for_each(|variant| add(&variant.rules.sprites.fill(self.values)));
-        // The characters of levels are chosen once the nouns are.
-        add("LevelMapping\n");
-        add(". > floor\n");
-        add("InteractionSet\n");
-        variants.iter().for_each(|variant| add(&variant.first.fill(self.values)));
-        add(&rules.interactions.fill(self.values));
-        variants.iter().for_each(|variant| add(&variant.rules.interactions.fill(self.values)));
-        add("TerminationSet\n");
-        add(&rules.terminations.fill(self.values));
-        variants.iter().for_each(|variant| add(&variant.rules.terminations.fill(self.values)));
+        let mut text = self.kernel.text(self.variants, self.values);
         if !text.contains("Timeout") {
             text.push_str(&format!("        Timeout limit={} win=False\n", self.time));
         }
@@ -166,7 +173,8 @@ impl Choices<'_> {
     /// The castings of all types of the game.
     fn roles(&self) -> impl Iterator<Item = (&String, &Casting)> {
         let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].roles);
-        self.kernel.roles.iter().chain(variants.flatten())
+        let grafts = self.grafts.iter().flat_map(|graft| &graft.roles);
+        self.kernel.roles.iter().chain(variants.flatten()).chain(grafts)
     }
 
     /// Gives every type a noun that no other has.
@@ -220,6 +228,7 @@ impl Choices<'_> {
             .flat_map(|map| map.types().map(str::to_owned).collect::<Vec<_>>())
             .chain(self.kernel.legend.values().cloned())
             .chain(self.kernel.divider.clone())
+            .chain(self.grafts.iter().flat_map(|graft| graft.roles.keys().cloned()))
             .collect();
         let own: Vec<String> =
             description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone()).collect();
@@ -255,18 +264,6 @@ impl Choices<'_> {
         }
         symbols
     }
-}
-
-/// Indents the lines of a section below its name, whatever their indentation in the file.
-fn indented(lines: &str) -> String {
-    let depth = |line: &str| line.len() - line.trim_start().len();
-    let least = lines.lines().filter(|line| !line.trim().is_empty()).map(depth).min().unwrap_or(0);
-    let is_name = |line: &str| line.ends_with("Set") || line == "LevelMapping";
-    let line = |line: &str| {
-        let margin = if is_name(line) { 4 } else { 8 };
-        format!("{}{}\n", " ".repeat(margin), &line[least..])
-    };
-    lines.lines().filter(|line| !line.trim().is_empty()).map(line).collect()
 }
 
 fn color_lines(

@@ -1,6 +1,7 @@
 //! Genomes of games: the representation that a search varies.
 
 use super::compose::{Choices, Course};
+use super::graft::Graft;
 use super::kernel::Kernel;
 use super::scene::Scene;
 use crate::GenerateError;
@@ -19,7 +20,7 @@ pub struct KernelGame {
     pub course: Course,
 }
 
-/// A game as a list of choices: a kernel with its variants and numbers, and a scene with its nouns.
+/// A game as a list of choices: a kernel with its variants and numbers, grafts of other kernels, and a scene with its nouns.
 ///
 /// The same genome builds the same game on every machine.
 #[derive(Clone, Debug)]
@@ -29,6 +30,8 @@ pub struct KernelGenome {
     pub(crate) variants: Vec<usize>,
     /// The values of the kernel's numbers.
     pub(crate) values: Vec<u32>,
+    /// What it has of other kernels.
+    pub(crate) grafts: Vec<&'static Graft>,
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     /// The ticks after which the game is lost.
@@ -57,10 +60,17 @@ impl KernelGenome {
             kernel,
             variants: (0..kernel.variants.len()).filter(|_| sampler.ratio(1, 3)).collect(),
             values: kernel.numbers.draw(sampler),
+            grafts: Vec::new(),
             scene: scenes[sampler.below(scenes.len())],
             nouns: Seed::from_text("nouns").child("draw", sampler.bits()),
             time: LONG,
         }
+    }
+
+    /// The scenes that have a noun for everything in it.
+    pub(crate) fn scenes(&self) -> impl Iterator<Item = &'static Scene> {
+        let fits = |scene: &&Scene| self.grafts.iter().all(|graft| graft.fits(scene, self.kernel));
+        Scene::of(self.kernel).filter(fits)
     }
 
     /// The kind of game.
@@ -94,7 +104,8 @@ impl KernelGenome {
             return Err(GenerateError::Unlucky(message));
         }
         let variants = self.variants.iter().map(|&at| format!("variant/{}", self.kernel.variants[at].name));
-        let patterns = [format!("kernel/{}", self.kernel.name)].into_iter().chain(variants);
+        let grafts = self.grafts.iter().map(|graft| format!("graft/{}", graft.name));
+        let patterns = [format!("kernel/{}", self.kernel.name)].into_iter().chain(variants).chain(grafts);
         let game = GeneratedGame {
             real_time: has_movers(&composed.description),
             description: composed.description,
@@ -118,6 +129,7 @@ impl KernelGenome {
             kernel: self.kernel,
             variants: &self.variants,
             values: &self.values,
+            grafts: &self.grafts,
             scene: self.scene,
             nouns: self.nouns,
             time: self.time,
@@ -140,7 +152,7 @@ pub fn preview(
     let scene: &'static Scene = Box::leak(Box::new(Scene::plain(kernel)));
     let variants = if variants { (0..kernel.variants.len()).collect() } else { Vec::new() };
     let values = kernel.numbers.draw(&mut seed.sampler());
-    let genome = KernelGenome { kernel, variants, values, scene, nouns: seed, time: LONG };
+    let genome = KernelGenome { kernel, variants, values, grafts: Vec::new(), scene, nouns: seed, time: LONG };
     let KernelGame { game, course } = genome.build()?;
     let mut description = game.description;
     description.header.trivia.above.extend([game.title, game.summary, game.goal]);

@@ -263,8 +263,29 @@ impl Kernel {
         Ok(())
     }
 
+    /// The rules with some of the variants as VGDL, under the kernel's names of types.
+    pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
+        let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
+        let mut text =
+            "BasicGame\n    SpriteSet\n        floor > Immovable\n        wall > Immovable\n".to_owned();
+        let mut add = |lines: &str| text.push_str(&indented(lines));
+        add(&self.rules.sprites.fill(values));
+        variants.iter().for_each(|variant| add(&variant.rules.sprites.fill(values)));
+        // The characters of levels are chosen once the nouns are.
+        add("LevelMapping\n");
+        add(". > floor\n");
+        add("InteractionSet\n");
+        variants.iter().for_each(|variant| add(&variant.first.fill(values)));
+        add(&self.rules.interactions.fill(values));
+        variants.iter().for_each(|variant| add(&variant.rules.interactions.fill(values)));
+        add("TerminationSet\n");
+        add(&self.rules.terminations.fill(values));
+        variants.iter().for_each(|variant| add(&variant.rules.terminations.fill(values)));
+        text
+    }
+
     /// Tests whether the kernel or one of its variants has a type.
-    fn knows(&self, stype: &str) -> bool {
+    pub(crate) fn knows(&self, stype: &str) -> bool {
         stype == "wall"
             || self.roles.contains_key(stype)
             || self.variants.iter().any(|variant| variant.roles.contains_key(stype))
@@ -276,6 +297,18 @@ impl LevelPlan {
     pub(crate) fn map(&self, values: &[u32]) -> Result<Map, String> {
         Map::read(&self.map.fill(values)).map_err(|fault| format!("slot {:?}: {fault}", self.slot))
     }
+}
+
+/// Indents the lines of a section below its name, whatever their indentation in the file.
+fn indented(lines: &str) -> String {
+    let depth = |line: &str| line.len() - line.trim_start().len();
+    let least = lines.lines().filter(|line| !line.trim().is_empty()).map(depth).min().unwrap_or(0);
+    let is_name = |line: &str| line.ends_with("Set") || line == "LevelMapping";
+    let line = |line: &str| {
+        let margin = if is_name(line) { 4 } else { 8 };
+        format!("{}{}\n", " ".repeat(margin), &line[least..])
+    };
+    lines.lines().filter(|line| !line.trim().is_empty()).map(line).collect()
 }
 
 /// Splits rules at the names of their sections.

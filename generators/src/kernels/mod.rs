@@ -8,6 +8,7 @@ mod compose;
 mod content;
 mod course;
 mod genome;
+mod graft;
 mod kernel;
 mod map;
 mod phrase;
@@ -15,8 +16,10 @@ mod scene;
 mod template;
 #[cfg(test)]
 mod tests;
+mod variation;
 mod vocabulary;
 
 pub use compose::{Course, CourseLevel};
 pub use genome::{KernelGame, KernelGenome, preview};
 pub use kernel::Slot;
+pub use variation::KernelVariation;

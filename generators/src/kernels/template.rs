@@ -60,6 +60,11 @@ impl Template {
     }
 }
 
+/// A text with the values of numbers that other texts introduced; as it is if it names others.
+pub(crate) fn filled(text: &str, numbers: &Numbers, values: &[u32]) -> String {
+    Template::read(text, &mut numbers.clone()).map_or_else(|_| text.to_owned(), |text| text.fill(values))
+}
+
 fn number(inside: &str, numbers: &mut Numbers) -> Result<Part, String> {
     if let Some((bounds, (least, most))) =
         inside.split_once("..").map(|(low, most)| (inside, (low.rsplit(':').next().unwrap_or(low), most)))
