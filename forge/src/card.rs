@@ -26,6 +26,12 @@ pub enum Origin {
 }
 
 impl Origin {
+    /// The kernel of a generated game.
+    pub fn kernel(&self) -> Option<&str> {
+        let Origin::Generated { patterns, .. } = self else { return None };
+        patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
+    }
+
     /// The patterns of mechanics that a generated game was composed of, without duplicates: excluding its theme or
     /// scene, and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {

@@ -3,6 +3,7 @@
 use crate::sealed::{self, Secret};
 use engine::{Digest, Game, Seed};
 use forge::games::Board;
+use generators::games::Kind;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GoalKind};
@@ -93,6 +94,9 @@ pub struct GeneratedPart {
     pub candidates: f64,
     /// The shares of the generators in the candidates.
     pub mix: Mix,
+    /// The kinds of games; all if empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub kinds: Vec<Kind>,
     /// The minimum number of interactions of a game.
     pub least_interactions: usize,
     /// The minimum number of different interactions that the wins of a game's levels execute together.
@@ -108,6 +112,7 @@ impl Default for GeneratedPart {
             level_tries: 12,
             candidates: 1.25,
             mix: Mix::default(),
+            kinds: Vec::new(),
             least_interactions: 7,
             least_mechanics: 3,
         }

@@ -1,12 +1,10 @@
-//! The last word on a game: levels for it, what it can do without, and the panel.
+//! The last word on a game: levels for it, its time limit, and the panel.
 
 use super::candidate::{Candidate, MadeGame};
 use super::levels::{FoundLevel, LevelSource, Levels};
 use super::order::GameOrder;
-use super::shrink::shrunk;
 use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
-use generators::games::GameGenome;
 use generators::kernels::{KernelGame, KernelGenome};
 use std::collections::BTreeSet;
 use validators::game_measures::Guards;
@@ -22,7 +20,7 @@ pub(super) struct GameGate<'a> {
     panel: Panel,
 }
 
-/// The ticks that a game of a kernel lasts, as a multiple of the longest win that is known of its levels.
+/// The ticks that a game lasts, as a multiple of the longest win that is known of its levels.
 const TIME_PER_WIN: f64 = 1.7;
 
 /// The reason for turning down a game in which too little happens.
@@ -38,19 +36,21 @@ impl<'a> GameGate<'a> {
         GameGate { order, known, canary, panel }
     }
 
-    /// Finds levels for a game, takes away what it can do without, and judges what is left on the same levels; none, with the
-    /// reason in the tally, if anything stands in its way. `number` is told in the card.
+    /// Finds a course of levels for a game, sets its time limit by the wins found, and judges it; `None`, with the reason in
+    /// the tally, if anything stands in its way. `number` is told in the card.
     pub(super) fn judge(
         &self,
-        genome: &GameGenome,
+        genome: &KernelGenome,
         number: u32,
         seed: Seed,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
         let generator = self.order.method.name();
-        let candidate =
-            |genome: &GameGenome| Candidate::generated(genome.build().ok()?, generator, number).ok();
-        let Some(first) = candidate(genome) else {
+        let build = |genome: &KernelGenome| {
+            let KernelGame { game, course } = genome.build().ok()?;
+            Some((Candidate::generated(game, generator, number).ok()?, course))
+        };
+        let Some((first, course)) = build(genome) else {
             tally.game_rejected("the rules do not compile");
             return None;
         };
@@ -60,60 +60,6 @@ impl<'a> GameGate<'a> {
         }
         if interactions(&first.game) < self.order.least_interactions {
             tally.game_rejected(MEAGRE);
-            return None;
-        }
-        let levels = Levels {
-            count: self.order.levels,
-            tries: self.order.level_tries,
-            source: LevelSource::Rules(&self.order.board.levels()),
-            criteria: &self.order.criteria,
-            panel: &self.panel,
-            seed,
-        };
-        let found = levels.each(&first.game, tally)?;
-        let (candidate, found) = match shrunk(genome, &first, &found, candidate) {
-            None => (first, found),
-            Some(smaller) => {
-                let again = found.iter().map(|found| levels.again(&smaller.game, found, tally));
-                let Some(again) = again.collect::<Option<Vec<_>>>() else {
-                    tally.game_rejected("shrunk");
-                    return None;
-                };
-                (smaller, again)
-            }
-        };
-        if self.is_known(&candidate) {
-            tally.game_rejected(NEAR_KNOWN);
-            return None;
-        }
-        if interactions(&candidate.game) < self.order.least_interactions
-            || mechanics(&candidate.game, &found) < self.order.least_mechanics
-        {
-            tally.game_rejected(MEAGRE);
-            return None;
-        }
-        self.accept(candidate, &levels, found, tally)
-    }
-
-    /// Finds a course of levels for a game of a kernel, sets its time limit by the wins found, and judges it; `None`, with the
-    /// reason in the tally, if anything stands in its way.
-    pub(super) fn judge_course(
-        &self,
-        genome: &KernelGenome,
-        number: u32,
-        seed: Seed,
-        tally: &mut Tally,
-    ) -> Option<MadeGame> {
-        let build = |genome: &KernelGenome| {
-            let KernelGame { game, course } = genome.build().ok()?;
-            Some((Candidate::generated(game, "kernels", number).ok()?, course))
-        };
-        let Some((first, course)) = build(genome) else {
-            tally.game_rejected("the rules do not compile");
-            return None;
-        };
-        if self.is_known(&first) {
-            tally.game_rejected(NEAR_KNOWN);
             return None;
         }
         let levels = Levels {
@@ -137,6 +83,10 @@ impl<'a> GameGate<'a> {
             tally.game_rejected("time limit");
             return None;
         };
+        if mechanics(&candidate.game, &found) < self.order.least_mechanics {
+            tally.game_rejected(MEAGRE);
+            return None;
+        }
         self.accept(candidate, &levels, found, tally)
     }
 
@@ -188,7 +138,9 @@ mod tests {
     use crate::games::make_games;
     use crate::levels::Method;
     use generators::Variation;
-    use generators::games::{GameVariation, Kind};
+    use generators::games::Kind;
+    use generators::kernels::KernelVariation;
+    use generators::levels::LevelConfig;
     use validators::Criteria;
 
     /// Two levels, and few and weak players.
@@ -215,7 +167,7 @@ mod tests {
         GameOrder { levels: 2, least_interactions: 4, least_mechanics: 1, criteria, ..order }
     }
 
-    fn judge(order: &GameOrder, known: &[GameForm], genome: &GameGenome) -> (Option<MadeGame>, Tally) {
+    fn judge(order: &GameOrder, known: &[GameForm], genome: &KernelGenome) -> (Option<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let seed = Seed::from_text("gate");
         let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &mut tally);
@@ -224,7 +176,7 @@ mod tests {
 
     #[test]
     fn a_game_that_fails_at_one_thing_is_refused_by_its_name() {
-        let variation = GameVariation::default();
+        let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
         let seed = Seed::from_text("gate");
         let (genome, made) = (0..20)
             .filter_map(|number| variation.create(seed.child("game", number)))
@@ -252,8 +204,8 @@ mod tests {
     }
 
     #[test]
-    fn a_game_of_a_kernel_has_a_course_and_time_for_it() {
-        let order = GameOrder::of_kernels(1);
+    fn a_game_has_a_course_and_time_for_it() {
+        let order = GameOrder::new(Method::Constructive, 1);
         let criteria =
             Criteria { budget: 150_000, idle_plays: 4, random_plays: 10, ..order.criteria.clone() };
         let order = GameOrder { levels: 2, kinds: vec![Kind::Demolition], criteria, ..order };
@@ -264,7 +216,7 @@ mod tests {
         let Origin::Generated { generator, patterns, .. } = &made.card.origin else {
             panic!("{:?}", made.card.origin)
         };
-        assert!(generator == "kernels" && patterns[0].starts_with("kernel/"), "{patterns:?}");
+        assert!(generator == "constructive" && patterns[0].starts_with("kernel/"), "{patterns:?}");
         assert!(made.card.levels.iter().all(|level| level.generator == "course"));
         let limit =
             made.game.description().terminations.iter().find(|line| line.class.text == "Timeout").unwrap();
@@ -276,7 +228,7 @@ mod tests {
 
     #[test]
     fn second_judges_ask_again_what_chance_has_a_say_in() {
-        let variation = GameVariation::default();
+        let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
         let seed = Seed::from_text("gate");
         let made = (0..20)
             .filter_map(|number| variation.create(seed.child("game", number)))
@@ -285,8 +237,8 @@ mod tests {
         let hold = |alter: &dyn Fn(&mut Criteria)| {
             let mut order = order();
             alter(&mut order.criteria);
-            let GameOrder { levels: count, level_tries: tries, board, criteria, .. } = &order;
-            let (config, panel) = (&board.levels(), &Panel::new(criteria).unwrap());
+            let GameOrder { levels: count, level_tries: tries, criteria, .. } = &order;
+            let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria).unwrap());
             let source = LevelSource::Rules(config);
             let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed };
             levels.hold(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
@@ -302,7 +254,7 @@ mod tests {
         assert!(hold(&|criteria| (criteria.budget, criteria.least_ticks) = (1, 1000)), "what is certain");
     }
 
-    fn genome_game(genome: &GameGenome) -> Game {
-        Candidate::generated(genome.build().unwrap(), "constructive", 0).unwrap().game
+    fn genome_game(genome: &KernelGenome) -> Game {
+        Candidate::generated(genome.build().unwrap().game, "constructive", 0).unwrap().game
     }
 }

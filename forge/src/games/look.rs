@@ -1,16 +1,14 @@
 //! A quick look at a game, and the evaluation for a search.
 
-use super::order::GameOrder;
 use crate::games::Candidate;
 use engine::{Analysis, Episode, Level, Outcome, Seed};
-use generators::games::GameGenome;
-use generators::levels::{ConstructiveLevels, LevelConfig};
-use generators::{Axis, Evaluation, Generator};
-use validators::game_measures::{AvatarKind, GameKind, GoalKind, PlayMeasures};
+use generators::kernels::{Course, KernelGame, KernelGenome, Slot};
+use generators::{Axis, Evaluation};
+use validators::game_measures::{Coupling, GameKind, GoalKind, PlayMeasures, Regret};
 use validators::{Case, Ladder, LadderConfig, Recorded, Rung};
 
-/// The levels of a look: how hard the generator is told to make them.
-const DIFFICULTIES: [f64; 3] = [0.0, 0.5, 1.0];
+/// The levels of a look.
+const SLOTS: [Slot; 3] = [Slot::Introduce, Slot::Combine, Slot::Exam];
 /// Boards that are tried for each.
 const BOARDS: u64 = 3;
 /// The players of a look: none of those that only acceptance asks.
@@ -37,9 +35,8 @@ const CHALLENGE: f64 = 0.75;
 /// The part of each constraint that a game has to meet to be shown to the judges: levels, little luck, an edge, wins.
 const PROMISING: [f64; 4] = [1.0, 0.75, 0.5, 0.5];
 
-/// Looks at games for one order, cheaply: three levels, few and weak players.
-pub(super) struct Looker<'a> {
-    order: &'a GameOrder,
+/// Looks at games cheaply: three levels, few and weak players.
+pub(super) struct Looker {
     seed: Seed,
 }
 
@@ -53,12 +50,13 @@ pub(super) struct Look {
     pub(super) calls: u64,
 }
 
-/// The axes of an archive of games: what one is after, what one can do, and how much happens without one.
+/// The axes of an archive of games: what one is after, how much the rules pull against each other, and how much happens
+/// without one.
 pub(super) fn axes() -> Vec<Axis> {
     let kinds = |name: &str, last: usize| Axis::new(name, (0.0, last as f64 + 1.0), last + 1);
     vec![
         kinds("goal", GoalKind::Score as usize),
-        kinds("avatar", AvatarKind::Watches as usize),
+        Axis::new("coupling", (0.0, 1.0), 6),
         Axis::new("pace", (0.0, 1.0), 3),
     ]
 }
@@ -70,21 +68,23 @@ struct Played {
     episodes: Vec<Episode>,
 }
 
-impl<'a> Looker<'a> {
-    pub(super) fn new(order: &'a GameOrder, seed: Seed) -> Looker<'a> {
-        Looker { order, seed }
+impl Looker {
+    pub(super) fn new(seed: Seed) -> Looker {
+        Looker { seed }
     }
 
     /// Looks at a game. Cost: 48 plays of at most 400 ticks, and [`PlayMeasures`].
-    pub(super) fn look(&self, genome: &GameGenome) -> Look {
+    pub(super) fn look(&self, genome: &KernelGenome) -> Look {
         let seed = self.seed.child(&genome.key().to_string(), 0);
-        let made = genome.build().and_then(|made| Candidate::generated(made, "", 0));
-        let Ok(Candidate { game, .. }) = made else { return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0) };
+        let made = genome.build().and_then(|KernelGame { game, course }| {
+            Ok((Candidate::generated(game, "", 0)?.game, course))
+        });
+        let Ok((game, course)) = made else { return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0) };
         let analysis = Analysis::of(&game);
-        let kind = GameKind::of(&analysis);
+        let (kind, coupling) = (GameKind::of(&analysis), Coupling::of(&analysis).strength());
         let played: Vec<Played> = (0..)
-            .zip(DIFFICULTIES)
-            .filter_map(|(number, difficulty)| self.play(&analysis, difficulty, seed.child("level", number)))
+            .zip(SLOTS)
+            .filter_map(|(number, slot)| Looker::play(&analysis, &course, slot, seed.child("level", number)))
             .collect();
         let calls = played.iter().flat_map(|played| &played.ladder.rungs).map(|fared| fared.rate.calls).sum();
         let recording: Vec<Recorded<'_>> = played
@@ -92,8 +92,8 @@ impl<'a> Looker<'a> {
             .map(|played| Recorded { level: &played.level, episodes: &played.episodes })
             .collect();
         let measures = PlayMeasures::of(&analysis, &recording, seed.child("measures", 0));
-        let place = |pace| vec![kind.goal as usize as f64, kind.avatar as usize as f64, pace];
-        let drawn = played.len() as f64 / DIFFICULTIES.len() as f64;
+        let place = |pace| vec![kind.goal as usize as f64, coupling, pace];
+        let drawn = played.len() as f64 / SLOTS.len() as f64;
         let Some(measures) = measures else {
             return Look::of([drawn, 0.0, 0.0, 0.0], 0.0, place(0.0), calls);
         };
@@ -108,24 +108,32 @@ impl<'a> Looker<'a> {
         let lucky = if floor <= LUCK { 1.0 } else { 1.0 - floor };
         let edge = ((best - floor) / EDGE).clamp(0.0, 1.0);
         let run = |episode: &&Episode| episode.outcome == Outcome::Won;
-        let won = played.iter().filter(|played| played.episodes.iter().any(|e| run(&e))).count();
+        let won = played.iter().filter(|played| played.episodes.iter().any(|episode| run(&episode))).count();
+        let regret = played.iter().filter_map(|played| {
+            let won = played.episodes.iter().find(run)?;
+            Some(Regret::of(&game, &played.level, won, seed.child("regret", 0)).strength())
+        });
+        let regret = regret.fold(0.0, f64::max);
         let constraints = [drawn, lucky, edge, (won as f64 / WON).min(1.0)];
-        let objective = 0.35 * (best - floor).max(0.0)
-            + 0.25 * (measures.mechanics as f64 / MECHANICS).min(1.0)
-            + 0.15 * (1.0 - (best - CHALLENGE).abs() / CHALLENGE)
-            + 0.15 * (measures.sight / SIGHT).min(1.0)
-            + 0.1 * measures.drama;
+        let objective = 0.2 * (best - floor).max(0.0)
+            + 0.1 * (measures.mechanics as f64 / MECHANICS).min(1.0)
+            + 0.1 * (1.0 - (best - CHALLENGE).abs() / CHALLENGE)
+            + 0.1 * (measures.sight / SIGHT).min(1.0)
+            + 0.1 * measures.drama
+            + 0.2 * coupling
+            + 0.2 * regret;
         let look = Look::of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls);
         // What is left to nobody's chance may be a puzzle, and too deep for the players of a look.
         let is_puzzle = game.is_deterministic() && drawn >= 1.0 && floor <= LUCK;
         Look { is_promising: look.is_promising || is_puzzle, ..look }
     }
 
-    fn play(&self, analysis: &Analysis, difficulty: f64, seed: Seed) -> Option<Played> {
+    fn play(analysis: &Analysis, course: &Course, slot: Slot, seed: Seed) -> Option<Played> {
         let game = analysis.game();
-        let config = LevelConfig { difficulty, ..self.order.board.levels() };
-        let generator = ConstructiveLevels::new(game, config).ok()?;
-        let level = (0..BOARDS).find_map(|board| generator.generate(seed.child("board", board)).ok())?;
+        let level = (0..BOARDS).find_map(|board| {
+            let level = course.level(slot, seed.child("board", board)).ok()?;
+            game.level(&level.text).ok()
+        })?;
         let rung = |name: &&str| Rung::new(name, 1).expect("a player with its calls");
         let climb = LadderConfig {
             rungs: PLAYERS.iter().map(rung).collect(),

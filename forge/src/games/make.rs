@@ -3,18 +3,17 @@
 use super::candidate::{MadeGame, Step};
 use super::gate::{GameGate, NEAR_KNOWN};
 use super::look::{Looker, axes};
-use super::order::{GameOrder, RuleSource};
+use super::order::GameOrder;
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search, spread};
 use crate::tally::Tally;
-use engine::{Analysis, Game, Seed};
-use generators::games::{GameConfig, GameGenome, GameVariation, Kind};
-use generators::kernels::KernelGenome;
-use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Variation};
+use engine::{Game, Seed};
+use generators::games::Kind;
+use generators::kernels::{KernelGenome, KernelVariation, Turns};
+use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::CriteriaError;
-use validators::game_measures::{AvatarKind, GameKind, GoalKind};
 use validators::novelty::GameForm;
 
 /// The games of an order.
@@ -57,7 +56,7 @@ pub trait Progress: Sync {
 impl Progress for () {}
 
 /// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
-/// [`NEAR`](validators::novelty::NEAR), and at most one of five (or two) is of one kind of avatar and goal. `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
+/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, at most one of twenty is of one kernel and three of twenty are of one kind. `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
 /// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
 ///
 /// Games that could not be made are missing in the set.
@@ -73,7 +72,7 @@ pub fn make_games(
 ) -> Result<GameSet, GamesError> {
     order.check()?;
     let gate = GameGate::new(order, known, canary);
-    let maker = Maker { order, gate, seed, progress };
+    let maker = Maker::new(order, gate, seed, progress);
     let set = match order.method {
         Method::Constructive | Method::Search => maker.one_by_one(),
         Method::Evolutionary => maker.evolved(),
@@ -93,7 +92,7 @@ pub fn make_one(
     seed: Seed,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let maker = Maker { order, gate: GameGate::new(order, known, canary), seed, progress: &() };
+    let maker = Maker::new(order, GameGate::new(order, known, canary), seed, &());
     let Attempted { made, tally, .. } = maker.attempt(number, 0);
     (made.map(|(game, _)| game), tally)
 }
@@ -102,6 +101,7 @@ struct Maker<'a> {
     order: &'a GameOrder,
     gate: GameGate<'a>,
     seed: Seed,
+    turns: Turns,
     progress: &'a dyn Progress,
 }
 
@@ -113,7 +113,11 @@ struct Attempted {
     looks: u64,
 }
 
-impl Maker<'_> {
+impl<'a> Maker<'a> {
+    fn new(order: &'a GameOrder, gate: GameGate<'a>, seed: Seed, progress: &'a dyn Progress) -> Maker<'a> {
+        Maker { order, gate, seed, turns: Turns::draw(&order.kinds, seed), progress }
+    }
+
     /// Each game by itself; one that is near to earlier ones, or of a crowded kind, makes way for the next of its place.
     fn one_by_one(&self) -> GameSet {
         let numbers = (0..self.order.count).into_par_iter();
@@ -122,7 +126,7 @@ impl Maker<'_> {
         let mut set = GameSet { games: Vec::new(), tally: Tally::default(), looks: 0 };
         for (number, attempted) in (0..).zip(&mut attempted) {
             while let Some((game, next)) = attempted.made.take() {
-                match company.welcome(&game.game) {
+                match company.welcome(&game) {
                     Ok(()) => {
                         set.games.push(game);
                         break;
@@ -146,24 +150,12 @@ impl Maker<'_> {
         let seed = self.seed.child("game", u64::from(number));
         for attempt in from..self.order.effort.attempts {
             let seed = seed.child("attempt", u64::from(attempt));
-            if self.order.rules == RuleSource::Kernels {
-                let genome = KernelGenome::draw(&[self.kind(number, attempt)], seed.child("rules", 0));
-                let Ok(genome) = genome else { continue };
-                let judges = seed.child("judges", 0);
-                let made = self.gate.judge_course(&genome, attempt, judges, &mut attempted.tally);
-                self.progress.looked();
-                if let Some(mut made) = made {
-                    self.progress.made(&made.card.title);
-                    made.path = path([("game", number.into()), ("attempt", attempt.into()), ("judges", 0)]);
-                    attempted.made = Some((made, attempt + 1));
-                    return attempted;
-                }
-                continue;
-            }
-            let variation = GameVariation::new(GameConfig { kinds: vec![self.kind(number, attempt)] });
-            let proposed: Vec<GameGenome> = match self.order.method {
-                Method::Constructive => self.drawn(&variation, seed, &mut attempted).into_iter().collect(),
-                _ => self.searched(&variation, seed.child("search", 0), &mut attempted),
+            let passes = attempt / self.order.effort.patience.max(1);
+            let drawn = KernelGenome::in_turn(&self.turns, number, passes, seed.child("rules", 0));
+            let Some(drawn) = drawn else { break };
+            let proposed = match self.order.method {
+                Method::Constructive => vec![drawn],
+                _ => self.searched(&drawn, seed.child("search", 0), &mut attempted),
             };
             if proposed.is_empty() {
                 attempted.tally.game_rejected("look");
@@ -182,38 +174,15 @@ impl Maker<'_> {
         attempted
     }
 
-    /// Kinds take turns, in an order that is drawn. Some seldom come to anything: after as many attempts as are given to one
-    /// kind, its place goes to another one, in an order of its own.
-    fn kind(&self, number: u32, attempt: u32) -> Kind {
-        let shuffled = |mut kinds: Vec<Kind>, seed: Seed| {
-            seed.sampler().shuffle(&mut kinds);
-            kinds
-        };
-        let turns = shuffled(self.order.kinds.clone(), self.seed.child("kinds", 0));
-        let first = turns[number as usize % turns.len()];
-        let others = turns.into_iter().filter(|&kind| kind != first).collect();
-        let others = shuffled(others, self.seed.child("other kinds", u64::from(number)));
-        let passed = attempt / self.order.effort.patience.max(1);
-        let kinds: Vec<Kind> = [first].into_iter().chain(others).collect();
-        kinds[passed as usize % kinds.len()]
-    }
-
-    /// A game as it is drawn, if a look promises something.
-    fn drawn(&self, variation: &GameVariation, seed: Seed, attempted: &mut Attempted) -> Option<GameGenome> {
-        let genome = variation.create(seed.child("rules", 0))?;
-        let look = Looker::new(self.order, seed.child("look", 0)).look(&genome);
-        attempted.note(&look);
-        look.is_promising.then_some(genome)
-    }
-
-    /// The best games of a search that starts from constructive ones.
-    fn searched(&self, variation: &GameVariation, seed: Seed, attempted: &mut Attempted) -> Vec<GameGenome> {
+    /// The best games of a search that starts from games of the same kind.
+    fn searched(&self, drawn: &KernelGenome, seed: Seed, attempted: &mut Attempted) -> Vec<KernelGenome> {
+        let variation = KernelVariation::new(&[drawn.kind()]);
         let looks = self.order.effort.looks as usize;
-        let looker = Looker::new(self.order, seed.child("look", 0));
+        let looker = Looker::new(seed.child("look", 0));
         let config = AnnealingConfig { starts: looks / 3, ..AnnealingConfig::of(looks) };
-        let mut search = Annealing::new(variation, config, seed.child("annealing", 0));
+        let mut search = Annealing::new(&variation, config, seed.child("annealing", 0));
         let mut best = Finalists::new();
-        let look = |genome: &GameGenome| {
+        let look = |genome: &KernelGenome| {
             self.progress.looked();
             looker.look(genome)
         };
@@ -227,20 +196,20 @@ impl Maker<'_> {
 
     /// Fills an archive of games that differ, and picks games that lie far apart in it until enough are accepted.
     fn evolved(&self) -> GameSet {
-        let looker = Looker::new(self.order, self.seed.child("look", 0));
-        let variation = GameVariation::new(GameConfig { kinds: self.order.kinds.clone() });
+        let looker = Looker::new(self.seed.child("look", 0));
+        let variation = KernelVariation::new(&self.order.kinds);
         let wanted = self.order.count as usize;
         let looks = self.order.effort.looks as usize * wanted;
         let config = MapElitesConfig { initial: (looks / 3).max(1), ..MapElitesConfig::default() };
         let mut search =
-            MapElites::new(&variation, GameGenome::key, axes(), config, self.seed.child("archive", 0));
+            MapElites::new(&variation, KernelGenome::key, axes(), config, self.seed.child("archive", 0));
         let mut company = Company::of(self.order);
         let mut set = GameSet { games: Vec::new(), tally: Tally::default(), looks: 0 };
         let mut shown = BTreeSet::new();
         for round in 0..self.order.effort.attempts {
             // The first round fills the archive, the others mend it where the judges said no.
             let looks = if round == 0 { looks } else { looks / 4 };
-            let look = |genome: &GameGenome| {
+            let look = |genome: &KernelGenome| {
                 self.progress.looked();
                 looker.look(genome)
             };
@@ -250,8 +219,8 @@ impl Maker<'_> {
                 look.evaluation
             });
             let missing = wanted - set.games.len();
-            let picked = spread(search.archive(), missing, &[], |_, _| false, &mut shown, GameGenome::key);
-            let judge = |(cell, genome): &(usize, GameGenome)| {
+            let picked = spread(search.archive(), missing, &[], |_, _| false, &mut shown, KernelGenome::key);
+            let judge = |(cell, genome): &(usize, KernelGenome)| {
                 let mut tally = Tally::default();
                 let key = genome.key().to_string();
                 let seed = self.seed.child("judges", 0).child(&key, 0);
@@ -264,7 +233,7 @@ impl Maker<'_> {
             };
             let judged: Vec<_> = picked.par_iter().map(judge).collect();
             for (cell, made, mut tally) in judged {
-                match made.map(|made| company.welcome(&made.game).map(|()| made)) {
+                match made.map(|made| company.welcome(&made).map(|()| made)) {
                     Some(Ok(made)) => {
                         self.progress.made(&made.card.title);
                         set.games.push(made);
@@ -287,39 +256,65 @@ fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
     steps.into_iter().map(|(purpose, index)| (purpose.to_owned(), index)).collect()
 }
 
-/// The games of a set so far: no two are near, and none of the kinds is crowded.
+/// The games of a set so far: no two are near, none has the title or the cast of another, and no kernel and no kind is crowded.
 struct Company {
     forms: Vec<GameForm>,
-    /// The number of games with each kind of avatar and goal, and the most that there may be.
-    kinds: BTreeMap<(AvatarKind, GoalKind), usize>,
-    room: usize,
+    titles: BTreeSet<String>,
+    casts: Vec<BTreeSet<String>>,
+    /// The number of games of each kernel and of each kind.
+    crowds: BTreeMap<String, usize>,
+    /// The most games of a kernel and of a kind.
+    room: (usize, usize),
 }
 
+/// The share of its names that a game may have in common with another.
+const CAST: f64 = 0.5;
+
 impl Company {
-    /// One of five games may be of a kind, or two of a few; as many as there are, where only some kinds are asked for.
+    /// One of twenty games may be of a kernel and three of twenty of a kind, or one and two of a few; as many as there are,
+    /// where only some kinds are asked for.
     fn of(order: &GameOrder) -> Company {
+        let count = order.count as usize;
         let room = match order.kinds.len() < Kind::ALL.len() {
-            true => usize::MAX,
-            false => (order.count as usize / 5).max(2),
+            true => (usize::MAX, usize::MAX),
+            false => ((count / 20).max(1), (count * 3 / 20).max(2)),
         };
-        Company { forms: Vec::new(), kinds: BTreeMap::new(), room }
+        Company { forms: Vec::new(), titles: BTreeSet::new(), casts: Vec::new(), crowds: BTreeMap::new(), room }
     }
 
-    /// Takes a game in, or says why not.
-    fn welcome(&mut self, game: &Game) -> Result<(), &'static str> {
-        let form = GameForm::of(game);
+    /// Takes the game in, or says why not.
+    fn welcome(&mut self, made: &MadeGame) -> Result<(), &'static str> {
+        let form = GameForm::of(&made.game);
         if self.forms.iter().any(|other| form.is_near(other)) {
             return Err(NEAR_KNOWN);
         }
-        let kind = GameKind::of(&Analysis::of(game));
-        let there = self.kinds.entry((kind.avatar, kind.goal)).or_default();
-        if *there == self.room {
+        if self.titles.contains(&made.card.title) {
+            return Err("a title twice");
+        }
+        let cast = cast(&made.game);
+        let shared = |other: &BTreeSet<String>| cast.intersection(other).count() as f64;
+        if self.casts.iter().any(|other| shared(other) > CAST * cast.len().min(other.len()) as f64) {
+            return Err("a cast twice");
+        }
+        let kernel = made.card.origin.kernel().unwrap_or_default().to_owned();
+        let of_kind = format!("kind/{}", made.card.kind);
+        let crowd = |name: &String| self.crowds.get(name).copied().unwrap_or(0);
+        if crowd(&kernel) >= self.room.0 || crowd(&of_kind) >= self.room.1 {
             return Err("enough of its kind");
         }
-        *there += 1;
+        *self.crowds.entry(kernel).or_default() += 1;
+        *self.crowds.entry(of_kind).or_default() += 1;
+        self.titles.insert(made.card.title.clone());
+        self.casts.push(cast);
         self.forms.push(form);
         Ok(())
     }
+}
+
+/// The names of the types of a game that it does not share with all games.
+fn cast(game: &Game) -> BTreeSet<String> {
+    let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
+    names.filter(|name| !["wall", "avatar"].contains(&name.as_str())).collect()
 }
 
 /// The feasibility of a game that a look took for feasible and the last judges did not.

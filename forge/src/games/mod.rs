@@ -10,11 +10,10 @@ mod levels;
 mod look;
 mod make;
 mod order;
-mod shrink;
 
 pub mod report;
 
 pub use candidate::{Candidate, MadeGame, Step, marked};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{GameSet, GamesError, Progress, make_games, make_one};
-pub use order::{Board, GameEffort, GameOrder, RuleSource};
+pub use order::{Board, GameEffort, GameOrder};

@@ -49,12 +49,6 @@ pub(crate) fn headline(text: &str) -> String {
     text.split(' ').map(capital).join(" ")
 }
 
-/// Spells out a number: "one", "two" …
-pub(crate) fn number(count: u32) -> String {
-    const WORDS: [&str; 10] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
-    WORDS.get(count as usize).map_or_else(|| count.to_string(), |word| (*word).to_owned())
-}
-
 /// Joins clauses: "a, b and c".
 pub(crate) fn series(clauses: &[String]) -> String {
     match clauses {

@@ -104,9 +104,6 @@ impl Mask {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Generator;
-    use crate::games::ConstructiveGames;
-    use crate::levels::{ConstructiveLevels, LevelConfig};
     use engine::{Game, syntax};
 
     fn seed() -> Seed {
@@ -139,12 +136,8 @@ mod tests {
 
     #[test]
     fn masked_generated_games_play_alike() {
-        for number in 0..40 {
-            let made = ConstructiveGames::default().generate(seed().child("game", number)).unwrap();
-            let game = Game::compile(&made.description).unwrap();
-            let levels = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
-            let level = levels.generate(seed().child("level", number)).map(|level| vec![level.to_string()]);
-            plays_alike(&made.title, &made.description, &level.unwrap_or_default());
+        for (name, source, levels) in surface::checks::generated() {
+            plays_alike(&name, &source, &levels);
         }
     }
 }

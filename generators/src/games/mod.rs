@@ -1,45 +1,40 @@
-//! Game generators: rules, mapping and theme.
+//! Games as text: kinds, nouns in English, and twins under other names.
 //!
-//! A game is composed of typed patterns: a way of moving, a goal, threats, obstacles and boons ([`ConstructiveGames`]). A
-//! pattern (`pattern.rs`) adds sprite types and rules to a draft (`draft.rs`) and declares the features it gives, needs
-//! and bars. The rules about obstacles follow from the bodies of the sprite types (`body.rs`); names come from a theme
-//! (`theme.rs`, `themes/`). The draft becomes a syntax tree (`assemble.rs`): no text is concatenated.
+//! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game has names by the use of its types
+//! (`casting.rs`) from a theme (`theme.rs`, `themes/`); a masked one has names that say nothing.
 
-mod assemble;
-mod body;
-mod boons;
 mod casting;
-mod changes;
-mod composition;
-mod constructive;
-mod draft;
-mod edit;
-mod effect;
 pub(crate) mod english;
-mod genome;
-mod goals;
-mod grafts;
 mod kind;
 mod masked;
-mod mechanics;
-mod movement;
-mod obstacles;
 pub(crate) mod palette;
-mod pattern;
 mod rethemed;
 mod role;
-mod shrinking;
 mod surface;
 mod theme;
 mod themes;
-mod threats;
-mod tree;
-mod variation;
-mod ways;
 
-pub use constructive::{ConstructiveGames, GameConfig, GeneratedGame};
-pub use genome::GameGenome;
 pub use kind::Kind;
 pub use masked::Masked;
 pub use rethemed::Rethemed;
-pub use variation::GameVariation;
+
+use engine::Description;
+
+/// A game with its description in prose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GeneratedGame {
+    /// The rules; they compile without errors or warnings.
+    pub description: Description,
+    /// The title, in the terms of the game's own scene.
+    pub title: String,
+    /// The contents of the game, in a few sentences.
+    pub summary: String,
+    /// The instructions for winning, in one sentence.
+    pub goal: String,
+    /// The kind of game.
+    pub kind: Kind,
+    /// `true` if something moves even when the player does not act.
+    pub real_time: bool,
+    /// The kernel, its variants, the grafts and the scene.
+    pub patterns: Vec<String>,
+}

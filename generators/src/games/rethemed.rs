@@ -388,9 +388,6 @@ fn goal(analysis: &Analysis) -> String {
 mod tests {
     use super::super::surface::checks;
     use super::*;
-    use crate::Generator;
-    use crate::games::ConstructiveGames;
-    use crate::levels::{ConstructiveLevels, LevelConfig};
     use engine::syntax;
 
     fn seed() -> Seed {
@@ -453,12 +450,8 @@ mod tests {
 
     #[test]
     fn generated_games_play_alike_under_other_names() {
-        for number in 0..40 {
-            let made = ConstructiveGames::default().generate(seed().child("game", number)).unwrap();
-            let game = Game::compile(&made.description).unwrap();
-            let levels = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
-            let level = levels.generate(seed().child("level", number)).map(|level| vec![level.to_string()]);
-            check(&made.title, &game, &level.unwrap_or_default());
+        for (name, source, levels) in checks::generated() {
+            check(&name, &Game::compile(&source).unwrap(), &levels);
         }
     }
 

@@ -122,7 +122,9 @@ impl Symbols {
 /// Helpers shared by the tests of changed surfaces.
 #[cfg(test)]
 pub(super) mod checks {
-    use engine::{Game, Seed};
+    use crate::games::Kind;
+    use crate::kernels::{KernelGame, KernelGenome, Slot};
+    use engine::{Description, Game, Seed};
     use std::fs;
     use std::path::Path;
 
@@ -138,6 +140,16 @@ pub(super) mod checks {
         }
         assert!(games.len() >= 20, "{} games", games.len());
         games
+    }
+
+    /// Games of kernels: title, rules and a level each.
+    pub(in super::super) fn generated() -> impl Iterator<Item = (String, Description, Vec<String>)> {
+        (0..40).map(|number| {
+            let seed = Seed::from_text("checks").child("game", number);
+            let KernelGame { game, course } = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap();
+            let level = course.level(Slot::Exam, seed).map(|level| level.text).ok();
+            (game.title, game.description, level.into_iter().collect())
+        })
     }
 
     /// Tests that the twin has the same hashes, scores and outcomes under the same actions.

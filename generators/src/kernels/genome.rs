@@ -4,6 +4,7 @@ use super::compose::{Choices, Course};
 use super::graft::Graft;
 use super::kernel::Kernel;
 use super::scene::Scene;
+use super::turns::Turns;
 use crate::GenerateError;
 use crate::games::{GeneratedGame, Kind};
 use engine::{Description, Digest, Game, Sampler, Seed, syntax};
@@ -44,13 +45,15 @@ impl KernelGenome {
     /// # Errors
     /// If no kernel of these kinds has a scene.
     pub fn draw(kinds: &[Kind], seed: Seed) -> Result<KernelGenome, GenerateError> {
-        let staged = |kernel: &&Kernel| kinds.contains(&kernel.kind) && Scene::of(kernel).next().is_some();
-        let kernels: Vec<&'static Kernel> = Kernel::all().iter().filter(staged).collect();
-        if kernels.is_empty() {
-            return Err(GenerateError::Unsuitable("no kernel is of the kinds that are allowed".to_owned()));
-        }
-        let sampler = &mut seed.child("genome", 0).sampler();
-        Ok(KernelGenome::of(kernels[sampler.below(kernels.len())], sampler))
+        let place = seed.child("place", 0).sampler().below(1 << 16) as u32;
+        KernelGenome::in_turn(&Turns::draw(kinds, seed), place, 0, seed)
+            .ok_or_else(|| GenerateError::Unsuitable("no kernel is of the kinds that are allowed".to_owned()))
+    }
+
+    /// Draws a game of the kernel whose turn it is, after some passes; `None` if there are no kernels.
+    pub fn in_turn(turns: &Turns, place: u32, passes: u32, seed: Seed) -> Option<KernelGenome> {
+        let kernel = turns.kernel(place, passes)?;
+        Some(KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler()))
     }
 
     /// Draws a game of a kernel that has scenes.

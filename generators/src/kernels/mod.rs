@@ -16,10 +16,12 @@ mod scene;
 mod template;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod variation;
 mod vocabulary;
 
 pub use compose::{Course, CourseLevel};
 pub use genome::{KernelGame, KernelGenome, preview};
 pub use kernel::Slot;
+pub use turns::Turns;
 pub use variation::KernelVariation;

@@ -172,6 +172,7 @@ impl<'a> Plan<'a> {
             "corpus": [corpus.levels, corpus.game_tries, corpus.level_tries],
             "corpus_criteria": corpus.criteria,
             "generated": [generated.levels, generated.game_tries, generated.level_tries],
+            "kinds": generated.kinds,
             "least": [generated.least_interactions, generated.least_mechanics],
             "board": board,
             "criteria": criteria,
@@ -254,12 +255,13 @@ impl<'a> Plan<'a> {
     }
 
     fn order(&self, method: Method, attempts: u32) -> GameOrder {
-        let Recipe { generated: part, board, criteria, .. } = self.recipe;
+        let Recipe { generated: part, criteria, .. } = self.recipe;
         let order = GameOrder::new(method, 1);
+        let kinds = if part.kinds.is_empty() { order.kinds } else { part.kinds.clone() };
         GameOrder {
             levels: part.levels,
             level_tries: part.level_tries,
-            board: board.clone(),
+            kinds,
             least_interactions: part.least_interactions,
             least_mechanics: part.least_mechanics,
             criteria: criteria.clone(),

@@ -3,7 +3,8 @@
 
 use engine::{Game, Seed};
 use generators::Generator;
-use generators::games::{ConstructiveGames, Masked, Rethemed};
+use generators::games::{Kind, Masked, Rethemed};
+use generators::kernels::KernelGenome;
 use std::path::Path;
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
@@ -70,8 +71,8 @@ fn generated_isomorphic_games_have_equal_forms() {
 #[test]
 fn twins_are_the_same_game() {
     let generated = (0..20).map(|number| {
-        let made =
-            ConstructiveGames::default().generate(Seed::from_text("twins").child("game", number)).unwrap();
+        let seed = Seed::from_text("twins").child("game", number);
+        let made = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap().game;
         (made.title, Game::compile(&made.description).unwrap())
     });
     for (name, game) in all().into_iter().chain(generated) {

@@ -10,7 +10,7 @@ use crate::verbs::release::in_pool;
 use engine::{Digest, Game, Level, Seed};
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
-use forge::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, RuleSource, make_games};
+use forge::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
@@ -37,13 +37,10 @@ use validators::{Criteria, GameForm, Panel};
 /// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// constructive: combined patterns; search: each game improved step by step; evolutionary: an archive of
-    /// different games
+    /// constructive: kernels in scenes; search: each game improved step by step, with parts of other kernels;
+    /// evolutionary: an archive of different games
     #[arg(long, value_name = "METHOD", default_value = "constructive")]
     method: Method,
-    /// patterns: mechanics combined; kernels: games composed round a dilemma, with levels as a course (constructive only)
-    #[arg(long, value_name = "SOURCE", default_value = "patterns", value_parser = rules)]
-    rules: RuleSource,
     /// Number of games
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     count: u32,
@@ -68,14 +65,6 @@ pub(crate) struct Args {
     out: PathBuf,
 }
 
-fn rules(text: &str) -> Result<RuleSource, String> {
-    match text {
-        "patterns" => Ok(RuleSource::Patterns),
-        "kernels" => Ok(RuleSource::Kernels),
-        _ => Err("the sources of rules are patterns and kernels".to_owned()),
-    }
-}
-
 fn kind(text: &str) -> Result<Kind, String> {
     let names = || Kind::ALL.iter().map(|kind| kind.name());
     Kind::ALL.iter().copied().find(|kind| kind.name() == text).ok_or_else(|| {
@@ -86,14 +75,7 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let order = match (args.rules, args.method) {
-        (RuleSource::Patterns, method) => GameOrder::new(method, args.count),
-        (RuleSource::Kernels, Method::Constructive) => GameOrder::of_kernels(args.count),
-        (RuleSource::Kernels, method) => {
-            return Err(malformed!("--rules kernels takes --method constructive, not {}", method.name()));
-        }
-    };
-    let mut order = GameOrder { levels: args.levels, ..order };
+    let mut order = GameOrder { levels: args.levels, ..GameOrder::new(args.method, args.count) };
     if !args.kind.is_empty() {
         order.kinds.clone_from(&args.kind);
     }

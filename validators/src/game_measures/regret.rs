@@ -1,0 +1,157 @@
+//! Regret: the price of sensible choices that are not the winner's.
+
+use agents::{Budget, Olets, OletsConfig, OneStep, OneStepConfig, Planner};
+use engine::{Action, Chance, Episode, Game, Level, Outcome, Seed, State};
+use serde::{Deserialize, Serialize};
+
+/// The most moments of an episode at which policies choose, evenly spread.
+const MOMENTS: usize = 8;
+/// Ticks that a policy plays before the same player goes on for all of them.
+const TURN: usize = 6;
+/// Random futures by which the safe policy judges an action, and their length in ticks.
+const SAFETY: (u64, usize) = (4, 10);
+/// Forward-model calls of a decision of the player that goes on, and the most ticks that it plays.
+const COMPETENT: (Budget, usize) = (Budget(50), 160);
+
+/// The regret on the way to a win: at how many moments sensible policies do other things than the winner, and the cost.
+///
+/// The *fast* policy plays what the winner plays, the *greedy* one the best next tick, the *safe* one the action after which
+/// most careless futures survive. Each plays six ticks from the moment, then the same competent player goes on. Without the
+/// winner's foresight a game of no dilemma is won all the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Regret {
+    /// From 0 to 1: the share of moments at which the policies do not all choose the same action.
+    pub split: f64,
+    /// From 0 to 1: the share of moments at which the winner's way is still won, and the way of another policy is not.
+    pub cost: f64,
+}
+
+impl Regret {
+    /// Measures a won episode. The same arguments give the same numbers on every machine. Cost: 24 plays from moments of the
+    /// episode, at most 200,000 forward-model calls.
+    pub fn of(game: &Game, level: &Level, won: &Episode, seed: Seed) -> Regret {
+        let step = won.actions.len().div_ceil(MOMENTS).max(1);
+        let (mut at_moments, mut split, mut cost) = (0, 0, 0);
+        let (_, mut state) = Episode::begin(game, level, won.seed);
+        for (tick, &action) in won.actions.iter().enumerate() {
+            if state.is_over() {
+                break;
+            }
+            if tick % step == step / 2 {
+                at_moments += 1;
+                let moment = Moment { game, state: &state, seed: seed.child("moment", tick as u64) };
+                let (greedy, safe) = (moment.greedy(), moment.safe());
+                if greedy != action || safe != action {
+                    split += 1;
+                    let wins = |policy: &dyn Fn(&Moment<'_>, usize) -> Action| moment.wins(policy);
+                    let winner = |_: &Moment<'_>, ahead: usize| {
+                        won.actions.get(tick + ahead).copied().unwrap_or(Action::Nil)
+                    };
+                    let loses = || !wins(&|at, _| at.greedy()) || !wins(&|at, _| at.safe());
+                    cost += usize::from(wins(&winner) && loses());
+                }
+            }
+            game.step(&mut state, action);
+        }
+        let share = |count: usize| count as f64 / at_moments.max(1) as f64;
+        Regret { split: share(split), cost: share(cost) }
+    }
+
+    /// The strength, from 0 to 1: a cost at a third of the moments is enough.
+    pub fn strength(self) -> f64 {
+        (3.0 * self.cost).min(1.0)
+    }
+}
+
+/// A state in which policies choose.
+struct Moment<'a> {
+    game: &'a Game,
+    state: &'a State,
+    seed: Seed,
+}
+
+impl Moment<'_> {
+    fn greedy(&self) -> Action {
+        let mut player = OneStep::new(OneStepConfig::default(), self.seed.child("greedy", 0));
+        player.plan(self.game, self.state, Budget(0)).0
+    }
+
+    /// The action that survives in most random futures; the first of equals.
+    fn safe(&self) -> Action {
+        let survives = |action: Action| {
+            let survives = |future: &u64| {
+                let seed = self.seed.child("safe", *future);
+                let (mut state, mut sampler) = (self.state.clone(), seed.sampler());
+                state.fork_from(self.state, Chance::from_java(sampler.bits() as i64));
+                self.game.step(&mut state, action);
+                for _ in 1..SAFETY.1 {
+                    let actions = self.game.actions(&state);
+                    if state.is_over() || actions.is_empty() {
+                        break;
+                    }
+                    self.game.step(&mut state, actions[sampler.below(actions.len())]);
+                }
+                state.outcome() != Outcome::Lost
+            };
+            (0..SAFETY.0).filter(survives).count()
+        };
+        let actions = self.game.actions(self.state);
+        let best = actions.iter().copied().rev().max_by_key(|&action| survives(action));
+        best.unwrap_or(Action::Nil)
+    }
+
+    /// Tests whether the competent player wins after a turn of the policy.
+    fn wins(&self, policy: &dyn Fn(&Moment<'_>, usize) -> Action) -> bool {
+        let mut state = self.state.clone();
+        for ahead in 0..TURN {
+            if state.is_over() {
+                break;
+            }
+            let seed = self.seed.child("turn", ahead as u64);
+            let action = policy(&Moment { game: self.game, state: &state, seed }, ahead);
+            self.game.step(&mut state, action);
+        }
+        let mut player = Olets::new(OletsConfig::default(), self.seed.child("competent", 0));
+        for _ in 0..COMPETENT.1 {
+            if state.is_over() {
+                break;
+            }
+            let (action, _) = player.plan(self.game, &state, COMPETENT.0);
+            self.game.step(&mut state, action);
+        }
+        state.outcome() == Outcome::Won
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A gem that is worth points and closes the way out for good, or none.
+    fn regret(trap: &str) -> Regret {
+        let source = format!(
+            "BasicGame\n    SpriteSet\n        gem > Immovable\n        out > Immovable\n        shut > Immovable\n        \
+             hero > MovingAvatar\n    LevelMapping\n        g > gem\n        o > out\n        A > hero\n    \
+             InteractionSet\n        hero wall > stepBack\n        gem hero > killSprite scoreChange=5\n{trap}        \
+             out hero > killSprite\n    TerminationSet\n        SpriteCounter stype=hero limit=0 win=False\n        \
+             SpriteCounter stype=out limit=0 win=True\n        Timeout limit=60 win=False\n"
+        );
+        let game = Game::from_source(&source).unwrap();
+        let level = game.level("wwwwwwwwww\nw........w\nw.A......w\nw.g......w\nw.......ow\nwwwwwwwwww\n").unwrap();
+        let seed = Seed::from_text("regret");
+        let (mut episode, mut state) = Episode::begin(&game, &level, seed);
+        let way = [[Action::Right; 6].as_slice(), &[Action::Down; 2]].concat();
+        way.into_iter().for_each(|action| episode.play(&game, &mut state, action));
+        assert_eq!(episode.outcome, Outcome::Won);
+        Regret::of(&game, &level, &episode, seed)
+    }
+
+    #[test]
+    fn greed_that_loses_is_regretted() {
+        let plain = regret("");
+        let trapped = regret("        hero gem > killSprite\n");
+        assert_eq!(plain.cost, 0.0, "{plain:?}");
+        assert!(trapped.cost > 0.0, "{trapped:?}");
+    }
+}
