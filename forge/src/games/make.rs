@@ -1,13 +1,14 @@
 //! The making of games by each method.
 
 use super::candidate::{MadeGame, Step};
+use super::cast::Cast;
 use super::gate::{GameGate, NEAR_KNOWN};
 use super::look::{Looker, axes};
 use super::order::GameOrder;
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search, spread};
 use crate::tally::Tally;
-use engine::{Game, Seed};
+use engine::Seed;
 use generators::games::Kind;
 use generators::kernels::{KernelGenome, KernelVariation, Turns};
 use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig};
@@ -260,15 +261,12 @@ fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
 struct Company {
     forms: Vec<GameForm>,
     titles: BTreeSet<String>,
-    casts: Vec<BTreeSet<String>>,
+    casts: Vec<Cast>,
     /// The number of games of each kernel and of each kind.
     crowds: BTreeMap<String, usize>,
     /// The most games of a kernel and of a kind.
     room: (usize, usize),
 }
-
-/// The share of its names that a game may have in common with another.
-const CAST: f64 = 0.5;
 
 impl Company {
     /// One of twenty games may be of a kernel and three of twenty of a kind, or one and two of a few; as many as there are,
@@ -291,9 +289,8 @@ impl Company {
         if self.titles.contains(&made.card.title) {
             return Err("a title twice");
         }
-        let cast = cast(&made.game);
-        let shared = |other: &BTreeSet<String>| cast.intersection(other).count() as f64;
-        if self.casts.iter().any(|other| shared(other) > CAST * cast.len().min(other.len()) as f64) {
+        let cast = Cast::of(&made.game);
+        if self.casts.iter().any(|other| cast.is_shared(other)) {
             return Err("a cast twice");
         }
         let kernel = made.card.origin.kernel().unwrap_or_default().to_owned();
@@ -309,12 +306,6 @@ impl Company {
         self.forms.push(form);
         Ok(())
     }
-}
-
-/// The names of the types of a game that it does not share with all games.
-fn cast(game: &Game) -> BTreeSet<String> {
-    let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
-    names.filter(|name| !["wall", "avatar"].contains(&name.as_str())).collect()
 }
 
 /// The feasibility of a game that a look took for feasible and the last judges did not.

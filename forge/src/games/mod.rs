@@ -1,10 +1,11 @@
 //! Whole games on request: for `arcade generate games`, and for the releases that are minted of them.
 //!
 //! Rules come from a generator, or from a search that is told how weak players fare on a few quick levels. Then levels are
-//! found, redundant rules are taken away, and the panel has the last word, with dice of its own and with players that no
+//! found, the time limit is set by their wins, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
 
 mod candidate;
+mod cast;
 mod gate;
 mod levels;
 mod look;
@@ -13,6 +14,7 @@ mod order;
 
 pub mod report;
 
+pub use cast::Cast;
 pub use candidate::{Candidate, MadeGame, Step, marked};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{GameSet, GamesError, Progress, make_games, make_one};

@@ -12,6 +12,7 @@ use crate::ancestry::item;
 use crate::recipe::Recipe;
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
+use forge::games::Cast;
 use forge::reasons;
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
@@ -28,6 +29,7 @@ pub(super) struct Contender {
     pub(super) at: usize,
     pub(super) is_new: bool,
     title: String,
+    cast: Cast,
     labels: BTreeMap<Difficulty, i64>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
@@ -55,6 +57,7 @@ impl Contender {
             at,
             is_new: is_new(&frozen.card),
             title: frozen.card.title.clone(),
+            cast: Cast::of(&game),
             labels: labels(&frozen.card),
             goal: kind.goal,
             avatar: kind.avatar,
@@ -184,20 +187,23 @@ struct Fit {
 }
 
 impl Fit {
-    /// Excludes contenders that are in a previous release, have a duplicate level, or are near an earlier new one.
+    /// Excludes contenders that are in a previous release, have a duplicate level, or are near an earlier new one or share its title or
+    /// its cast.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<bool, BTreeMap<String, u64>> = BTreeMap::new();
         for (at, contender) in contenders.iter().enumerate() {
             let distinct: BTreeSet<&Digest> = contender.items.iter().collect();
             let repeats = distinct.len() < contender.items.len();
-            let near =
-                |&other: &usize| contenders[other].is_new && contender.form.is_near(&contenders[other].form);
-            let near = contender.is_new && fit.iter().any(near);
+            let of_new = |same: &dyn Fn(&Contender) -> bool| {
+                contender.is_new && fit.iter().map(|&other| &contenders[other]).any(|other| other.is_new && same(other))
+            };
             let why = match () {
                 () if contender.is_known(plan) => "in a release before",
                 () if repeats => "a level twice",
-                () if near => "near to another candidate",
+                () if of_new(&|other| contender.form.is_near(&other.form)) => "near to another candidate",
+                () if of_new(&|other| contender.title == other.title) => "a title twice",
+                () if of_new(&|other| contender.cast.is_shared(&other.cast)) => "a cast twice",
                 () => {
                     fit.push(at);
                     continue;

@@ -142,7 +142,9 @@ mod tests {
         let seed = Seed::from_text("regret");
         let (mut episode, mut state) = Episode::begin(&game, &level, seed);
         let way = [[Action::Right; 6].as_slice(), &[Action::Down; 2]].concat();
-        way.into_iter().for_each(|action| episode.play(&game, &mut state, action));
+        for action in way {
+            episode.play(&game, &mut state, action);
+        }
         assert_eq!(episode.outcome, Outcome::Won);
         Regret::of(&game, &level, &episode, seed)
     }

@@ -1,0 +1,37 @@
+//! The casts of games: the names of their types.
+
+use engine::Game;
+use std::collections::BTreeSet;
+
+/// The share of its names that a game may have in common with another.
+const SHARED: f64 = 0.5;
+
+/// The names of the types of a game, except those that the engine knows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cast(BTreeSet<String>);
+
+impl Cast {
+    /// The cast of a game.
+    pub fn of(game: &Game) -> Cast {
+        let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
+        Cast(names.filter(|name| !["wall", "avatar"].contains(&name.as_str())).collect())
+    }
+
+    /// Tests whether most names of the smaller cast are in the other one, too.
+    pub fn is_shared(&self, other: &Cast) -> bool {
+        let shared = self.0.intersection(&other.0).count() as f64;
+        shared > SHARED * self.0.len().min(other.0.len()) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn casts_are_shared_if_most_names_are() {
+        let cast = |names: &str| Cast(names.split(' ').map(str::to_owned).collect());
+        assert!(cast("otter raft reed").is_shared(&cast("otter raft stone moss")));
+        assert!(!cast("otter raft reed moss").is_shared(&cast("otter raft stone heron")));
+    }
+}

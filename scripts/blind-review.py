@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Packs games of three sources for blind reviewers: rules, boards and filmstrips, shuffled, under numbers.
+
+    scripts/blind-review.py --arcade target/release/arcade --generated new-games --public gvgai/games \
+        --corpus corpora --numbers 12 6 6 --seed autumn --out review
+
+Writes review/01 to review/24, each with rules.txt, level-0.png, level-2.png, level-4.png and two filmstrips of plays by the same
+planner, and review-key.json beside the folder, which reviewers must not see. Needs Pillow.
+"""
+
+import argparse
+import json
+import pathlib
+import random
+import subprocess
+import tempfile
+
+from PIL import Image
+
+FRAMES = 8
+PLANNER = "olets:300"
+TICKS = 160
+
+
+def run(arcade, *args):
+    return subprocess.run([arcade, *args], capture_output=True, text=True, check=False, timeout=300)
+
+
+def game_file(folder):
+    return next((path for name in ("game.vgdl", "game.txt") if (path := folder / name).exists()), None)
+
+
+def source(folder):
+    """The folders with a game, and single files of games with levels beside them."""
+    games = [path.parent for path in sorted(folder.glob("*/game.*"))]
+    return games or sorted(p for p in folder.glob("*.txt") if "_lvl" not in p.name)
+
+
+def level(game, number):
+    if game.is_dir():
+        return str(next(p for p in (game / f"lvl{number}.txt", game / f"level{number}.txt") if p.exists()))
+    return str(game.with_name(f"{game.stem}_lvl{number}.txt"))
+
+
+def rules(arcade, game):
+    text = run(arcade, "describe", str(game)).stdout
+    lines = text.splitlines()
+    # The first line names the game or its file.
+    return "\n".join(line for line in lines[1:] if "canary" not in line.lower()).strip() + "\n"
+
+
+def filmstrip(arcade, game, number, out, seed):
+    """Eight frames of the best of three plays, side by side."""
+    with tempfile.TemporaryDirectory() as scratch:
+        best = None
+        for attempt in range(3):
+            gif = pathlib.Path(scratch) / f"{attempt}.gif"
+            told = run(arcade, "--json", "render", str(game), level(game, number), "--planner", PLANNER, "--seed",
+                       f"{seed}-{attempt}", "--max-ticks", str(TICKS), "--scale", "20", "-o", str(gif))
+            if gif.exists():
+                won = "won" in told.stdout
+                if best is None or won and not best[1]:
+                    best = (gif, won)
+                if won:
+                    break
+        if best is None:
+            return
+        frames = Image.open(best[0])
+        count = getattr(frames, "n_frames", 1)
+        picked = sorted({round(at * (count - 1) / (FRAMES - 1)) for at in range(FRAMES)})
+        pictures = []
+        for at in picked:
+            frames.seek(at)
+            pictures.append(frames.convert("RGB"))
+        width, height = max(p.width for p in pictures), max(p.height for p in pictures)
+        columns = 4
+        sheet = Image.new("RGB", (columns * (width + 6), -(-len(pictures) // columns) * (height + 6)), "white")
+        for at, picture in enumerate(pictures):
+            sheet.paste(picture, ((at % columns) * (width + 6), at // columns * (height + 6)))
+        sheet.save(out)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--arcade", required=True)
+    parser.add_argument("--generated", type=pathlib.Path, required=True)
+    parser.add_argument("--public", type=pathlib.Path, required=True)
+    parser.add_argument("--corpus", type=pathlib.Path, required=True)
+    parser.add_argument("--numbers", type=int, nargs=3, default=[12, 6, 6])
+    parser.add_argument("--seed", default="review")
+    parser.add_argument("--out", type=pathlib.Path, required=True)
+    args = parser.parse_args()
+    draw = random.Random(args.seed)
+    games = []
+    for group, folder, number in zip(("generated", "public", "corpus"),
+                                     (args.generated, args.public, args.corpus), args.numbers):
+        there = [game for game in source(folder) if has_levels(game)]
+        games += [(group, game) for game in draw.sample(there, min(number, len(there)))]
+    draw.shuffle(games)
+    key = {}
+    for number, (group, game) in enumerate(games, 1):
+        folder = args.out / f"{number:02}"
+        folder.mkdir(parents=True)
+        key[f"{number:02}"] = {"group": group, "game": game.name}
+        (folder / "rules.txt").write_text(rules(args.arcade, game))
+        for at in (0, 2, 4):
+            run(args.arcade, "render", str(game), level(game, at), "--scale", "32", "--legend", "-o",
+                str(folder / f"level-{at}.png"))
+        for at in (1, 3):
+            filmstrip(args.arcade, game, at, folder / f"film-{at}.png", args.seed)
+        print(f"{number:02} of {len(games)}", flush=True)
+    args.out.with_name(args.out.name + "-key.json").write_text(json.dumps(key, indent=1) + "\n")
+
+
+def has_levels(game):
+    try:
+        return all(pathlib.Path(level(game, number)).exists() for number in range(5))
+    except StopIteration:
+        return False
+
+
+if __name__ == "__main__":
+    main()
