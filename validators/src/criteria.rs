@@ -1,5 +1,6 @@
 //! The thresholds of all criteria, in one place.
 
+use crate::gates::{GATES, Gates};
 use crate::ladder::{LadderConfig, Rung};
 use serde::{Deserialize, Serialize};
 
@@ -61,6 +62,9 @@ engine::with_defaults! {
         pub skill_overall: f64 = 0.25,
         /// Forward-model calls to show that a rule matters, for each rule.
         pub ablation_calls: u64 = 200_000,
+        /// The thresholds of the gates.
+        #[serde(skip_serializing_if = "Gates::are_default")]
+        pub gates: Gates = Gates::default(),
     }
 }
 
@@ -116,7 +120,7 @@ impl Criteria {
     /// The first value that is out of range.
     pub fn check(&self) -> Result<(), CriteriaError> {
         let wrong = |key, message: String| Err(CriteriaError { key, message });
-        let known = || LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).copied();
+        let known = || LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).chain(GATES).copied();
         if let Some(unknown) = self.ask.iter().find(|name| !known().any(|known| known == *name)) {
             let near = engine::nearest(unknown, known());
             let help = near.map_or(".".to_owned(), |near| format!("; did you mean `{near}`?"));
@@ -165,6 +169,9 @@ impl Criteria {
             if count == 0 || count > most {
                 return wrong(key, format!("is {count}; it takes 1 to {most}"));
             }
+        }
+        if let Some((key, message)) = self.gates.problem() {
+            return wrong(key, message);
         }
         if self.includes("skill") && self.ladder.len() < 2 {
             let message =
@@ -231,5 +238,7 @@ mod tests {
         check(|criteria| criteria.random_plays = 0, "`random_plays` is 0");
         check(|criteria| criteria.ladder.clear(), "`ladder` takes at least two players");
         check(|criteria| criteria.patience = 0, "`patience` is 0");
+        check(|criteria| criteria.gates.drama = 2.0, "`gates.drama` is 2");
+        check(|criteria| criteria.gates.spare = (0.5, 0.2), "`gates.spare` has 0.5 above 0.2");
     }
 }

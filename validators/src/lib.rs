@@ -15,6 +15,7 @@ mod ending;
 mod evidence;
 pub mod game_measures;
 mod game_report;
+mod gates;
 mod idle;
 mod ladder;
 mod length;
@@ -42,6 +43,9 @@ pub use early_death::NoEarlyDeath;
 pub use evidence::{Evidence, Line};
 pub use game_measures::{GameKind, PlayMeasures};
 pub use game_report::{GameCase, GameReport, GameValidator};
+pub use gates::{
+    ActorsMatter, Drama, GATES, Gates, Necessity, NoDeadTime, NotInstant, Progression, Tight,
+};
 pub use idle::NotIdle;
 pub use ladder::{Difficulty, Ladder, LadderConfig, PlayerResult, Rung, UnknownDifficulty};
 pub use length::LengthWithin;

@@ -4,6 +4,7 @@ use crate::ablation::RulesMatter;
 use crate::allowance::Allowance;
 use crate::causes;
 use crate::evidence::Evidence;
+use crate::gates;
 use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::recording::{Recorded, Usage, explore};
 use crate::too_soon;
@@ -48,6 +49,8 @@ enum Stage {
 enum Subject {
     /// The players.
     Players,
+    /// Winning play: levels without a known win are left out.
+    Play,
     /// The rules: doubts about them may follow from a level that nobody can win.
     Rules,
 }
@@ -201,7 +204,7 @@ impl Panel {
                 Box::new(SkillPays { players, wins: c.skill_wins, scores: c.skill_scores, play_calls }),
             ),
         ];
-        let game: [(Subject, Box<dyn GameValidator + Send>); 3] = [
+        let rules: [(Subject, Box<dyn GameValidator + Send>); 3] = [
             (Subject::Players, Box::new(SkillOverall { wins: c.skill_overall })),
             (Subject::Rules, Box::new(RuleUse)),
             (
@@ -209,9 +212,11 @@ impl Panel {
                 Box::new(RulesMatter { calls: c.ablation_calls, total: allowance.map(Allowance::ablation) }),
             ),
         ];
+        let gates = gates::all(&c.gates).map(|gate| (Subject::Play, gate));
+        let game = rules.into_iter().chain(gates);
         Panel {
             validators: level.into_iter().filter(|(_, validator)| c.includes(validator.name())).collect(),
-            of_game: game.into_iter().filter(|(_, validator)| c.includes(validator.name())).collect(),
+            of_game: game.filter(|(_, validator)| c.includes(validator.name())).collect(),
             bound: None,
             search,
             exploration: allowance.map_or(u64::MAX, Allowance::exploration),

@@ -44,6 +44,9 @@ pub struct Finding {
     /// Ticks of the shortest win, if it is proved that no fewer win.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimal: Option<usize>,
+    /// The figure that a gate measures, for tables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub figure: Option<f64>,
     /// The observations, in the order to report them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
@@ -62,6 +65,7 @@ impl From<Verdict> for Finding {
             measured: None,
             searched: None,
             optimal: None,
+            figure: None,
             evidence: Vec::new(),
             ladder: None,
             episodes: Vec::new(),

@@ -2,17 +2,19 @@
 //! that sets of them can be described and compared.
 //!
 //! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) sum a set up; [`Comparison`] sets two
-//! groups of games side by side, as `docs/side-by-side.md` explains.
+//! groups of games side by side, as `docs/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of `docs/gates.md`.
 
 mod compare;
 mod edge;
 mod game;
+mod gates;
 mod level;
 mod row;
 
 pub use compare::{Comparison, Line};
 pub use edge::{Edge, SEARCH};
 pub use game::{GameSurvey, SurveyedGame};
+pub use gates::{GateAnswer, GateRow, GateSurvey};
 pub use level::{LevelSurvey, SurveyedLevel};
 pub use row::GameRow;
 

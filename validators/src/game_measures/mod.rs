@@ -15,3 +15,4 @@ pub use guards::Guards;
 pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind};
 pub use play::PlayMeasures;
 pub use regret::Regret;
+pub(crate) use play::mechanics;

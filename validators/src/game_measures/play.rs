@@ -74,12 +74,7 @@ impl PlayMeasures {
             }
             levels += 1;
             for episode in won().take(WINS) {
-                let mut counter = Counter::new(&guards);
-                let mut state = game.start(recorded.level, episode.seed);
-                for &action in &episode.actions {
-                    game.step_watched(&mut state, action, &mut counter);
-                }
-                used.extend(counter.lines);
+                used.extend(mechanics(game, &guards, recorded.level, episode));
             }
         }
         let [pace, density, chance, sight, drama, lead_changes] = all.map(|mean| mean.value());
@@ -87,6 +82,17 @@ impl PlayMeasures {
         let measures = PlayMeasures { pace, density, chance, mechanics, sight, drama, lead_changes, levels };
         (levels > 0).then_some(measures)
     }
+}
+
+/// Returns the interactions that an episode executes, guards apart: indices into
+/// [`Description::interactions`](engine::Description). Cost: that of the episode.
+pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &Episode) -> BTreeSet<usize> {
+    let mut counter = Counter::new(guards);
+    let mut state = game.start(level, episode.seed);
+    for &action in &episode.actions {
+        game.step_watched(&mut state, action, &mut counter);
+    }
+    counter.lines
 }
 
 /// Pace, density, chance, sight, drama and lead changes of an episode.

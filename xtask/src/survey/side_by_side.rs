@@ -4,7 +4,7 @@ use super::folders;
 use crate::levels::{load, name_of};
 use anyhow::Context;
 use engine::{Digest, Level, Seed};
-use forge::survey::{Comparison, GameRow, GameSurvey};
+use forge::survey::{Comparison, GameRow, GameSurvey, GateRow, GateSurvey};
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
 use std::io::Write;
@@ -48,6 +48,10 @@ pub(crate) struct Args {
     /// Print the names of the games that the seed draws, without judging any
     #[arg(long)]
     sample: bool,
+    /// Put the games through the gates of docs/gates.md instead, all their levels, and print how many pass each. --rows takes
+    /// a line for each game; --budget is 300000 unless given
+    #[arg(long)]
+    gates: bool,
     /// Threads; all cores if not given. Changes no result
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
@@ -72,6 +76,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if args.sample {
         return Ok(());
     }
+    if args.gates {
+        return gates(args, &groups, seed);
+    }
     let mut judge = Judge {
         survey: GameSurvey::new(&criteria, seed)?,
         levels: args.levels,
@@ -88,6 +95,33 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let comparison = Comparison::of(ours, theirs, seed.child("comparison", 0));
         println!("\n{}", comparison.table().to_markdown());
     }
+    Ok(())
+}
+
+/// Puts both groups through the gates.
+fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Result<()> {
+    let usual = GateSurvey::criteria();
+    let given = args.budget != GameSurvey::criteria().budget;
+    let budget = if given { args.budget } else { usual.budget };
+    let survey = GateSurvey::new(&Criteria { budget, ..usual }, seed)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
+    let mut rows: Vec<(&str, Vec<GateRow>)> = Vec::new();
+    for (group, folders) in groups {
+        println!("\n{group}");
+        let mut of_group = Vec::new();
+        for folder in folders {
+            let (game, levels) = load(folder)?;
+            let row = pool.install(|| survey.row(&name_of(folder), &game, &levels));
+            println!("{}", row.line());
+            if let Some(path) = &args.rows {
+                append(path, &row)?;
+            }
+            of_group.push(row);
+        }
+        rows.push((group, of_group));
+    }
+    let rows: Vec<(&str, &[GateRow])> = rows.iter().map(|(group, rows)| (*group, &rows[..])).collect();
+    println!("\n{}", GateRow::table(&rows).to_markdown());
     Ok(())
 }
 
@@ -155,7 +189,7 @@ fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
     text.lines().map(row).collect()
 }
 
-fn append(path: &Path, row: &GameRow) -> anyhow::Result<()> {
+fn append(path: &Path, row: &impl serde::Serialize) -> anyhow::Result<()> {
     let file = OpenOptions::new().create(true).append(true).open(path);
     let mut file = file.with_context(|| path.display().to_string())?;
     let line = serde_json::to_string(row)? + "\n";

@@ -1,0 +1,117 @@
+//! Games put through the gates, so that their thresholds rest on something.
+
+use engine::{Game, Level, Seed};
+use rayon::prelude::*;
+use report::{Table, TableCell};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use validators::{Criteria, CriteriaError, GATES, GameReport, Panel, Verdict};
+
+/// Puts games through the gates, one after the other, all alike.
+pub struct GateSurvey {
+    panel: Panel,
+    seed: Seed,
+}
+
+/// The answer of a gate about a game.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GateAnswer {
+    /// It passes; `None` if there was nothing to judge.
+    pub passes: Option<bool>,
+    /// The measured figure.
+    pub figure: Option<f64>,
+    /// Everything that was seen.
+    pub seen: Vec<String>,
+}
+
+/// A game and the answers of the gates.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GateRow {
+    /// Its name.
+    pub name: String,
+    /// Levels that were judged.
+    pub levels: usize,
+    /// Levels of which a win was found.
+    pub won: usize,
+    /// The answers, by gate.
+    pub gates: BTreeMap<String, GateAnswer>,
+}
+
+impl GateSurvey {
+    /// A survey with the thresholds of these criteria, and their budget for a win.
+    ///
+    /// # Errors
+    /// The criteria are not sensible.
+    pub fn new(criteria: &Criteria, seed: Seed) -> Result<GateSurvey, CriteriaError> {
+        let ask = ["winnable"].iter().chain(GATES).map(|&name| name.to_owned()).collect();
+        Ok(GateSurvey { panel: Panel::new(&Criteria { ask, ..criteria.clone() })?, seed })
+    }
+
+    /// Criteria whose budget lets a hundred games be judged in half an hour on two cores.
+    pub fn criteria() -> Criteria {
+        Criteria { budget: 300_000, foresight: 0.4, ..Criteria::default() }
+    }
+
+    /// The row of a game: the same alone and among others, on any number of threads.
+    pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GateRow {
+        let seed = self.seed.child(&game.digest().to_string(), 0);
+        let judge = |level: &Level| self.panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
+        let reports: Vec<_> = levels.par_iter().map(judge).collect();
+        let judgements = self.panel.judge_together(game, levels, &reports, seed);
+        let report = GameReport { levels: reports, judgements };
+        let won = report.levels.iter().filter(|level| level.witness.is_some()).count();
+        let answer = |judged: &validators::Judgement| {
+            let finding = &judged.finding;
+            let passes = match finding.verdict {
+                Verdict::Pass { .. } => Some(true),
+                Verdict::Fail { .. } => Some(false),
+                Verdict::Unknown { .. } => None,
+            };
+            let seen = finding.evidence.iter().map(|seen| seen.text.clone()).collect();
+            (judged.criterion.to_owned(), GateAnswer { passes, figure: finding.figure, seen })
+        };
+        let gates = report.judgements.iter().map(answer).collect();
+        GateRow { name: name.to_owned(), levels: levels.len(), won, gates }
+    }
+}
+
+impl GateRow {
+    /// One line for people who wait: `hailglass: won 5 of 5, drama 0.61, …`, with `!` after the gates that fail.
+    pub fn line(&self) -> String {
+        let answer = |gate: &&str| {
+            let answer = self.gates.get(*gate)?;
+            let figure = answer.figure.map_or(String::new(), |figure| format!(" {figure:.2}"));
+            let mark = match answer.passes {
+                Some(true) => "",
+                Some(false) => "!",
+                None => "?",
+            };
+            Some(format!("{gate}{mark}{figure}"))
+        };
+        let answers: Vec<String> = GATES.iter().filter_map(|gate| answer(&gate)).collect();
+        format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
+    }
+
+    /// The table of groups of games: how many of those that a gate could judge pass it, and the median of its figure.
+    pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
+        let columns = groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);
+        let columns: Vec<String> = ["gate".to_owned()].into_iter().chain(columns).collect();
+        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+        let mut table = Table::new("gates", "Gates", "", &columns);
+        for &gate in GATES {
+            let cells = groups.iter().flat_map(|(_, rows)| {
+                let answers: Vec<&GateAnswer> = rows.iter().filter_map(|row| row.gates.get(gate)).collect();
+                let judged = answers.iter().filter(|answer| answer.passes.is_some()).count();
+                let passed = answers.iter().filter(|answer| answer.passes == Some(true)).count();
+                let mut figures: Vec<f64> = answers.iter().filter_map(|answer| answer.figure).collect();
+                figures.sort_by(f64::total_cmp);
+                let median = figures.get(figures.len() / 2).copied();
+                [TableCell::Figure(format!("{passed} of {judged}")), TableCell::number(median, 2)]
+            });
+            table.push([TableCell::text(gate)].into_iter().chain(cells).collect());
+        }
+        table
+    }
+}

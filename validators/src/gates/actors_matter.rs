@@ -1,0 +1,215 @@
+//! The `actors-matter` gate: what moves by itself ranges over the board and gets in the player's way.
+
+use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::evidence::Evidence;
+use crate::game_report::{GameCase, GameValidator};
+use crate::verdict::Finding;
+use engine::analysis::{Harm, Motion, Role};
+use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Sprites that move by themselves, shots of the player apart, sweep at least [`Gates::sweep`] cells each, on average; on at
+/// least [`Gates::met_levels`] of the levels that have such sprites, one comes into or next to a cell of the win's route, and
+/// next to the player. Where contact with them can kill, they cause at least [`Gates::foe_losses`] of the losses of careless
+/// players.
+///
+/// They are watched in the shortest known wins and in careless plays. A sprite counts if it lived for twenty ticks. A loss is
+/// theirs if the avatar meets one in the tick of the loss, or something that they make. Games in which nothing moves by itself
+/// pass. Cost: the careless plays, and a look at all sprites in each tick.
+#[derive(Clone, Debug)]
+pub struct ActorsMatter(pub Gates);
+
+/// Ticks that a sprite lives at least to be measured.
+const LIFE: usize = 20;
+
+impl GameValidator for ActorsMatter {
+    fn name(&self) -> &'static str {
+        "actors-matter"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let gates = &self.0;
+        let wins = won_levels(case);
+        if wins.is_empty() {
+            return without_subject(NO_WIN);
+        }
+        let actors = Actors::of(case.analysis);
+        let (mut problems, mut notes) = (Vec::new(), Vec::new());
+        let (mut sweeps, mut met, mut levels) = (Vec::new(), 0, 0);
+        let (mut losses, mut theirs) = (0, 0);
+        for won in wins {
+            let seen = actors.watch(case, won, won.win);
+            let played = careless::plays(case, won, gates.careless_slips, gates.careless_plays, case.seed);
+            let careless: Vec<Watched> = played.iter().map(|play| actors.watch(case, won, play)).collect();
+            let lost = played.iter().zip(&careless).filter(|(play, _)| play.outcome == Outcome::Lost);
+            for (_, watched) in lost {
+                losses += 1;
+                theirs += u32::from(watched.last);
+            }
+            if seen.sweeps.is_empty() && !seen.present {
+                continue;
+            }
+            levels += 1;
+            sweeps.extend(seen.sweeps.iter().chain(careless.iter().flat_map(|watched| &watched.sweeps)));
+            let near = seen.near || careless.iter().any(|watched| watched.near);
+            if seen.crossed && near {
+                met += 1;
+            } else {
+                let text = format!("level {}: nothing that moves by itself comes near the player's way", won.number);
+                notes.push(Evidence::new(text).advise("let its way cross the way to the goal"));
+            }
+        }
+        if levels == 0 {
+            let note = "nothing moves by itself in any level";
+            return finding(Vec::new(), vec![Evidence::new(note)], None);
+        }
+        let swept = sweeps.iter().sum::<f64>() / sweeps.len().max(1) as f64;
+        let text = format!(
+            "what moves by itself sweeps {swept:.1} cells on average over {} sprites, {} wanted",
+            sweeps.len(),
+            gates.sweep
+        );
+        let narrow = !sweeps.is_empty() && swept < gates.sweep;
+        if narrow { &mut problems } else { &mut notes }.push(Evidence::new(text));
+        let text = format!("on {met} of {levels} levels it meets the player's way");
+        let away = (met as f64) < gates.met_levels * f64::from(levels);
+        if away { &mut problems } else { &mut notes }.push(Evidence::new(text));
+        if actors.deadly && case.analysis.aims().avatar_must_live && losses > 0 {
+            let share = f64::from(theirs) / f64::from(losses);
+            let text = format!(
+                "foes cause {theirs} of {losses} losses of careless players, {:.0} % wanted",
+                100.0 * gates.foe_losses
+            );
+            if share < gates.foe_losses { &mut problems } else { &mut notes }.push(Evidence::new(text));
+        }
+        finding(problems, notes, Some(swept))
+    }
+}
+
+/// The types that move by themselves.
+struct Actors<'a> {
+    analysis: &'a Analysis,
+    /// By type.
+    moves: Vec<bool>,
+    /// By type: it moves by itself, or is made by what does.
+    foes: Vec<bool>,
+    /// Contact with some of them harms.
+    deadly: bool,
+}
+
+/// The observations of an episode.
+#[derive(Default)]
+struct Watched {
+    /// Cells that each sprite swept that lived long enough.
+    sweeps: Vec<f64>,
+    /// Some were there.
+    present: bool,
+    /// One came into or next to a cell of the avatar's route.
+    crossed: bool,
+    /// One came next to the avatar.
+    near: bool,
+    /// The avatar met one in the last tick.
+    last: bool,
+}
+
+impl<'a> Actors<'a> {
+    fn of(analysis: &'a Analysis) -> Actors<'a> {
+        let game = analysis.game();
+        let moves = |stype: SpriteType| {
+            let facts = analysis.facts(stype);
+            facts.possible
+                && !matches!(facts.motion, Motion::Still | Motion::Steered)
+                && !matches!(analysis.role(stype), Role::Shot | Role::Avatar)
+        };
+        let moves: Vec<bool> = game.sprite_types().map(moves).collect();
+        let mut foes = moves.clone();
+        for stype in game.sprite_types().filter(|stype| moves[stype.index()]) {
+            analysis.facts(stype).makes.iter().for_each(|made| foes[made.index()] = true);
+        }
+        let harms = |stype: &SpriteType| foes[stype.index()] && analysis.harm(*stype) != Harm::None;
+        let deadly = game.sprite_types().any(|stype| harms(&stype));
+        Actors { analysis, moves, foes, deadly }
+    }
+
+    fn watch(&self, case: GameCase<'_>, won: WonLevel<'_>, episode: &Episode) -> Watched {
+        let game = case.game;
+        let mut state = game.start(won.level, episode.seed);
+        let mut watched = Watched::default();
+        let mut lives: BTreeMap<u32, (usize, BTreeSet<(i32, i32)>)> = BTreeMap::new();
+        let mut route = BTreeSet::new();
+        let block = state.block().max(1);
+        let cell = |(x, y): (i32, i32)| ((x + block / 2).div_euclid(block), (y + block / 2).div_euclid(block));
+        let mut meetings = Meetings { actors: self, any: false };
+        for tick in 0..=episode.actions.len() {
+            let avatar = state.avatar_place().map(cell);
+            route.extend(avatar);
+            for record in game.records(&state) {
+                if !self.moves[usize::from(record.stype)] || record.flags & DISABLED != 0 {
+                    continue;
+                }
+                watched.present = true;
+                let at = cell((record.rect.x, record.rect.y));
+                let life = lives.entry(record.id).or_default();
+                life.0 += 1;
+                life.1.insert(at);
+                watched.near |= avatar.is_some_and(|avatar| next_to(avatar, at));
+            }
+            meetings.any = false;
+            if let Some(&action) = episode.actions.get(tick) {
+                game.step_watched(&mut state, action, &mut meetings);
+                watched.last = meetings.any;
+            }
+        }
+        watched.near |= watched.last;
+        watched.crossed = lives.values().flat_map(|(_, cells)| cells).any(|&at| {
+            [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].iter().any(|(dx, dy)| route.contains(&(at.0 + dx, at.1 + dy)))
+        });
+        let long = lives.values().filter(|(ticks, _)| *ticks >= LIFE);
+        watched.sweeps = long.map(|(_, cells)| cells.len() as f64).collect();
+        watched
+    }
+}
+
+/// The flag of a sprite record that is no longer in play.
+const DISABLED: u16 = 1;
+
+fn next_to((x, y): (i32, i32), (u, v): (i32, i32)) -> bool {
+    (x - u).abs() + (y - v).abs() <= 1
+}
+
+/// Watches for contacts of the avatar with foes.
+struct Meetings<'a> {
+    actors: &'a Actors<'a>,
+    any: bool,
+}
+
+impl Watch for Meetings<'_> {
+    fn interaction(&mut self, _: usize) {}
+
+    fn wants_meetings(&self) -> bool {
+        true
+    }
+
+    fn meeting(&mut self, meeting: Meeting) {
+        let Some(second) = meeting.second else { return };
+        let is_avatar = |stype: SpriteType| self.actors.analysis.role(stype) == Role::Avatar;
+        let is_foe = |stype: SpriteType| self.actors.foes[stype.index()];
+        self.any |= is_avatar(meeting.first) && is_foe(second) || is_avatar(second) && is_foe(meeting.first);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gates::tests::check;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    wasp > Missile orientation=LEFT cooldown=2\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    s > wasp\n  InteractionSet\n    avatar wall > stepBack\n    wasp wall > reverseDirection\n    wasp wall > stepBack\n    avatar wasp > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=100 win=False\n";
+
+    #[test]
+    fn patrols_on_the_way_matter_and_those_in_pockets_do_not() {
+        let patrol = "wwwwwwwwwwww\nwA    w    w\nwww w w w ww\nw          w\nwwwwww  s  w\nw          w\nw ww www w w\nwp  w     pw\nwwwwwwwwwwww\n";
+        check("actors-matter", GAME, &[patrol], None);
+        let pocket = "wwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                        pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                      wwsww\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
+        check("actors-matter", GAME, &[pocket], Some("sweeps 1.0 cells"));
+        check("actors-matter", GAME, &["wwwwww\nwA  pw\nwwwwww\n"], None);
+    }
+}

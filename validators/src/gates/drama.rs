@@ -1,0 +1,53 @@
+//! The `drama` gate: winning is in doubt on the way.
+
+use super::{Gates, NO_WIN, finding, without_subject, won_levels};
+use crate::evidence::Evidence;
+use crate::game_report::{GameCase, GameValidator};
+use crate::recording::Recorded;
+use crate::verdict::Finding;
+use crate::PlayMeasures;
+use engine::Episode;
+use std::slice;
+
+/// The drama of the shortest known wins ([`PlayMeasures::drama`]) is at least [`Gates::drama`], on average over the levels.
+/// Cost: that of [`PlayMeasures::of`], some milliseconds a level.
+#[derive(Clone, Debug)]
+pub struct Drama(pub Gates);
+
+impl GameValidator for Drama {
+    fn name(&self) -> &'static str {
+        "drama"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let wins: Vec<(&engine::Level, Episode)> =
+            won_levels(case).into_iter().map(|won| (won.level, won.win.clone())).collect();
+        let recording: Vec<Recorded<'_>> =
+            wins.iter().map(|(level, win)| Recorded { level, episodes: slice::from_ref(win) }).collect();
+        let Some(play) = PlayMeasures::of(case.analysis, &recording, case.seed) else {
+            return without_subject(NO_WIN);
+        };
+        let (drama, least) = (play.drama, self.0.drama);
+        let text = format!("drama is {drama:.2} on average over {} levels, {least:.2} wanted", play.levels);
+        let note = Evidence::new(text).advise("add danger on the way to the goal, or costs that can ruin a win");
+        match drama >= least {
+            true => finding(Vec::new(), vec![note], Some(drama)),
+            false => finding(vec![note], Vec::new(), Some(drama)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gates::tests::check;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    trap > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    t > trap\n  InteractionSet\n    avatar wall > stepBack\n    avatar trap > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=200 win=False\n";
+
+    #[test]
+    fn a_way_between_traps_is_dramatic_and_an_empty_room_is_not() {
+        let narrow = "wwwwwwwwwwww\nwtttttttttpw\nwA         w\nwttttttttttw\nwwwwwwwwwwww\n";
+        check("drama", GAME, &[narrow], None);
+        let calm = "wwwwwwwwwwww\nwA        pw\nwwwwwwwwwwww\n";
+        check("drama", GAME, &[calm], Some("drama is 0.00"));
+    }
+}

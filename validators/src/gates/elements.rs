@@ -1,0 +1,104 @@
+//! The elements of a game that can be taken away: placed types and rules, guards apart.
+
+use crate::evidence::{Evidence, Line};
+use crate::game_measures::Guards;
+use crate::game_report::GameCase;
+use engine::analysis::{Motion, Role};
+use engine::{Game, Level, SpriteType};
+use std::collections::BTreeSet;
+
+/// A rule or a placed type, and the game without it.
+pub(super) struct Element {
+    /// Its name in sentences: `rule` or `type` with its text.
+    pub(super) name: String,
+    line: Option<Line>,
+    /// The levels (numbers) on which it occurs: the type is placed, or a recorded episode executes the rule.
+    pub(super) levels: Vec<usize>,
+    pub(super) without: Game,
+    /// `true` if a type is gone, so that levels are read again.
+    pub(super) is_type: bool,
+    /// `true` if taking it away shifts the random draws: what follows differs by chance.
+    pub(super) shifts: bool,
+}
+
+impl Element {
+    /// Returns the level for the game without it; `None` if it cannot be read without it.
+    pub(super) fn level(&self, level: &Level) -> Option<Level> {
+        if !self.is_type {
+            return Some(level.clone());
+        }
+        self.without.level(&level.to_string()).ok()
+    }
+
+    /// Returns a problem with the element.
+    pub(super) fn problem(&self, text: String) -> Evidence {
+        Evidence { rule: self.line.clone(), ..Evidence::new(text) }
+            .advise("remove it, or make winning depend on it")
+    }
+}
+
+/// Returns the elements of a game: its interactions without guards ([`Guards`]) and without those that keep what is not an
+/// avatar in bounds at a wall; and the types that some level places, without avatars, walls, background, and what an ending counts.
+///
+/// `executed` tells the rules that are executed, by level, besides those of the recording.
+pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]) -> Vec<Element> {
+    let (game, analysis) = (case.game, case.analysis);
+    let guards: BTreeSet<usize> = Guards::of(analysis).lines().collect();
+    let rule = |line: usize| {
+        let uses = &case.usage.lines[line];
+        let mut levels: BTreeSet<usize> = uses.iter().map(|at| at.level).collect();
+        levels.extend(executed.iter().filter(|(_, lines)| lines.contains(&line)).map(|(number, _)| *number));
+        let written = Line::interaction(game, line);
+        Element {
+            name: format!("`{}`", written.text),
+            line: Some(written),
+            levels: levels.into_iter().collect(),
+            without: game.without(line),
+            is_type: false,
+            shifts: false,
+        }
+    };
+    let of_role = |name: &str, role: Role| {
+        let written = game.sprite_type(name);
+        let family = |written: SpriteType| game.sprite_types().filter(move |&stype| analysis.applies(written, stype));
+        written.is_some_and(|written| family(written).any(|stype| analysis.role(stype) == role))
+    };
+    let bounds = |line: usize| {
+        let written = &game.description().interactions[line];
+        !of_role(&written.first.text, Role::Avatar)
+            && written.second.iter().any(|second| of_role(&second.text, Role::Wall))
+    };
+    let inner = |line: &usize| !guards.contains(line) && !bounds(*line);
+    let rules = (0..case.usage.lines.len()).filter(inner).map(rule);
+    let counted: Vec<SpriteType> =
+        analysis.goals().iter().flat_map(|goal| goal.condition.types()).copied().collect();
+    let scenery = |stype: &SpriteType| {
+        matches!(analysis.role(*stype), Role::Avatar | Role::Wall | Role::Floor) || counted.contains(stype)
+    };
+    let of_type = |stype: SpriteType| {
+        let places = |level: &Level| level.cells().iter().any(|&cell| game.places(cell).contains(&stype));
+        let on = case.recording.iter().enumerate().filter(|(_, recorded)| places(recorded.level));
+        let levels: Vec<usize> = on.map(|(number, _)| number).collect();
+        let moves = analysis.facts(stype).motion != Motion::Still || !analysis.facts(stype).makes.is_empty();
+        (!levels.is_empty()).then(|| Element {
+            name: format!("`{}`", game.name(stype)),
+            line: Line::sprite(game, game.name(stype)),
+            levels,
+            without: without_type(game, stype).unwrap_or_else(|| game.clone()),
+            is_type: true,
+            shifts: moves && analysis.is_stochastic(),
+        })
+    };
+    let types = game.sprite_types().filter(|stype| !scenery(stype)).filter_map(of_type);
+    rules.chain(types).collect()
+}
+
+/// Returns the game whose levels do not place a type; `None` if that does not compile.
+fn without_type(game: &Game, stype: SpriteType) -> Option<Game> {
+    let mut description = game.description().clone();
+    for line in &mut description.mapping {
+        line.names.retain(|name| game.sprite_type(&name.text) != Some(stype));
+    }
+    let compiled = Game::compile(&description).ok();
+    compiled.or_else(|| Game::from_source_as_reference(&engine::syntax::print_bare(&description)).ok())
+}

@@ -1,0 +1,200 @@
+//! The `necessity` gate: a winner's plan depends on each rule and each placed type.
+
+use super::elements::{Element, elements};
+use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::evidence::Evidence;
+use crate::game_measures::{Guards, mechanics};
+use crate::game_report::{GameCase, GameValidator};
+use crate::verdict::Finding;
+use agents::search::{Answer, Pushes, SearchLimits, a_star, best_first};
+use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
+/// At least [`Gates::needed_share`] of the elements matter: rules without guards, and placed types without avatars, walls,
+/// background and what an ending counts. An element matters if, on at least [`Gates::needed_levels`] of the levels on which it
+/// occurs, one of these is true of the game without it, the cheapest test first:
+///
+/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier: other actions are needed;
+/// 2. at least [`Gates::plan_change`] of the careless plays are won or lost otherwise: players who do not foresee everything fare
+///    differently;
+/// 3. a search that foresees the chance of the win finds one that is shorter by [`Gates::plan_change`] than that, and than the
+///    one it finds with the element.
+///
+/// A moving type shifts the random draws of a stochastic game, so that its win is not replayed without it. Cost: the replays,
+/// the careless plays, and for each element that these do not show to matter, a search of [`Gates::needed_calls`] calls on each
+/// of its levels until the answer is sure.
+#[derive(Clone, Debug)]
+pub struct Necessity(pub Gates);
+
+impl GameValidator for Necessity {
+    fn name(&self) -> &'static str {
+        "necessity"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let wins = won_levels(case);
+        if wins.is_empty() {
+            return without_subject(NO_WIN);
+        }
+        let gates = &self.0;
+        let careless =
+            |&won: &WonLevel<'_>| careless::plays(case, won, gates.careless_slips, gates.careless_plays, case.seed);
+        let plays: Vec<Vec<Episode>> = wins.iter().map(careless).collect();
+        let guards = Guards::of(case.analysis);
+        let lines = |(won, plays): (&WonLevel<'_>, &Vec<Episode>)| {
+            let episodes = plays.iter().chain([won.win]);
+            let lines = episodes.flat_map(|episode| mechanics(case.game, &guards, won.level, episode));
+            (won.number, lines.collect())
+        };
+        let executed: Vec<(usize, BTreeSet<usize>)> = wins.iter().zip(&plays).map(lines).collect();
+        let subjects: Vec<Subject<'_>> = wins
+            .iter()
+            .zip(&plays)
+            .map(|(&won, plays)| Subject { won, careless: plays, shortest: OnceLock::new() })
+            .collect();
+        // Of what occurs only on levels without a known win, nothing is known.
+        let is_open = |element: &Element| {
+            !element.levels.is_empty()
+                && !wins.iter().any(|won| element.levels.contains(&won.number))
+        };
+        let mut elements = elements(case, &executed);
+        elements.retain(|element| !is_open(element));
+        let matters: Vec<(bool, String)> =
+            elements.par_iter().map(|element| self.matters(case, element, &subjects)).collect();
+        let all = elements.len().max(1);
+        let needed = matters.iter().filter(|(matters, _)| *matters).count();
+        let share = needed as f64 / all as f64;
+        let idle = elements.iter().zip(&matters).filter(|(_, (matters, _))| !matters);
+        let idle: Vec<Evidence> = idle.map(|(element, (_, why))| element.problem(why.clone())).collect();
+        let text = format!("{needed} of {} rules and types change how the game is won", elements.len());
+        let note = Evidence::new(text);
+        match share >= gates.needed_share {
+            true => finding(Vec::new(), [note].into_iter().chain(idle).collect(), Some(share)),
+            false => finding(idle, vec![note], Some(share)),
+        }
+    }
+}
+
+/// A level with its win and careless plays.
+struct Subject<'a> {
+    won: WonLevel<'a>,
+    careless: &'a [Episode],
+    /// Ticks of the shortest win that is known with everything, once a search has looked for it.
+    shortest: OnceLock<usize>,
+}
+
+impl Necessity {
+    /// Returns whether an element matters, and a sentence that says on how many of its levels.
+    fn matters(&self, case: GameCase<'_>, element: &Element, subjects: &[Subject<'_>]) -> (bool, String) {
+        let on = subjects.iter().filter(|subject| element.levels.contains(&subject.won.number));
+        let on: Vec<&Subject<'_>> = on.collect();
+        if on.is_empty() {
+            return (false, format!("{} never takes part in play", element.name));
+        }
+        let wanted = ((on.len() as f64 * self.0.needed_levels).ceil() as usize).max(1);
+        let shown: Vec<bool> = on.iter().map(|subject| self.shows(element, subject)).collect();
+        let mut count = shown.iter().filter(|shown| **shown).count();
+        let open: Vec<&Subject<'_>> =
+            on.iter().zip(&shown).filter(|(_, shown)| !**shown).map(|(subject, _)| *subject).collect();
+        for (tried, subject) in open.iter().enumerate() {
+            if count >= wanted || count + (open.len() - tried) < wanted {
+                break;
+            }
+            count += usize::from(self.hinders(case, element, subject));
+        }
+        let text = format!(
+            "winning does not depend on {}: it matters on {count} of {} levels, {wanted} wanted",
+            element.name,
+            on.len()
+        );
+        (count >= wanted, text)
+    }
+
+    /// Returns `true` if replays show that the element matters on a level.
+    fn shows(&self, element: &Element, subject: &Subject<'_>) -> bool {
+        let Some(level) = element.level(subject.won.level) else { return true };
+        let win = subject.won.win;
+        if !element.shifts {
+            let (outcome, ticks) = replayed(&element.without, &level, win.seed, &win.actions);
+            let early = (win.actions.len() as f64) * (1.0 - self.0.plan_change);
+            if outcome != Outcome::Won || (ticks as f64) <= early {
+                return true;
+            }
+        }
+        let otherwise = |play: &&Episode| {
+            let (outcome, _) = replayed(&element.without, &level, play.seed, &play.actions);
+            let decided = |outcome: Outcome| (outcome == Outcome::Won, outcome == Outcome::Lost);
+            decided(outcome) != decided(play.outcome)
+        };
+        let differing = subject.careless.iter().filter(otherwise).count();
+        differing as f64 >= self.0.plan_change * subject.careless.len() as f64
+    }
+
+    /// Returns `true` if a search shows that a level is won much sooner without the element.
+    fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> bool {
+        let WonLevel { level, win, .. } = subject.won;
+        let shortest = *subject.shortest.get_or_init(|| {
+            let found = self.search(case.analysis, level, win.seed);
+            found.map_or(win.actions.len(), |ticks| ticks.min(win.actions.len()))
+        });
+        let Some(level) = element.level(level) else { return true };
+        let analysis = Analysis::of(&element.without);
+        let found = self.search(&analysis, &level, win.seed);
+        found.is_some_and(|ticks| (ticks as f64) <= shortest as f64 * (1.0 - self.0.plan_change))
+    }
+
+    /// Returns the ticks of a win that a search finds: the shortest one, or else any.
+    fn search(&self, analysis: &Analysis, level: &Level, seed: Seed) -> Option<usize> {
+        let start = analysis.game().start(level, seed);
+        if start.is_over() {
+            return None;
+        }
+        let pushes = Pushes::of(analysis, level);
+        let limits = SearchLimits { bytes: BYTES, ..SearchLimits::calls(self.0.needed_calls / 2) };
+        let won = |answer: Answer| match answer {
+            Answer::Won { actions, .. } => Some(actions.len()),
+            _ => None,
+        };
+        won(a_star(analysis, &pushes, &start, limits).answer)
+            .or_else(|| won(best_first(analysis, &pushes, &start, limits).answer))
+    }
+}
+
+/// The memory of a search.
+const BYTES: usize = 1 << 27;
+
+/// Returns the outcome of these actions and the ticks until then.
+fn replayed(game: &Game, level: &Level, seed: Seed, actions: &[Action]) -> (Outcome, usize) {
+    let mut state = game.start(level, seed);
+    for (tick, &action) in actions.iter().enumerate() {
+        if state.is_over() {
+            return (state.outcome(), tick);
+        }
+        game.step(&mut state, action);
+    }
+    (state.outcome(), actions.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gates::tests::judged;
+    use crate::{Gates, Verdict};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    bead > Immovable\n    key > Resource limit=2\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    b > bead\n    k > key\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    bead avatar > killSprite scoreChange=1\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=200 win=False\n";
+    const LEVEL: &str = "wwwwwwwww\nwAb   gpw\nw wwwwwww\nw      kw\nwwwwwwwww\n";
+
+    #[test]
+    fn a_key_is_needed_and_a_bead_is_not() {
+        let all = |gates: &mut Gates| gates.needed_share = 1.0;
+        let finding = judged("necessity", GAME, &[LEVEL], all);
+        let Verdict::Fail { reason, .. } = &finding.verdict else { panic!("{finding:#?}") };
+        assert!(reason.0.starts_with("winning does not depend on `bead avatar > killSprite"), "{reason:?}");
+        let plain = GAME.replace("    bead avatar > killSprite scoreChange=1\n", "");
+        let plain = plain.replace("    b > bead\n", "").replace("    bead > Immovable\n", "");
+        let finding = judged("necessity", &plain, &[&LEVEL.replace('b', " ")], all);
+        assert!(finding.verdict.is_pass(), "{finding:#?}");
+        assert_eq!(finding.figure, Some(1.0));
+    }
+}

@@ -1,0 +1,134 @@
+//! The `no-dead-time` gate: a win has no long stretch in which nothing comes of playing.
+
+use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
+use crate::evidence::Evidence;
+use crate::game_report::{GameCase, GameValidator};
+use crate::verdict::Finding;
+use engine::analysis::{Motion, Role};
+use engine::{Analysis, SpriteType, State};
+use std::collections::BTreeSet;
+
+/// The longest stretch of the shortest known win without progress takes at most [`Gates::dead_share`] of its ticks, or
+/// [`Gates::dead_ticks`].
+///
+/// A tick makes progress if something happens that counts: the score changes, the avatar's type or what it holds, the number of
+/// sprites that a termination counts, the number of standing things of a type, or the place of a pushable one; or if the avatar
+/// enters a cell that it was not in since something happened. Waiting, pacing to and fro and walking back are dead time. Cost:
+/// the wins are replayed.
+#[derive(Clone, Debug)]
+pub struct NoDeadTime(pub Gates);
+
+impl GameValidator for NoDeadTime {
+    fn name(&self) -> &'static str {
+        "no-dead-time"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let wins = won_levels(case);
+        if wins.is_empty() {
+            return without_subject(NO_WIN);
+        }
+        let telling = Telling::of(case.analysis);
+        let (mut problems, mut notes, mut worst) = (Vec::new(), Vec::new(), 0.0f64);
+        for won in wins {
+            let ticks = won.ticks();
+            let (dead, from) = telling.longest_stretch(won, case);
+            let most = ((ticks as f64 * self.0.dead_share) as usize).max(self.0.dead_ticks);
+            worst = worst.max(dead as f64 / ticks.max(1) as f64);
+            let text =
+                format!("level {}: nothing comes of {dead} ticks of a win of {ticks}, {most} allowed", won.number);
+            let seen = Evidence { tick: Some(from + 1), ..Evidence::new(text) };
+            match dead <= most {
+                true => notes.push(seen),
+                false => problems.push(seen.advise("shorten the wait, or give the player something to do in it")),
+            }
+        }
+        finding(problems, notes, Some(worst))
+    }
+}
+
+/// The types whose numbers and places tell progress.
+struct Telling {
+    /// Types whose number counts.
+    counted: Vec<SpriteType>,
+    /// Types whose places count.
+    pushed: Vec<SpriteType>,
+    resources: Vec<SpriteType>,
+}
+
+/// The part of a state that tells progress.
+#[derive(PartialEq)]
+struct Standing {
+    score: f64,
+    avatar: Option<SpriteType>,
+    held: Vec<i32>,
+    alive: Vec<usize>,
+    places: Vec<(i32, i32)>,
+}
+
+impl Telling {
+    fn of(analysis: &Analysis) -> Telling {
+        let game = analysis.game();
+        let goals: BTreeSet<SpriteType> =
+            analysis.goals().iter().flat_map(|goal| goal.condition.types()).copied().collect();
+        let stands = |stype: SpriteType| {
+            let facts = analysis.facts(stype);
+            facts.possible && facts.motion == Motion::Still && !facts.fleeting
+        };
+        let counts = |stype: &SpriteType| {
+            goals.contains(stype) || stands(*stype) && analysis.role(*stype) != Role::Shot
+        };
+        let pushed = analysis.pushables().iter().map(|pushable| pushable.stype).collect();
+        let resources = game.sprite_types().filter(|&stype| analysis.facts(stype).is_resource).collect();
+        Telling { counted: game.sprite_types().filter(counts).collect(), pushed, resources }
+    }
+
+    fn standing(&self, state: &State) -> Standing {
+        Standing {
+            score: state.score(),
+            avatar: state.avatar_type(),
+            held: self.resources.iter().map(|&stype| state.amount_held(stype)).collect(),
+            alive: self.counted.iter().map(|&stype| state.alive(stype)).collect(),
+            places: self.pushed.iter().flat_map(|&stype| state.places(stype)).collect(),
+        }
+    }
+
+    /// Returns the ticks of the longest stretch of a win without progress, and the tick before it.
+    fn longest_stretch(&self, won: WonLevel<'_>, case: GameCase<'_>) -> (usize, usize) {
+        let mut state = case.game.start(won.level, won.win.seed);
+        let mut standing = self.standing(&state);
+        let mut been: BTreeSet<Option<(i32, i32)>> = [state.avatar_place()].into();
+        let (mut since, mut longest) = (0, (0, 0));
+        for (tick, &action) in won.win.actions.iter().enumerate() {
+            case.game.step(&mut state, action);
+            let now = self.standing(&state);
+            let happened = now != standing || state.is_over();
+            standing = now;
+            if happened {
+                been.clear();
+            }
+            if been.insert(state.avatar_place()) || happened {
+                since = tick + 1;
+            }
+            if tick + 1 - since > longest.0 {
+                longest = (tick + 1 - since, since);
+            }
+        }
+        longest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gates::tests::check;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    slug > Missile orientation=LEFT cooldown=6\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    s > slug\n  InteractionSet\n    avatar wall > stepBack\n    slug avatar > killSprite scoreChange=1\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    MultiSpriteCounter stype1=plum stype2=slug limit=0 win=True\n    Timeout limit=200 win=False\n";
+
+    #[test]
+    fn walking_is_progress_and_waiting_is_not() {
+        check("no-dead-time", GAME, &["wwwwwwwwwwwwwwwwwwww\nwA                pw\nwwwwwwwwwwwwwwwwwwww\n"], None);
+        check("no-dead-time", GAME, &["wwwwwwwwww\nwA      sw\nwwwwwwwwww\n"], None);
+        let barred = GAME.replace("    avatar wall > stepBack\n", "    avatar wall > stepBack\n    avatar bar > stepBack\n").replace("    avatar > MovingAvatar\n", "    bar > Immovable\n    avatar > MovingAvatar\n").replace("    s > slug\n", "    s > slug\n    b > bar\n");
+        check("no-dead-time", &barred, &["wwwwwwwwww\nwAb     sw\nwwwwwwwwww\n"], Some("nothing comes of"));
+    }
+}

@@ -1,0 +1,158 @@
+//! The `not-instant` gate: no level but the first is won at once, or by walking to the nearest goal.
+
+use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::evidence::{Evidence, Line};
+use crate::game_report::{GameCase, GameValidator};
+use crate::verdict::Finding;
+use engine::analysis::{Attainable, Role};
+use engine::{Analysis, SpriteClass, SpriteType, Term};
+
+/// On each level after the first, up to [`Gates::instant_levels`] of them apart, the shortest known win takes at least
+/// [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the slowest spawner on the level, and the nearest-goal player
+/// ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its plays. The time limit of the game is
+/// [`Gates::time_limit`] times the longest known win.
+///
+/// A spawner counts if the level places it and what it makes can harm, is wanted for an ending or gives something. Its period is
+/// the mean time between two sprites: its cooldown divided by its probability. A game that is won by lasting has no time limit
+/// to be too long. Cost: the plays of the nearest-goal player.
+#[derive(Clone, Debug)]
+pub struct NotInstant(pub Gates);
+
+impl GameValidator for NotInstant {
+    fn name(&self) -> &'static str {
+        "not-instant"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let gates = &self.0;
+        let wins = won_levels(case);
+        let Some(longest) = wins.iter().map(WonLevel::ticks).max() else { return without_subject(NO_WIN) };
+        let periods = periods(case.analysis);
+        let (mut problems, mut notes, mut instant) = (Vec::new(), Vec::new(), 0);
+        let later: Vec<&WonLevel<'_>> = wins.iter().filter(|won| won.number > 0).collect();
+        for won in &later {
+            let before = problems.len();
+            problems.extend(self.too_short(case, **won, &periods));
+            let plays = careless::plays(case, **won, 0.0, gates.bot_plays, case.seed);
+            let share = careless::win_share(&plays);
+            let text = format!(
+                "the nearest-goal player wins {:.0} % of its plays on level {}",
+                100.0 * share,
+                won.number
+            );
+            match share > gates.bot_wins {
+                true => problems.push(Evidence::new(text).advise("make the nearest goal the wrong one, at times")),
+                false => notes.push(Evidence::new(text)),
+            }
+            instant += usize::from(problems.len() > before);
+        }
+        if (instant as f64) <= gates.instant_levels * later.len() as f64 {
+            notes.splice(0..0, problems.drain(..));
+        }
+        let aims = case.analysis.aims();
+        if let (Some(limit), None) = (aims.deadline, aims.survive) {
+            let factor = f64::from(limit) / longest.max(1) as f64;
+            let (least, most) = gates.time_limit;
+            let text = format!(
+                "the time limit of {limit} ticks is {factor:.1} times the longest win of {longest}, {least} to {most} times wanted"
+            );
+            match factor < least || factor > most {
+                true => problems.push(Evidence::new(text).advise("set the limit by the longest win")),
+                false => notes.push(Evidence::new(text)),
+            }
+        }
+        let shortest = later.iter().map(|won| won.ticks()).min();
+        finding(problems, notes, shortest.map(|ticks| ticks as f64))
+    }
+}
+
+impl NotInstant {
+    /// Returns the problems with a win that comes too soon.
+    fn too_short(&self, case: GameCase<'_>, won: WonLevel<'_>, periods: &[(SpriteType, f64)]) -> Vec<Evidence> {
+        let Gates { least_win, spawn_periods, .. } = self.0;
+        let (number, ticks) = (won.number, won.ticks());
+        let mut problems = Vec::new();
+        if ticks < least_win {
+            let text = format!("level {number} is won in {ticks} ticks, fewer than {least_win}");
+            problems.push(Evidence::new(text).advise("move the goal farther away, or put something in the way"));
+        }
+        let start = case.game.start(won.level, won.win.seed);
+        let placed = periods.iter().filter(|(stype, _)| start.alive(*stype) > 0);
+        let slowest = placed.max_by(|one, other| one.1.total_cmp(&other.1));
+        if let Some((stype, period)) = slowest.filter(|(_, period)| (ticks as f64) < spawn_periods * period) {
+            let name = case.game.name(*stype);
+            let text = format!(
+                "level {number} is won in {ticks} ticks, before {spawn_periods} periods of `{name}`, {period:.0} ticks each"
+            );
+            let rule = Line::sprite(case.game, name);
+            problems.push(Evidence { rule, ..Evidence::new(text) }.advise("lower its cooldown"));
+        }
+        problems
+    }
+}
+
+/// The spawners whose products matter, with the mean ticks between two sprites.
+fn periods(analysis: &Analysis) -> Vec<(SpriteType, f64)> {
+    let game = analysis.game();
+    let goals: Vec<SpriteType> = analysis
+        .goals()
+        .iter()
+        .filter(|goal| goal.attainable != Attainable::Never)
+        .flat_map(|goal| goal.condition.types())
+        .copied()
+        .collect();
+    let matters = |stype: &SpriteType| {
+        let role = analysis.role(*stype);
+        goals.contains(stype) || !matches!(role, Role::Floor | Role::Neutral | Role::Wall | Role::Cover)
+    };
+    let spawns = |class: SpriteClass| {
+        class.is_a(SpriteClass::SpawnPoint) || class == SpriteClass::SpawnPointMultiSprite
+    };
+    let clauses = game.clauses();
+    let spawners = clauses.types.iter().filter(|clause| clause.class.is_some_and(spawns));
+    let spawners = spawners.filter(|clause| analysis.facts(clause.stype).makes.iter().any(matters));
+    let period = |clause: &engine::TypeClause| {
+        let number = |key: &str| {
+            clause.terms.iter().find_map(|(name, term)| match term {
+                Term::Number(number) if *name == key => Some(*number),
+                _ => None,
+            })
+        };
+        let chance = number("prob").unwrap_or(1.0).clamp(0.001, 1.0);
+        (clause.stype, number("cooldown").unwrap_or(1.0).max(1.0) / chance)
+    };
+    spawners.map(period).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gates::tests::check;
+    use engine::Game;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    hive > SpawnPoint stype=wasp cooldown=15 prob=0.5\n    wasp > Missile orientation=LEFT\n    plum > Immovable\n    key > Resource limit=2\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    h > hive\n    p > plum\n    k > key\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    wasp wall > killSprite\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    avatar wasp > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=80 win=False\n";
+    const NEAR: &str = "wwwwww\nwA  pw\nwwwwww\n";
+
+    #[test]
+    fn periods_count_the_probability() {
+        let game = Game::from_source(GAME).unwrap();
+        let found = periods(&Analysis::of(&game));
+        assert_eq!(found, [(game.sprite_type("hive").unwrap(), 30.0)]);
+    }
+
+    #[test]
+    fn near_goals_and_early_spawners_fail() {
+        check("not-instant", GAME, &[NEAR, NEAR], Some("level 1 is won in 3 ticks, fewer than 25"));
+        let hive = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nw                                  w\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                                 hw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
+        check("not-instant", GAME, &[NEAR, hive], Some("before 1.5 periods of `hive`, 30 ticks each"));
+        let plain = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
+        check("not-instant", GAME, &[NEAR, plain], Some("the nearest-goal player wins 100 %"));
+        check("not-instant", &GAME.replace("80", "900"), &[NEAR], Some("time limit of 900 ticks is 300.0 times"));
+    }
+
+    #[test]
+    fn a_lock_takes_longer() {
+        let level = "wwwwwwwwwwwwwwwww\nwA  p   w       w\nw       w       w\nw       w       w\nw       g       w\nw       w      pw\nwk      w       w\nwwwwwwwwwwwwwwwww\n";
+        check("not-instant", GAME, &[NEAR, level], None);
+    }
+}

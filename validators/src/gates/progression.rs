@@ -1,0 +1,117 @@
+//! The `progression` gate: later levels need more mechanics, and are no easier.
+
+use super::{Gates, NO_WIN, careless, finding, without_subject, won_levels};
+use crate::evidence::{Evidence, Line};
+use crate::game_measures::{Guards, mechanics};
+use crate::game_report::{GameCase, GameValidator};
+use crate::verdict::Finding;
+use std::collections::BTreeSet;
+
+/// The mechanics that winning needs (interactions that the shortest known win of a level executes, guards apart) grow over the
+/// levels: at least [`Gates::growth`] levels bring some that no earlier one needed; the last level needs as many as the first,
+/// and at least [`Gates::last_share`] of all that any needs; and it is no easier than the first two, by [`Gates::easier`].
+///
+/// Ease is that of the ladder, where one was played on every level; else the share of careless plays that are won. Games of
+/// fewer than three levels have nothing to progress. Cost: the wins are replayed, and the careless plays.
+#[derive(Clone, Debug)]
+pub struct Progression(pub Gates);
+
+/// Levels that a course has at least.
+const COURSE: usize = 3;
+
+impl GameValidator for Progression {
+    fn name(&self) -> &'static str {
+        "progression"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let gates = &self.0;
+        let wins = won_levels(case);
+        if wins.is_empty() {
+            return without_subject(NO_WIN);
+        }
+        if wins.len() < COURSE {
+            return without_subject("skipped: fewer than three levels have a known win");
+        }
+        let guards = Guards::of(case.analysis);
+        let used: Vec<BTreeSet<usize>> =
+            wins.iter().map(|won| mechanics(case.game, &guards, won.level, won.win)).collect();
+        let mut all = BTreeSet::new();
+        let mut growth = 0;
+        for (number, used) in used.iter().enumerate() {
+            let before = all.len();
+            all.extend(used.iter().copied());
+            growth += usize::from(number > 0 && all.len() > before);
+        }
+        let (first, last) = (&used[0], &used[used.len() - 1]);
+        let counts: Vec<String> = used.iter().map(|used| used.len().to_string()).collect();
+        let share = last.len() as f64 / all.len().max(1) as f64;
+        let mut problems = Vec::new();
+        if growth < gates.growth {
+            problems.push(format!(
+                "{growth} levels after the first bring new mechanics, {} wanted: their wins use {} of {}",
+                gates.growth,
+                counts.join(", "),
+                all.len()
+            ));
+        }
+        if last.len() < first.len() || share < gates.last_share {
+            problems.push(format!(
+                "the last level needs {} of {} mechanics, the first {}",
+                last.len(),
+                all.len(),
+                first.len()
+            ));
+        }
+        let eases = self.eases(case, &wins);
+        let easiest = eases[0].min(eases[1]);
+        let ease = eases[eases.len() - 1];
+        if ease > easiest + gates.easier {
+            problems.push(format!("the last level is easier ({ease:.2}) than an early one ({easiest:.2})"));
+        }
+        let problems = problems.into_iter().map(Evidence::new);
+        let unused = all.difference(last).map(|&line| {
+            let rule = Line::interaction(case.game, line);
+            Evidence::new(format!("the last level does without `{}`", rule.text)).of_rule(rule)
+        });
+        let texts: Vec<String> = eases.iter().map(|ease| format!("{ease:.2}")).collect();
+        let notes = [
+            format!("the wins use {} of {} mechanics, level by level", counts.join(", "), all.len()),
+            format!("ease, level by level: {}", texts.join(", ")),
+        ];
+        finding(problems.collect(), notes.map(Evidence::new).into_iter().chain(unused).collect(), Some(growth as f64))
+    }
+}
+
+impl Progression {
+    /// The ease of the levels, from 0 to 1.
+    fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
+        let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
+        let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();
+        known.unwrap_or_else(|| {
+            let Gates { careless_plays, careless_slips, .. } = self.0;
+            let share = |won: &super::WonLevel<'_>| {
+                careless::win_share(&careless::plays(case, *won, careless_slips, careless_plays, case.seed))
+            };
+            wins.iter().map(share).collect()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gates::tests::check;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    key > Resource limit=2\n    gate > Immovable\n    crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    k > key\n    g > gate\n    c > crate\n  InteractionSet\n    avatar wall > stepBack\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=200 win=False\n";
+    const FIRST: &str = "wwwwwwww\nwA    pw\nwwwwwwww\n";
+    const SECOND: &str = "wwwwwwww\nwA c  pw\nwwwwwwww\nw      w\nwwwwwwww\n";
+    const THIRD: &str = "wwwwwwww\nwA c  kw\nw wwwwww\nw    gpw\nwwwwwwww\n";
+
+    #[test]
+    fn mechanics_grow_or_stay() {
+        let second = SECOND.replace("wA c  pw\nwwwwwwww\nw      w", "wA c   w\nwwww wpw\nw      w");
+        check("progression", GAME, &[FIRST, &second, THIRD], None);
+        check("progression", GAME, &[FIRST, FIRST, FIRST], Some("0 levels after the first bring new mechanics"));
+        check("progression", GAME, &[FIRST, &second, THIRD, FIRST], Some("the last level needs 1 of"));
+    }
+}

@@ -1,0 +1,103 @@
+//! The `tight` gate: a win uses most of what there is, and careless play fails.
+
+use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::evidence::Evidence;
+use crate::game_report::{GameCase, GameValidator};
+use crate::verdict::Finding;
+use engine::analysis::Resource;
+use engine::State;
+
+/// On average over the levels, a win leaves [`Gates::spare`] of the consumables that it uses, and careless players win at most
+/// [`Gates::careless_wins`] of their plays after the first level.
+///
+/// A consumable is a resource that some rule takes, or that shots cost. Its supply is what the avatar spends in the win, holds
+/// at the end, and could still take from what is left on the board. Levels whose win spends none are left out. Careless players
+/// walk to the nearest goal and slip ([`Gates::careless_slips`]). Cost: the wins are replayed, and the careless plays.
+#[derive(Clone, Debug)]
+pub struct Tight(pub Gates);
+
+impl GameValidator for Tight {
+    fn name(&self) -> &'static str {
+        "tight"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let gates = &self.0;
+        let wins = won_levels(case);
+        if wins.is_empty() {
+            return without_subject(NO_WIN);
+        }
+        let (mut problems, mut notes, mut spares, mut shares) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let consumed =
+            |resource: &&Resource| !resource.takers.is_empty() || resource.is_ammunition;
+        for won in &wins {
+            for resource in case.analysis.resources().iter().filter(consumed) {
+                let Some((spent, left)) = balance(case, *won, resource) else { continue };
+                spares.push(left / (spent + left));
+                let name = case.game.name(resource.stype);
+                let text = format!("level {}: a win spends {spent} `{name}` and leaves {left}", won.number);
+                notes.push(Evidence::new(text));
+            }
+            if won.number > 0 || wins.len() == 1 {
+                let plays =
+                    careless::plays(case, *won, gates.careless_slips, gates.careless_plays, case.seed);
+                shares.push(careless::win_share(&plays));
+            }
+        }
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+        if !spares.is_empty() {
+            let (spare, (least, most)) = (mean(&spares), gates.spare);
+            let text = format!(
+                "a win leaves {:.0} % of the consumables on average, {:.0} to {:.0} % wanted",
+                100.0 * spare,
+                100.0 * least,
+                100.0 * most
+            );
+            let seen = Evidence::new(text).advise("place fewer, or ask for more");
+            if spare < least || spare > most { &mut problems } else { &mut notes }.push(seen);
+        }
+        let won = mean(&shares);
+        let text = format!(
+            "careless players win {:.0} % of their plays, {:.0} % allowed",
+            100.0 * won,
+            100.0 * gates.careless_wins
+        );
+        let seen = Evidence::new(text).advise("make carelessness cost something");
+        if won > gates.careless_wins { &mut problems } else { &mut notes }.push(seen);
+        finding(problems, notes, (!spares.is_empty()).then(|| mean(&spares)))
+    }
+}
+
+/// Returns how much of a resource a win spends and how much it leaves; `None` if it spends none.
+fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option<(f64, f64)> {
+    let held = |state: &State| state.amount_held(resource.stype);
+    let mut state = case.game.start(won.level, won.win.seed);
+    let mut before = held(&state);
+    let mut spent = 0;
+    for &action in &won.win.actions {
+        case.game.step(&mut state, action);
+        // A dead avatar holds nothing; a win ends with a living one.
+        spent += (before - held(&state)).max(0);
+        before = held(&state);
+    }
+    let givers = resource.givers.iter().filter(|(_, amount)| *amount > 0);
+    let placed: i64 = givers.map(|(stype, amount)| state.alive(*stype) as i64 * i64::from(*amount)).sum();
+    (spent > 0).then(|| (f64::from(spent), f64::from(before.max(0)) + placed as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gates::tests::check;
+
+    /// Every gate costs a key, and traps stand beside the way.
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    trap > Immovable\n    key > Resource limit=9\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    t > trap\n    k > key\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    avatar trap > killSprite\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
+    const NARROW: &str = "wwwwwwwwwwwww\nwttttttttttww\nwAkkkk g g gw\nwtttttttttt w\nwwwwtttt    w\nwwwwtp   ttww\nwwwwwwwwwwwww\n";
+
+    #[test]
+    fn slack_and_carelessness_are_measured() {
+        check("tight", GAME, &[NARROW], None);
+        let slack = NARROW.replace("kkkk g g g", "kkkkkkkk g");
+        check("tight", GAME, &[&slack], Some("a win leaves 88 % of the consumables"));
+        check("tight", GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100 %"));
+    }
+}
