@@ -4,8 +4,8 @@ use crate::ablation::RulesMatter;
 use crate::allowance::Allowance;
 use crate::causes;
 use crate::evidence::Evidence;
-use crate::gates;
 use crate::game_report::{GameCase, GameReport, GameValidator};
+use crate::gates;
 use crate::recording::{Recorded, Usage, explore};
 use crate::too_soon;
 use crate::{
@@ -261,13 +261,35 @@ impl Panel {
         reports: &[Report],
         seed: Seed,
     ) -> Vec<Judgement> {
+        self.together(game, levels, reports, seed, false)
+    }
+
+    /// Like [`Panel::judge_together`], until a validator does not pass.
+    pub fn screen_together(
+        &self,
+        game: &Game,
+        levels: &[Level],
+        reports: &[Report],
+        seed: Seed,
+    ) -> Vec<Judgement> {
+        self.together(game, levels, reports, seed, true)
+    }
+
+    fn together(
+        &self,
+        game: &Game,
+        levels: &[Level],
+        reports: &[Report],
+        seed: Seed,
+        screen: bool,
+    ) -> Vec<Judgement> {
         if self.of_game.is_empty() || levels.is_empty() {
             return Vec::new();
         }
         if let Some((criteria, calls)) = &self.bound {
             let allowance = Allowance::of(*calls, game, levels);
             let panel = Panel::with_allowance(criteria, Some(allowance));
-            return panel.judge_together(game, levels, reports, seed);
+            return panel.together(game, levels, reports, seed, screen);
         }
         let analysis = Analysis::of(game);
         let episodes = record(game, levels, reports, seed.child("explore", 0), self.exploration);
@@ -289,7 +311,16 @@ impl Panel {
             let why = consequence(reports, &finding.verdict).filter(|_| *subject == Subject::Rules);
             Judgement { criterion, finding: why.map_or(finding, |why| skipped(&why)) }
         };
-        self.of_game.iter().map(judge).collect()
+        let mut judgements = Vec::new();
+        for validator in &self.of_game {
+            let judgement = judge(validator);
+            let passed = judgement.finding.verdict.is_pass();
+            judgements.push(judgement);
+            if screen && !passed {
+                break;
+            }
+        }
+        judgements
     }
 
     fn run(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {

@@ -90,13 +90,14 @@ impl GateRow {
             };
             Some(format!("{gate}{mark}{figure}"))
         };
-        let answers: Vec<String> = GATES.iter().filter_map(|gate| answer(&gate)).collect();
+        let answers: Vec<String> = GATES.iter().filter_map(|gate| answer(gate)).collect();
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 
     /// The table of groups of games: how many of those that a gate could judge pass it, and the median of its figure.
     pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
-        let columns = groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);
+        let columns =
+            groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);
         let columns: Vec<String> = ["gate".to_owned()].into_iter().chain(columns).collect();
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut table = Table::new("gates", "Gates", "", &columns);

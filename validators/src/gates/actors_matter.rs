@@ -55,7 +55,8 @@ impl GameValidator for ActorsMatter {
             if seen.crossed && near {
                 met += 1;
             } else {
-                let text = format!("level {}: nothing that moves by itself comes near the player's way", won.number);
+                let text =
+                    format!("level {}: nothing that moves by itself comes near the player's way", won.number);
                 notes.push(Evidence::new(text).advise("let its way cross the way to the goal"));
             }
         }
@@ -82,7 +83,7 @@ impl GameValidator for ActorsMatter {
             );
             if share < gates.foe_losses { &mut problems } else { &mut notes }.push(Evidence::new(text));
         }
-        finding(problems, notes, Some(swept))
+        finding(problems, notes, (!sweeps.is_empty()).then_some(swept))
     }
 }
 
@@ -138,7 +139,8 @@ impl<'a> Actors<'a> {
         let mut lives: BTreeMap<u32, (usize, BTreeSet<(i32, i32)>)> = BTreeMap::new();
         let mut route = BTreeSet::new();
         let block = state.block().max(1);
-        let cell = |(x, y): (i32, i32)| ((x + block / 2).div_euclid(block), (y + block / 2).div_euclid(block));
+        let cell =
+            |(x, y): (i32, i32)| ((x + block / 2).div_euclid(block), (y + block / 2).div_euclid(block));
         let mut meetings = Meetings { actors: self, any: false };
         for tick in 0..=episode.actions.len() {
             let avatar = state.avatar_place().map(cell);
@@ -162,7 +164,9 @@ impl<'a> Actors<'a> {
         }
         watched.near |= watched.last;
         watched.crossed = lives.values().flat_map(|(_, cells)| cells).any(|&at| {
-            [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].iter().any(|(dx, dy)| route.contains(&(at.0 + dx, at.1 + dy)))
+            [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)]
+                .iter()
+                .any(|(dx, dy)| route.contains(&(at.0 + dx, at.1 + dy)))
         });
         let long = lives.values().filter(|(ticks, _)| *ticks >= LIFE);
         watched.sweeps = long.map(|(_, cells)| cells.len() as f64).collect();

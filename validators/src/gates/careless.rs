@@ -11,7 +11,13 @@ const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
 /// Plays of the nearest-goal player on a level, with a share of slips. Cost: a call for each action and tick.
-pub(super) fn plays(case: GameCase<'_>, won: WonLevel<'_>, slips: f64, plays: u32, seed: Seed) -> Vec<Episode> {
+pub(super) fn plays(
+    case: GameCase<'_>,
+    won: WonLevel<'_>,
+    slips: f64,
+    plays: u32,
+    seed: Seed,
+) -> Vec<Episode> {
     let seed = seed.child("level", won.number as u64);
     let limits = Limits { ticks: PATIENCE * won.ticks() + GRACE, calls: u64::MAX };
     let run = |number: u32| {

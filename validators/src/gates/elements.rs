@@ -60,7 +60,8 @@ pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]
     };
     let of_role = |name: &str, role: Role| {
         let written = game.sprite_type(name);
-        let family = |written: SpriteType| game.sprite_types().filter(move |&stype| analysis.applies(written, stype));
+        let family =
+            |written: SpriteType| game.sprite_types().filter(move |&stype| analysis.applies(written, stype));
         written.is_some_and(|written| family(written).any(|stype| analysis.role(stype) == role))
     };
     let bounds = |line: usize| {

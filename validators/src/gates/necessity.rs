@@ -6,11 +6,12 @@ use crate::evidence::Evidence;
 use crate::game_measures::{Guards, mechanics};
 use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
-use agents::search::{Answer, Pushes, SearchLimits, a_star, best_first};
+use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// At least [`Gates::needed_share`] of the elements matter: rules without guards, and placed types without avatars, walls,
 /// background and what an ending counts. An element matters if, on at least [`Gates::needed_levels`] of the levels on which it
@@ -39,8 +40,9 @@ impl GameValidator for Necessity {
             return without_subject(NO_WIN);
         }
         let gates = &self.0;
-        let careless =
-            |&won: &WonLevel<'_>| careless::plays(case, won, gates.careless_slips, gates.careless_plays, case.seed);
+        let careless = |&won: &WonLevel<'_>| {
+            careless::plays(case, won, gates.careless_slips, gates.careless_plays, case.seed)
+        };
         let plays: Vec<Vec<Episode>> = wins.iter().map(careless).collect();
         let guards = Guards::of(case.analysis);
         let lines = |(won, plays): (&WonLevel<'_>, &Vec<Episode>)| {
@@ -52,12 +54,16 @@ impl GameValidator for Necessity {
         let subjects: Vec<Subject<'_>> = wins
             .iter()
             .zip(&plays)
-            .map(|(&won, plays)| Subject { won, careless: plays, shortest: OnceLock::new() })
+            .map(|(&won, plays)| Subject {
+                won,
+                careless: plays,
+                shortest: OnceLock::new(),
+                spent: AtomicU64::new(0),
+            })
             .collect();
         // Of what occurs only on levels without a known win, nothing is known.
         let is_open = |element: &Element| {
-            !element.levels.is_empty()
-                && !wins.iter().any(|won| element.levels.contains(&won.number))
+            !element.levels.is_empty() && !wins.iter().any(|won| element.levels.contains(&won.number))
         };
         let mut elements = elements(case, &executed);
         elements.retain(|element| !is_open(element));
@@ -70,10 +76,12 @@ impl GameValidator for Necessity {
         let idle: Vec<Evidence> = idle.map(|(element, (_, why))| element.problem(why.clone())).collect();
         let text = format!("{needed} of {} rules and types change how the game is won", elements.len());
         let note = Evidence::new(text);
-        match share >= gates.needed_share {
+        let found = match share >= gates.needed_share {
             true => finding(Vec::new(), [note].into_iter().chain(idle).collect(), Some(share)),
             false => finding(idle, vec![note], Some(share)),
-        }
+        };
+        let spent = subjects.iter().map(|subject| subject.spent.load(Ordering::Relaxed)).sum();
+        Finding { searched: Some(spent), ..found }
     }
 }
 
@@ -83,6 +91,8 @@ struct Subject<'a> {
     careless: &'a [Episode],
     /// Ticks of the shortest win that is known with everything, once a search has looked for it.
     shortest: OnceLock<usize>,
+    /// Forward-model calls of the searches on it.
+    spent: AtomicU64,
 }
 
 impl Necessity {
@@ -136,29 +146,32 @@ impl Necessity {
     fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> bool {
         let WonLevel { level, win, .. } = subject.won;
         let shortest = *subject.shortest.get_or_init(|| {
-            let found = self.search(case.analysis, level, win.seed);
+            let found = self.search(case.analysis, level, subject);
             found.map_or(win.actions.len(), |ticks| ticks.min(win.actions.len()))
         });
         let Some(level) = element.level(level) else { return true };
         let analysis = Analysis::of(&element.without);
-        let found = self.search(&analysis, &level, win.seed);
+        let found = self.search(&analysis, &level, subject);
         found.is_some_and(|ticks| (ticks as f64) <= shortest as f64 * (1.0 - self.0.plan_change))
     }
 
-    /// Returns the ticks of a win that a search finds: the shortest one, or else any.
-    fn search(&self, analysis: &Analysis, level: &Level, seed: Seed) -> Option<usize> {
-        let start = analysis.game().start(level, seed);
+    /// Returns the ticks of a win that a search finds under the chance of the known win: the shortest one, or else any.
+    fn search(&self, analysis: &Analysis, level: &Level, subject: &Subject<'_>) -> Option<usize> {
+        let start = analysis.game().start(level, subject.won.win.seed);
         if start.is_over() {
             return None;
         }
         let pushes = Pushes::of(analysis, level);
         let limits = SearchLimits { bytes: BYTES, ..SearchLimits::calls(self.0.needed_calls / 2) };
-        let won = |answer: Answer| match answer {
-            Answer::Won { actions, .. } => Some(actions.len()),
-            _ => None,
+        let won = |searched: Searched| {
+            subject.spent.fetch_add(searched.calls, Ordering::Relaxed);
+            match searched.answer {
+                Answer::Won { actions, .. } => Some(actions.len()),
+                _ => None,
+            }
         };
-        won(a_star(analysis, &pushes, &start, limits).answer)
-            .or_else(|| won(best_first(analysis, &pushes, &start, limits).answer))
+        won(a_star(analysis, &pushes, &start, limits))
+            .or_else(|| won(best_first(analysis, &pushes, &start, limits)))
     }
 }
 

@@ -35,12 +35,16 @@ impl GameValidator for NoDeadTime {
             let (dead, from) = telling.longest_stretch(won, case);
             let most = ((ticks as f64 * self.0.dead_share) as usize).max(self.0.dead_ticks);
             worst = worst.max(dead as f64 / ticks.max(1) as f64);
-            let text =
-                format!("level {}: nothing comes of {dead} ticks of a win of {ticks}, {most} allowed", won.number);
+            let text = format!(
+                "level {}: nothing comes of {dead} ticks of a win of {ticks}, {most} allowed",
+                won.number
+            );
             let seen = Evidence { tick: Some(from + 1), ..Evidence::new(text) };
             match dead <= most {
                 true => notes.push(seen),
-                false => problems.push(seen.advise("shorten the wait, or give the player something to do in it")),
+                false => {
+                    problems.push(seen.advise("shorten the wait, or give the player something to do in it"))
+                }
             }
         }
         finding(problems, notes, Some(worst))
@@ -126,9 +130,20 @@ mod tests {
 
     #[test]
     fn walking_is_progress_and_waiting_is_not() {
-        check("no-dead-time", GAME, &["wwwwwwwwwwwwwwwwwwww\nwA                pw\nwwwwwwwwwwwwwwwwwwww\n"], None);
+        check(
+            "no-dead-time",
+            GAME,
+            &["wwwwwwwwwwwwwwwwwwww\nwA                pw\nwwwwwwwwwwwwwwwwwwww\n"],
+            None,
+        );
         check("no-dead-time", GAME, &["wwwwwwwwww\nwA      sw\nwwwwwwwwww\n"], None);
-        let barred = GAME.replace("    avatar wall > stepBack\n", "    avatar wall > stepBack\n    avatar bar > stepBack\n").replace("    avatar > MovingAvatar\n", "    bar > Immovable\n    avatar > MovingAvatar\n").replace("    s > slug\n", "    s > slug\n    b > bar\n");
+        let barred = GAME
+            .replace(
+                "    avatar wall > stepBack\n",
+                "    avatar wall > stepBack\n    avatar bar > stepBack\n",
+            )
+            .replace("    avatar > MovingAvatar\n", "    bar > Immovable\n    avatar > MovingAvatar\n")
+            .replace("    s > slug\n", "    s > slug\n    b > bar\n");
         check("no-dead-time", &barred, &["wwwwwwwwww\nwAb     sw\nwwwwwwwwww\n"], Some("nothing comes of"));
     }
 }

@@ -41,7 +41,9 @@ impl GameValidator for NotInstant {
                 won.number
             );
             match share > gates.bot_wins {
-                true => problems.push(Evidence::new(text).advise("make the nearest goal the wrong one, at times")),
+                true => {
+                    problems.push(Evidence::new(text).advise("make the nearest goal the wrong one, at times"))
+                }
                 false => notes.push(Evidence::new(text)),
             }
             instant += usize::from(problems.len() > before);
@@ -68,13 +70,19 @@ impl GameValidator for NotInstant {
 
 impl NotInstant {
     /// Returns the problems with a win that comes too soon.
-    fn too_short(&self, case: GameCase<'_>, won: WonLevel<'_>, periods: &[(SpriteType, f64)]) -> Vec<Evidence> {
+    fn too_short(
+        &self,
+        case: GameCase<'_>,
+        won: WonLevel<'_>,
+        periods: &[(SpriteType, f64)],
+    ) -> Vec<Evidence> {
         let Gates { least_win, spawn_periods, .. } = self.0;
         let (number, ticks) = (won.number, won.ticks());
         let mut problems = Vec::new();
         if ticks < least_win {
             let text = format!("level {number} is won in {ticks} ticks, fewer than {least_win}");
-            problems.push(Evidence::new(text).advise("move the goal farther away, or put something in the way"));
+            problems
+                .push(Evidence::new(text).advise("move the goal farther away, or put something in the way"));
         }
         let start = case.game.start(won.level, won.win.seed);
         let placed = periods.iter().filter(|(stype, _)| start.alive(*stype) > 0);
@@ -147,7 +155,12 @@ mod tests {
         check("not-instant", GAME, &[NEAR, hive], Some("before 1.5 periods of `hive`, 30 ticks each"));
         let plain = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
         check("not-instant", GAME, &[NEAR, plain], Some("the nearest-goal player wins 100 %"));
-        check("not-instant", &GAME.replace("80", "900"), &[NEAR], Some("time limit of 900 ticks is 300.0 times"));
+        check(
+            "not-instant",
+            &GAME.replace("80", "900"),
+            &[NEAR],
+            Some("time limit of 900 ticks is 300.0 times"),
+        );
     }
 
     #[test]

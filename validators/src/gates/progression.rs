@@ -79,7 +79,11 @@ impl GameValidator for Progression {
             format!("the wins use {} of {} mechanics, level by level", counts.join(", "), all.len()),
             format!("ease, level by level: {}", texts.join(", ")),
         ];
-        finding(problems.collect(), notes.map(Evidence::new).into_iter().chain(unused).collect(), Some(growth as f64))
+        finding(
+            problems.collect(),
+            notes.map(Evidence::new).into_iter().chain(unused).collect(),
+            Some(growth as f64),
+        )
     }
 }
 
@@ -111,7 +115,12 @@ mod tests {
     fn mechanics_grow_or_stay() {
         let second = SECOND.replace("wA c  pw\nwwwwwwww\nw      w", "wA c   w\nwwww wpw\nw      w");
         check("progression", GAME, &[FIRST, &second, THIRD], None);
-        check("progression", GAME, &[FIRST, FIRST, FIRST], Some("0 levels after the first bring new mechanics"));
+        check(
+            "progression",
+            GAME,
+            &[FIRST, FIRST, FIRST],
+            Some("0 levels after the first bring new mechanics"),
+        );
         check("progression", GAME, &[FIRST, &second, THIRD, FIRST], Some("the last level needs 1 of"));
     }
 }

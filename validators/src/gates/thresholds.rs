@@ -24,7 +24,7 @@ engine::with_defaults! {
         /// … and the ticks that such a stretch may take in any case.
         pub dead_ticks: usize = 12,
         /// `drama`: the drama of the game at least.
-        pub drama: f64 = 0.54,
+        pub drama: f64 = 0.12,
         /// `progression`: how often a level brings mechanics that no earlier one needed, at least.
         pub growth: usize = 1,
         /// `progression`: the share of all mechanics that the last level needs at least.
@@ -38,7 +38,7 @@ engine::with_defaults! {
         /// `actors-matter`: the share of the losses of careless players that deadly foes cause, at least.
         pub foe_losses: f64 = 0.1,
         /// `tight`: the share of the consumables that a win leaves on average, at least and at most.
-        pub spare: (f64, f64) = (0.0, 0.45),
+        pub spare: (f64, f64) = (0.0, 0.5),
         /// `tight`, `progression`, `actors-matter`, `necessity`: plays of careless players on a level.
         pub careless_plays: u32 = 8,
         /// The share of the ticks in which a careless player presses a random key.
@@ -50,7 +50,7 @@ engine::with_defaults! {
         /// `necessity`: the share of the levels of a rule or type on which it has to matter.
         pub needed_levels: f64 = 0.5,
         /// `necessity`: the share of the rules and types that has to matter.
-        pub needed_share: f64 = 0.6,
+        pub needed_share: f64 = 0.55,
         /// `necessity`: forward-model calls of a search without a rule or type on one level.
         pub needed_calls: u64 = 10_000,
     }
@@ -90,7 +90,8 @@ impl Gates {
             ("gates.sweep", self.sweep),
         ];
         let factor = factors.into_iter().find(|(_, factor)| !(0.0..=1000.0).contains(factor));
-        let factor = factor.map(|(key, factor)| (key, format!("is {factor}; it takes a number from 0 to 1000")));
+        let factor =
+            factor.map(|(key, factor)| (key, format!("is {factor}; it takes a number from 0 to 1000")));
         let counts = [
             ("gates.bot_plays", u64::from(self.bot_plays), 1000),
             ("gates.careless_plays", u64::from(self.careless_plays), 1000),

@@ -4,8 +4,8 @@ use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_lev
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
-use engine::analysis::Resource;
 use engine::State;
+use engine::analysis::Resource;
 
 /// On average over the levels, a win leaves [`Gates::spare`] of the consumables that it uses, and careless players win at most
 /// [`Gates::careless_wins`] of their plays after the first level.
@@ -27,9 +27,9 @@ impl GameValidator for Tight {
         if wins.is_empty() {
             return without_subject(NO_WIN);
         }
-        let (mut problems, mut notes, mut spares, mut shares) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let consumed =
-            |resource: &&Resource| !resource.takers.is_empty() || resource.is_ammunition;
+        let (mut problems, mut notes, mut spares, mut shares) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let consumed = |resource: &&Resource| !resource.takers.is_empty() || resource.is_ammunition;
         for won in &wins {
             for resource in case.analysis.resources().iter().filter(consumed) {
                 let Some((spent, left)) = balance(case, *won, resource) else { continue };
