@@ -58,7 +58,7 @@ pub struct Legend {
 impl Legend {
     /// Builds the table of an analysed game. The same game and options always give the same table.
     pub fn new(analysis: &Analysis, options: &LegendOptions) -> Legend {
-        let (game, looks) = (analysis.game(), Looks::of(analysis));
+        let (game, looks) = (analysis.game(), Looks::of_rules(analysis));
         let symbols = Symbols::of(analysis, &looks);
         let mut types: Vec<SpriteType> = looks.shown().collect();
         let is_avatar = |stype| analysis.avatars().iter().any(|avatar| avatar.stype == stype);

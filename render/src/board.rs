@@ -3,6 +3,7 @@
 use crate::caption;
 use crate::colour::{GRID, GROUND, INK};
 use crate::error::RenderError;
+use crate::figure::Form;
 use crate::glyph::Glyph;
 use crate::legend;
 use crate::look::{Look, Looks};
@@ -137,13 +138,13 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
             w: (f64::from(rect.w) * scale) as f32,
             h: (f64::from(rect.h) * scale) as f32,
         };
-        let covers = !look.glyph.is_ground() && !below.insert([rect.x, rect.y, rect.w, rect.h]);
+        let covers = !look.form.is_ground() && !below.insert([rect.x, rect.y, rect.w, rect.h]);
         if covers {
             place = over(place);
         }
         let dead = record.flags & DISABLED != 0;
-        let look = if dead { Look { glyph: Glyph::Fallen, ..look } } else { look };
-        let place = if look.glyph.is_ground() { place } else { plated(picture, place, look) };
+        let look = if dead { Look { glyph: Glyph::Fallen, form: Form::Glyph(Glyph::Fallen), ..look } } else { look };
+        let place = if look.form.is_ground() { place } else { plated(picture, place, look) };
         picture.sprite(place, game.name(stype), look, facing(&record, look.glyph));
     }
 }

@@ -1,18 +1,28 @@
 //! The looks of the sprite types of one game.
 
 use crate::colour::{Colour, INK, PAPER};
+use crate::figure::{Form, Hint, Mood};
 use crate::glyph::Glyph;
 use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
+use std::collections::BTreeMap;
 
 /// The squared distance below which colours are too similar to tell two types of one glyph apart.
 const ALIKE: u32 = 3000;
+/// The most dots of a tile.
+const MAX_PIPS: u8 = 4;
 
 /// The look of a sprite type: the input of its tile, except orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Look {
-    /// The glyph.
+    /// What the rules make of the type: its meaning in legends.
     pub glyph: Glyph,
+    /// What is drawn: a figure if the game names a picture, else the glyph.
+    pub form: Form,
+    /// The mark of its state, an index into the table of figures.
+    pub(crate) mark: Option<u8>,
+    /// The expression of its face, if the form has one.
+    pub mood: Mood,
     /// The main colour: the game's own, or that of the glyph.
     pub colour: Colour,
     /// The variant of the glyph, from 0. Keys and the gates that they open have the same.
@@ -24,7 +34,25 @@ pub struct Look {
 impl Look {
     /// Returns the look of a glyph in a game that names no colour and has one type of it.
     pub fn plain(glyph: Glyph) -> Look {
-        Look { glyph, colour: glyph.colour(), variant: 0, pips: 0 }
+        Look {
+            glyph,
+            form: Form::Glyph(glyph),
+            mark: None,
+            mood: Mood::Calm,
+            colour: glyph.colour(),
+            variant: 0,
+            pips: 0,
+        }
+    }
+}
+
+impl Look {
+    /// Returns `true` if two types with these looks cannot be told apart: they have the same drawing and as many dots,
+    /// and their colours, if the drawing shows them, are similar.
+    pub fn is_like(self, other: Look) -> bool {
+        let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
+        drawing(self) == drawing(other)
+            && (!self.form.is_coloured() || self.colour.distance(other.colour) < ALIKE)
     }
 }
 
@@ -42,8 +70,17 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// Computes the looks of an analysed game. Cost: O(types²).
+    /// Computes the looks of an analysed game, with the pictures that it names. Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
+        Looks::with_pictures(analysis, &pictures(analysis.game()))
+    }
+
+    /// Computes the looks that follow from the rules alone, whatever pictures the game names. Cost: O(types²).
+    pub fn of_rules(analysis: &Analysis) -> Looks {
+        Looks::with_pictures(analysis, &BTreeMap::new())
+    }
+
+    fn with_pictures(analysis: &Analysis, pictures: &BTreeMap<SpriteType, String>) -> Looks {
         let game = analysis.game();
         let is_shown = |stype: &SpriteType| {
             let facts = analysis.facts(*stype);
@@ -59,16 +96,17 @@ impl Looks {
         order.sort_by_key(|stype| glyphs[stype.index()] == Glyph::Gate);
         for stype in order {
             let glyph = glyphs[stype.index()];
-            let before = seen.iter().filter(|look| look.glyph == glyph).count();
+            let hint = pictures.get(&stype).map(|img| Hint::of(img));
+            let form = hint.map_or(Form::Glyph(glyph), |hint| hint.form(glyph));
+            let (mark, mood) = (hint.and_then(Hint::mark), hint.map_or(Mood::Calm, |hint| hint.mood(glyph)));
+            let before = seen.iter().filter(|look| look.form == form).count();
             let colour = game.color(stype).map_or_else(|| shifted(glyph.colour(), before), Colour);
-            let own = if glyph == Glyph::Gate { emblem(analysis, stype, &looks) } else { None };
-            let variant = (own.unwrap_or(before) % glyph.variants()) as u8;
-            let alike = |other: &&Look| {
-                let same = other.glyph == glyph && other.variant == variant;
-                same && other.colour.distance(colour) < ALIKE
-            };
-            let pips = if glyph.is_ground() { 0 } else { seen.iter().filter(alike).count().min(3) as u8 };
-            let look = Look { glyph, colour, variant, pips };
+            let own = if form == Form::Glyph(Glyph::Gate) { emblem(analysis, stype, &looks) } else { None };
+            let variant = (own.unwrap_or(before) % form.variants()) as u8;
+            let look = Look { glyph, form, mark, mood, colour, variant, pips: 0 };
+            let taken = |pips: &u8| seen.iter().any(|other| Look { pips: *pips, ..look }.is_like(*other));
+            let pips = (0..MAX_PIPS).find(|pips| !taken(pips)).unwrap_or(MAX_PIPS);
+            let look = Look { pips, ..look };
             if is_shown(&stype) {
                 seen.push(look);
             }
@@ -105,6 +143,24 @@ impl Looks {
     pub fn is_visible(&self, stype: SpriteType) -> bool {
         self.visible[stype.index()]
     }
+}
+
+/// Returns the pictures that a game names (`img=`), by type; types without one have that of their parent.
+fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
+    let mut pictures = BTreeMap::new();
+    // The pictures of the lines above, by depth.
+    let mut above: Vec<Option<String>> = Vec::new();
+    for (depth, line) in game.description().sprite_lines() {
+        above.truncate(depth);
+        let own = line.params.iter().find(|param| param.key.text == "img");
+        let own = own.map(|param| param.value.text.clone());
+        let picture = own.or_else(|| above.last().cloned().flatten());
+        above.push(picture.clone());
+        if let (Some(stype), Some(picture)) = (game.sprite_type(&line.name.text), picture) {
+            pictures.insert(stype, picture);
+        }
+    }
+    pictures
 }
 
 /// Returns the variant of the key that opens a gate.

@@ -32,7 +32,7 @@ pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Resu
             for name in others.chain(own.map(|avatar| &avatar.name)) {
                 let Some(stype) = looks.game().sprite_type(name) else { continue };
                 let look = looks.look(stype);
-                let ground = look.glyph.is_ground();
+                let ground = look.form.is_ground();
                 let place = at(column, row);
                 let place = if covered && !ground { over(place) } else { place };
                 covered |= !ground;

@@ -1,8 +1,9 @@
 //! A contact sheet: several pictures in one, each with a caption.
 
 use crate::board::MAX_PIXELS;
-use crate::colour::{GROUND, INK, PAPER};
+use crate::colour::{Colour, GREEN, GROUND, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION, YELLOW};
 use crate::error::RenderError;
+use crate::figure::Form;
 use crate::glyph::Glyph;
 use crate::look::Look;
 use crate::picture::{ADVANCE, Picture, Place, shortened};
@@ -84,21 +85,37 @@ fn broken(caption: &str, letters: usize) -> Vec<String> {
 
 /// Returns every glyph with its meaning, in rows of `columns`: a legend to all boards.
 pub fn gallery(columns: usize) -> Picture {
+    let entries: Vec<_> = Glyph::ALL.iter().map(|&glyph| (Look::plain(glyph), glyph.meaning())).collect();
+    shelves(&entries, columns, 290)
+}
+
+/// Returns every figure with its name, in rows of `columns`, in colours that games use.
+pub fn figures(columns: usize) -> Picture {
+    const COLOURS: [Colour; 6] = [ORANGE, SKY, GREEN, YELLOW, VERMILION, PURPLE];
+    let look = |(form, at): (Form, usize)| {
+        let plain = Look::plain(Glyph::Neutral);
+        (Look { form, colour: COLOURS[at % COLOURS.len()], ..plain }, form.name())
+    };
+    let entries: Vec<_> = Form::figures().zip(0..).map(look).collect();
+    shelves(&entries, columns, 150)
+}
+
+/// Returns tiles with their words, `step` pixels from one to the next.
+fn shelves(entries: &[(Look, &str)], columns: usize, step: u32) -> Picture {
     const SIDE: u32 = 44;
-    const STEP: u32 = 290;
     let columns = columns.max(1) as u32;
-    let rows = (Glyph::ALL.len() as u32).div_ceil(columns);
-    let (width, height) = (columns * STEP, rows * (SIDE + GAP) + GAP);
-    let mut gallery = Picture::new(width, height);
-    gallery.rect(Place { x: 0.0, y: 0.0, w: width as f32, h: height as f32 }, GROUND);
-    for (&glyph, at) in Glyph::ALL.iter().zip(0u32..) {
-        let (x, y) = ((at % columns * STEP + GAP) as f32, (at / columns * (SIDE + GAP) + GAP) as f32);
+    let rows = (entries.len() as u32).div_ceil(columns);
+    let (width, height) = (columns * step, rows * (SIDE + GAP) + GAP);
+    let mut shelves = Picture::new(width, height);
+    shelves.rect(Place { x: 0.0, y: 0.0, w: width as f32, h: height as f32 }, GROUND);
+    for (&(look, words), at) in entries.iter().zip(0u32..) {
+        let (x, y) = ((at % columns * step + GAP) as f32, (at / columns * (SIDE + GAP) + GAP) as f32);
         let place = Place { x, y, w: SIDE as f32, h: SIDE as f32 };
-        gallery.sprite(place, glyph.form(), Look::plain(glyph), None);
+        shelves.sprite(place, look.form.name(), look, None);
         let left = x + (SIDE + GAP / 2) as f32;
-        gallery.text((left, y + 15.0), 13.0, INK, glyph.meaning());
+        shelves.text((left, y + 15.0), 13.0, INK, words);
     }
-    gallery
+    shelves
 }
 
 #[cfg(test)]

@@ -113,8 +113,10 @@ impl Choices<'_> {
         let nouns = self.cast(&mut sampler)?;
         let traits = traits(&description);
         self.color(&mut description.sprites);
+        self.picture(&mut description.sprites, &nouns);
         let symbols = self.map_symbols(&mut description, &nouns);
         let mut wall = SpriteLine { name: nouns["wall"].as_str().into(), ..SpriteLine::default() };
+        wall.params.push(Param::new("img", &format!("wall/{}", nouns["wall"])));
         wall.params.push(Param::new("color", &self.scene.wall_color));
         if let Some(line) = description.sprites.iter_mut().find(|line| line.name.text == "wall") {
             line.children.push(wall);
@@ -221,6 +223,13 @@ impl Choices<'_> {
         color_lines(lines, &roles, &self.scene.floor_color, &mut taken);
     }
 
+    /// Names a picture for every type: `img=role/noun`, or `img=role/adjective/noun` for another state of something.
+    fn picture(&self, lines: &mut [SpriteLine], nouns: &Nouns) {
+        let roles: BTreeMap<&str, &Casting> =
+            self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
+        picture_lines(lines, &roles, nouns);
+    }
+
     /// Writes the LevelMapping: floor, walls, the hero, then all types that levels place.
     fn map_symbols(&self, description: &mut Description, nouns: &Nouns) -> BTreeMap<String, char> {
         let maps = self.kernel.levels.iter().filter_map(|level| level.map(self.values).ok());
@@ -292,6 +301,32 @@ fn color_lines(
         };
         line.params.extend(color.map(|color| Param::new("color", color)));
         color_lines(&mut line.children, roles, floor, taken);
+    }
+}
+
+fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nouns: &Nouns) {
+    for line in lines {
+        let name = line.name.text.as_str();
+        let noun = nouns.get(name);
+        let picture = match (roles.get(name), noun) {
+            (None, Some(noun)) if name == "floor" => Some(format!("floor/{noun}")),
+            (Some(Casting::Role(role)), Some(noun)) => Some(format!("{role}/{noun}")),
+            (Some(Casting::State { of, adjective }), Some(noun)) => {
+                let role = match roles.get(of.as_str()) {
+                    Some(Casting::Role(role)) => role,
+                    _ => of,
+                };
+                // The noun of a state is the adjective and the noun of the thing.
+                let thing = noun.strip_prefix(adjective.as_str()).unwrap_or(noun);
+                let mut letters = thing.chars();
+                let first = letters.next().map(|letter| letter.to_ascii_lowercase());
+                let thing: String = first.into_iter().chain(letters).collect();
+                Some(format!("{role}/{adjective}/{thing}"))
+            }
+            _ => None,
+        };
+        line.params.extend(picture.map(|picture| Param::new("img", &picture)));
+        picture_lines(&mut line.children, roles, nouns);
     }
 }
 

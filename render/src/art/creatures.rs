@@ -101,7 +101,7 @@ pub(crate) fn enemy(art: &mut Art) {
 }
 
 /// A row of pointed teeth below the line at `y`.
-fn teeth(art: &mut Art, x: f32, y: f32, width: f32) {
+pub(super) fn teeth(art: &mut Art, x: f32, y: f32, width: f32) {
     let (left, step, drop) = (x - width / 2.0, width / 6.0, width * 0.34);
     let mut points = vec![[left, y], [left + width, y]];
     for at in (0..6_u8).rev() {

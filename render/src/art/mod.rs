@@ -4,12 +4,14 @@
 //! the avatar stands in a bright ring. Colour is only a secondary cue.
 
 pub(crate) mod creatures;
+mod figure;
 pub(crate) mod ground;
 pub(crate) mod passages;
 pub(crate) mod shots;
 pub(crate) mod things;
 
 use crate::colour::{Colour, INK, PAPER};
+use crate::figure::Form;
 use crate::look::Look;
 use crate::shape::{Outline, Paint, Point, Shape};
 
@@ -20,9 +22,17 @@ const RIM: f32 = 0.045;
 /// Returns the tile of a look whose front points along `facing`, of unit length; looks without a front ignore it.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     let mut art = Art { look, facing, shapes: Vec::new() };
-    look.glyph.draw(&mut art);
-    if let (true, Some(direction)) = (look.glyph.turns(), facing) {
-        art.turn(0, direction);
+    match look.form {
+        Form::Figure(_) => look.form.figure().into_iter().for_each(|drawn| figure::draw(&mut art, drawn)),
+        Form::Glyph(glyph) => {
+            glyph.draw(&mut art);
+            if let (true, Some(direction)) = (glyph.turns(), facing) {
+                art.turn(0, direction);
+            }
+        }
+    }
+    if let Some(mark) = look.mark {
+        figure::mark(&mut art, mark);
     }
     art.pips();
     art.shapes
@@ -46,7 +56,11 @@ impl Art {
     }
 
     fn stroke(&mut self, outline: Outline, colour: Colour, width: f32) {
-        self.shapes.push(Shape { outline, paint: Paint::Stroke(width), colour });
+        self.paint(outline, colour, Paint::Stroke(width));
+    }
+
+    fn paint(&mut self, outline: Outline, colour: Colour, paint: Paint) {
+        self.shapes.push(Shape { outline, paint, colour });
     }
 
     /// Fills an outline with a dark rim, visible on any ground.
@@ -98,6 +112,15 @@ impl Art {
     /// Dots at the foot, for types that share form and colour.
     fn pips(&mut self) {
         let count = self.look.pips;
+        // Grounds lie under other sprites: smaller dots, at the top.
+        if self.look.form.is_ground() {
+            for at in 0..count {
+                let x = 0.14 + 0.18 * f32::from(at);
+                self.fill(Outline::circle(x, 0.14, 0.07), self.main().shade());
+                self.fill(Outline::circle(x, 0.14, 0.04), PAPER);
+            }
+            return;
+        }
         for at in 0..count {
             let x = 0.5 + 0.2 * (f32::from(at) - f32::from(count - 1) / 2.0);
             self.solid(Outline::circle(x, 0.88, 0.075), PAPER);
