@@ -3,6 +3,7 @@
 use crate::game::{Game, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SEEN;
+use crate::ontology::class::SpriteClass;
 use crate::state::{Sprite, State, flag};
 
 /// An observation: the part of a state that a player is shown, never the state itself.
@@ -62,6 +63,28 @@ pub struct SpriteRecord {
     pub resources: Vec<(u16, i32)>,
     /// Rotation, radians.
     pub rotation: f64,
+}
+
+/// The event that a countdown ends with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// The sprite makes another one.
+    Makes,
+    /// The sprite vanishes.
+    Ends,
+}
+
+/// The countdown of a sprite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Countdown {
+    /// Its type.
+    pub stype: SpriteType,
+    /// The event.
+    pub event: Event,
+    /// The number of steps until the event, at least 1; `None` if chance decides.
+    pub ticks: Option<i32>,
+    /// The number of sprites that it still makes; `None` without a limit.
+    pub left: Option<i32>,
 }
 
 /// The categories that the reference's planners see (`spec/01` §9.5); the first one that fits.
@@ -187,6 +210,34 @@ impl Game {
         records
     }
 
+    /// The countdowns of sprites that make others or vanish by themselves, in order of type and creation. Cost: O(such
+    /// sprites).
+    pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
+        use SpriteClass as C;
+        let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
+        let next = state.tick.saturating_add(1);
+        let countdown = |sprite: Sprite| {
+            let traits = &self.0.types[sprite.stype.index()].traits;
+            if !is_a(sprite.stype, C::SpawnPoint) {
+                let ticks = traits.limit.saturating_sub(sprite.count).saturating_add(2).max(1);
+                return Countdown { stype: sprite.stype, event: Event::Ends, ticks: Some(ticks), left: None };
+            }
+            // The first update of a producer sets its start.
+            let start = if sprite.is(flag::STARTED) { state.overrides_of(&sprite).start } else { next };
+            let gone = start.wrapping_add(next).rem_euclid(traits.cooldown.max(1));
+            let ticks = if gone == 0 { 1 } else { traits.cooldown - gone + 1 };
+            let left = (traits.total > 0).then(|| traits.total.saturating_sub(sprite.count));
+            let ticks = (traits.prob >= 1.0).then_some(ticks);
+            Countdown { stype: sprite.stype, event: Event::Makes, ticks, left }
+        };
+        let counts = |stype: &SpriteType| {
+            let ends = || is_a(*stype, C::Flicker) || is_a(*stype, C::OrientedFlicker);
+            !self.is_hidden(*stype) && (is_a(*stype, C::SpawnPoint) || ends())
+        };
+        let counting = self.sprite_types().filter(counts);
+        counting.flat_map(|stype| state.sprites_of(stype).map(countdown)).collect()
+    }
+
     /// The colour that the SpriteSet gives a type or one of its parents: red, green and blue; `None` if it gives none.
     pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
@@ -262,5 +313,37 @@ impl State {
     /// The creation number of the player's avatar, disabled or not.
     pub fn avatar_id(&self) -> Option<u32> {
         self.sprites.get(usize::from(self.avatar)).map(|sprite| sprite.id)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Event;
+    use crate::{Action, Game, Seed};
+
+    const GAME: &str = "BasicGame\n    SpriteSet\n        den > SpawnPoint stype=log cooldown=4 total=2\n        \
+        log > Immovable\n        ember > Flicker limit=5\n        hen > MovingAvatar\n    LevelMapping\n        d > den\n        \
+        e > ember\n        A > hen\n    InteractionSet\n        hen log > stepBack\n    TerminationSet\n        \
+        Timeout limit=90\n";
+
+    #[test]
+    fn countdowns_foretell_what_happens() {
+        let game = Game::from_source(GAME).unwrap();
+        let mut state = game.start(&game.level("A.d.e").unwrap(), Seed::from_text("countdown"));
+        let count = |state: &crate::State, name: &str| state.alive(game.sprite_type(name).unwrap());
+        let (mut made, mut ended) = (0, 0);
+        for _ in 0..20 {
+            let (logs, embers) = (count(&state, "log"), count(&state, "ember"));
+            let foretold = game.countdowns(&state);
+            let now = |event| foretold.iter().filter(|known| known.event == event && known.ticks == Some(1)).count();
+            game.step(&mut state, Action::Nil);
+            assert_eq!(count(&state, "log") - logs, now(Event::Makes), "{foretold:?}");
+            assert_eq!(embers - count(&state, "ember"), now(Event::Ends), "{foretold:?}");
+            made += now(Event::Makes);
+            ended += now(Event::Ends);
+            let left = game.countdowns(&state).iter().find_map(|known| known.left);
+            assert_eq!(left.unwrap_or(0), 2 - made as i32);
+        }
+        assert_eq!((made, ended), (2, 1));
     }
 }

@@ -10,7 +10,7 @@ use crate::look::{Look, Looks};
 use crate::picture::{Picture, Place};
 use crate::shape::Point;
 use engine::{SpriteRecord, SpriteType, State};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The fewest pixels of a cell: in smaller cells, tiles are dots.
 pub const MIN_CELL: u32 = 4;
@@ -24,6 +24,8 @@ const MIN_WIDTH: u32 = 260;
 
 /// The scale of a sprite over another one in the same rectangle, so that both are visible.
 const OVER: f32 = 0.78;
+/// The scale of a sprite in the same rectangle as an avatar.
+const BESIDE: f32 = 0.46;
 
 /// The ratio of length to width from which a sprite is drawn as a plate.
 const LONG: f32 = 1.3;
@@ -123,30 +125,54 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     }
     // The sort keeps the order of creation among sprites of a type.
     records.sort_by_key(|record| place_in_order[usize::from(record.stype)]);
+    records.retain(|record| looks.is_visible(SpriteType(record.stype)));
     let scale = f64::from(cell) / f64::from(state.block().max(1));
+    let rect = |record: &SpriteRecord| [record.rect.x, record.rect.y, record.rect.w, record.rect.h];
+    let avatars: BTreeSet<[i32; 4]> =
+        records.iter().filter(|record| is_avatar(looks, record)).map(rect).collect();
     let mut below: BTreeSet<[i32; 4]> = BTreeSet::new();
+    // Sprites in the rectangle of an avatar: they come last, in its corners.
+    let mut company: BTreeMap<[i32; 4], usize> = BTreeMap::new();
+    let shares = |record: &SpriteRecord| {
+        let ground = looks.look(SpriteType(record.stype)).form.is_ground();
+        !ground && !is_avatar(looks, record) && avatars.contains(&rect(record))
+    };
+    records.sort_by_key(shares);
     for record in records {
         let stype = SpriteType(record.stype);
-        if !looks.is_visible(stype) {
-            continue;
-        }
         let look = looks.look(stype);
-        let rect = record.rect;
+        let drawn = record.rect;
         let mut place = Place {
-            x: (f64::from(left) + f64::from(rect.x) * scale) as f32,
-            y: (f64::from(rect.y) * scale) as f32,
-            w: (f64::from(rect.w) * scale) as f32,
-            h: (f64::from(rect.h) * scale) as f32,
+            x: (f64::from(left) + f64::from(drawn.x) * scale) as f32,
+            y: (f64::from(drawn.y) * scale) as f32,
+            w: (f64::from(drawn.w) * scale) as f32,
+            h: (f64::from(drawn.h) * scale) as f32,
         };
-        let covers = !look.form.is_ground() && !below.insert([rect.x, rect.y, rect.w, rect.h]);
-        if covers {
+        if shares(&record) {
+            let at = company.entry(rect(&record)).or_default();
+            place = corner(place, *at);
+            *at += 1;
+        } else if !look.form.is_ground() && !below.insert(rect(&record)) && !is_avatar(looks, &record) {
             place = over(place);
         }
         let dead = record.flags & DISABLED != 0;
-        let look = if dead { Look { glyph: Glyph::Fallen, form: Form::Glyph(Glyph::Fallen), ..look } } else { look };
+        let fallen = Look { glyph: Glyph::Fallen, form: Form::Glyph(Glyph::Fallen), mark: None, ..look };
+        let look = if dead { fallen } else { look };
         let place = if look.form.is_ground() { place } else { plated(picture, place, look) };
         picture.sprite(place, game.name(stype), look, facing(&record, look.glyph));
     }
+}
+
+fn is_avatar(looks: &Looks, record: &SpriteRecord) -> bool {
+    matches!(looks.look(SpriteType(record.stype)).glyph, Glyph::Avatar | Glyph::Craft)
+}
+
+/// The place of the nth sprite that shares the rectangle of an avatar: the avatar keeps its size.
+fn corner(place: Place, nth: usize) -> Place {
+    let (w, h) = (place.w * BESIDE, place.h * BESIDE);
+    let (right, top) = (matches!(nth % 4, 1 | 2), nth % 4 > 1);
+    let (x, y) = (if right { place.w - w } else { 0.0 }, if top { 0.0 } else { place.h - h });
+    Place { x: place.x + x, y: place.y + y, w, h }
 }
 
 /// The place of a sprite that stands over another one.

@@ -1,7 +1,7 @@
 //! The strip under a board: tick, score, resources of the avatar, outcome.
 
 use crate::board::Style;
-use crate::colour::{Colour, GREEN, INK, PAPER, VERMILION};
+use crate::colour::{Colour, INK, PAPER};
 use crate::look::Looks;
 use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use engine::{Outcome, State};
@@ -9,10 +9,12 @@ use engine::{Outcome, State};
 /// Letters of the outcome and the gap before it.
 const ENDING: usize = 9;
 
-/// Returns the height of the strip: one row, and another if avatars can have resources or health. The same for all
-/// states.
+/// Returns the height of the strip: one row, and others if avatars can have resources or health, if counts win, and if
+/// something counts down. The same for all states.
 pub(crate) fn height(looks: &Looks, style: &Style) -> u32 {
-    let rows = if looks.has_holdings() { 2 } else { 1 };
+    let prospects = looks.prospects();
+    let more = [looks.has_holdings(), prospects.has_goals(), prospects.counts_down()];
+    let rows = 1 + more.into_iter().filter(|&row| row).count() as u32;
     if style.caption { rows * row(style) + row(style) / 2 } else { 0 }
 }
 
@@ -28,7 +30,10 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, state: &State, style: &
     picture.rect(strip, colour);
     let letters = (width / (size * ADVANCE)) as usize;
     let (x, y) = (size * 0.4, top as f32 + row * 0.35);
-    let first = format!("tick {}  score {}", state.tick() + 1, state.score());
+    let prospects = looks.prospects();
+    let time = prospects.time(state).filter(|_| word.is_empty());
+    let time = time.map_or(String::new(), |time| format!(" ({time})"));
+    let first = format!("tick {}{time}  score {}", state.tick() + 1, state.score());
     let room = letters.saturating_sub(1);
     // On a narrow board the outcome is more important than the score.
     let whole = first.chars().count() + if word.is_empty() { 0 } else { ENDING } <= room;
@@ -37,29 +42,54 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, state: &State, style: &
     }
     let at = if whole { width - text_width(word, size) - size * 0.4 } else { x };
     picture.text((at, y), size, PAPER, word);
+    let mut rows = Vec::new();
+    if prospects.has_goals() {
+        rows.push(format!("to win: {}", prospects.goals(state)));
+    }
     if looks.has_holdings() {
         let held = holdings(looks, state);
-        let held = if held.is_empty() { "nothing held" } else { &held };
-        picture.text((x, y + row), size, PAPER, &shortened(held, room));
+        rows.push(if held.is_empty() { "nothing held".to_owned() } else { held });
+    }
+    if prospects.counts_down() {
+        rows.push(prospects.countdowns(looks.game(), state));
+    }
+    let mut y = y;
+    for text in rows {
+        y += row;
+        picture.text((x, y), size, PAPER, &shortened(&text, room));
     }
 }
 
-/// Returns the word for an outcome, and the colour behind it.
+/// The words for outcomes, and the colours behind them, as red, green and blue.
+pub(crate) const ENDINGS: [(&str, Colour); 2] =
+    [("WON", Colour([0x08, 0x80, 0x62])), ("LOST", Colour([0xa8, 0x50, 0x0c]))];
+
 fn ending(outcome: Outcome) -> (&'static str, Colour) {
     match outcome {
         Outcome::Ongoing => ("", INK),
-        Outcome::Won => ("WON", GREEN.mixed(INK, 25)),
-        Outcome::Lost => ("LOST", VERMILION.mixed(INK, 25)),
+        Outcome::Won => ENDINGS[0],
+        Outcome::Lost => ENDINGS[1],
         Outcome::Ended => ("ENDED", INK),
         Outcome::Stopped(_) => ("STOPPED", INK),
     }
 }
 
-/// Returns the avatar's resources and health: `key 2  health 3`.
+/// Returns the avatar's resources and health, with the numbers that are required: `key 2  prize 1 of 3  health 3`.
 pub fn holdings(looks: &Looks, state: &State) -> String {
-    let game = looks.game();
-    let held = game.held_by_avatar(state).into_iter().filter(|(_, amount)| *amount != 0);
-    let mut parts: Vec<String> = held.map(|(name, amount)| format!("{name} {amount}")).collect();
+    let (game, prospects) = (looks.game(), looks.prospects());
+    let mut held = game.held_by_avatar(state);
+    held.retain(|(_, amount)| *amount != 0);
+    for (resource, _) in prospects.required() {
+        let name = game.name(resource);
+        if held.iter().all(|(known, _)| known != name) {
+            held.push((name.to_owned(), 0));
+        }
+    }
+    let part = |(name, amount): &(String, i32)| match prospects.needed(name, game) {
+        Some(number) => format!("{name} {amount} of {number}"),
+        None => format!("{name} {amount}"),
+    };
+    let mut parts: Vec<String> = held.iter().map(part).collect();
     let avatar = state.avatar_id();
     let record = game.records(state).into_iter().find(|record| Some(record.id) == avatar);
     if let Some(record) = record.filter(|record| record.health > 0) {

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 /// A line for each figure: `name | words | drawing`.
 ///
-/// A name ends with `#` if the figure fills its cell, `!` if it looks dangerous by itself, `>` if it turns with the
+/// A name ends with `#` if the figure fills its cell, `=` if walls can be made of it, `!` if it looks dangerous by itself, `>` if it turns with the
 /// sprite; one that starts with `+` is a mark, drawn over another figure for its state. Words are nouns in lower case;
 /// `@role` is drawn for the role and `.adjective` for the state of something. A drawing is the name of a glyph, or a
 /// list of parts: paint, colour, form, and numbers in hundredths of a tile. Paints: `S` filled with a dark rim, `F`
@@ -71,6 +71,7 @@ pub(crate) struct Figure {
     pub(crate) name: &'static str,
     words: Vec<&'static str>,
     pub(crate) is_ground: bool,
+    is_wall: bool,
     pub(crate) is_dangerous: bool,
     pub(crate) turns: bool,
     is_mark: bool,
@@ -109,6 +110,11 @@ impl Form {
             (!figure.is_mark && figure.glyph.is_none()).then_some(Form::Figure(at))
         };
         TABLE.iter().zip(0..=u8::MAX).filter_map(own)
+    }
+
+    /// Returns `true` if it has eyes or a mouth.
+    pub(crate) fn has_face(self) -> bool {
+        self.figure().is_some_and(|figure| figure.parts.iter().any(|part| !matches!(part, Part::Outline(..))))
     }
 
     /// Returns its name, in a word.
@@ -178,10 +184,12 @@ impl<'a> Hint<'a> {
     pub(crate) fn form(self, glyph: Glyph) -> Form {
         let drawn = Form::Glyph(glyph);
         let noun = || noun(self.noun).map(Form::of_entry);
+        let is_wall = |form: &Form| form.figure().is_some_and(|figure| figure.is_wall);
         match (self.role, glyph) {
-            (_, Glyph::Avatar | Glyph::Craft) | (Some("floor"), _) | (None, Glyph::Floor) => drawn,
+            (_, Glyph::Avatar | Glyph::Craft) | (None, Glyph::Floor) => drawn,
+            (Some("floor"), _) => Form::Glyph(Glyph::Floor),
             // Walls stay walls, whatever they are made of.
-            (Some("wall"), _) | (None, Glyph::Wall) => noun().filter(|form| form.is_ground()).unwrap_or(drawn),
+            (Some("wall"), _) | (None, Glyph::Wall) => noun().filter(is_wall).unwrap_or(drawn),
             (None, _) => noun().unwrap_or(drawn),
             (Some(role), _) => {
                 let state = self.adjective.and_then(|adjective| named(".", adjective));
@@ -238,7 +246,7 @@ fn noun(noun: &str) -> Option<u8> {
 fn parsed(line: &'static str) -> Figure {
     let fields: Vec<&str> = line.splitn(3, '|').map(str::trim).collect();
     let &[head, words, drawing] = &fields[..] else { unreachable!("`{line}` has three fields") };
-    let name = head.trim_matches(['+', '#', '!', '>']);
+    let name = head.trim_matches(['+', '#', '=', '!', '>']);
     let glyph = drawing.strip_prefix("glyph ").map(|wanted| {
         let is = |glyph: &&Glyph| format!("{glyph:?}") == wanted;
         *Glyph::ALL.iter().find(is).unwrap_or_else(|| unreachable!("`{wanted}` is no glyph"))
@@ -248,6 +256,7 @@ fn parsed(line: &'static str) -> Figure {
         name,
         words: words.split_whitespace().collect(),
         is_ground: head.contains('#'),
+        is_wall: head.contains('='),
         is_dangerous: head.contains('!'),
         turns: head.contains('>'),
         is_mark: head.starts_with('+'),
@@ -376,9 +385,10 @@ mod tests {
         check("oryx/cheese2", Glyph::Gem, "cheese");
         check("oryx/wug1", Glyph::Gem, "a gem");
         check("hero/cat", Glyph::Avatar, "a figure in a bright ring");
-        check("floor/grass", Glyph::Floor, "a plain tile");
+        check("floor/grass", Glyph::Neutral, "a plain tile");
         check("wall/boxHedge", Glyph::Wall, "hedge");
         check("wall/toolbox", Glyph::Wall, "bricks");
+        check("wall/roofBeam", Glyph::Wall, "bricks");
         check("key/rustyKey", Glyph::Key, "a key");
         check("", Glyph::Gem, "a gem");
     }

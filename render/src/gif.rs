@@ -4,6 +4,7 @@
 //! blends of smooth edges: first those with no similar colour, most frequent first. A frame holds only the rectangle
 //! that changed.
 
+use crate::caption;
 use crate::colour::Colour;
 use crate::error::RenderError;
 use crate::picture::Picture;
@@ -134,6 +135,8 @@ impl Animation {
 fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
     let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
     let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
+    // The end of an episode is in no specimen.
+    palette.extend(caption::ENDINGS.map(|(_, colour)| colour));
     palette.sort_unstable();
     palette.dedup();
     palette.truncate(COLOURS / 2);

@@ -16,6 +16,7 @@ struct Entry<'a> {
     stype: SpriteType,
     look: Look,
     name: &'a str,
+    meaning: &'a str,
 }
 
 struct Layout {
@@ -26,7 +27,10 @@ struct Layout {
 }
 
 fn entries(looks: &Looks) -> Vec<Entry<'_>> {
-    let entry = |stype| Entry { stype, look: looks.look(stype), name: looks.game().name(stype) };
+    let entry = |stype| {
+        let (name, meaning) = (looks.game().name(stype), looks.meaning(stype));
+        Entry { stype, look: looks.look(stype), name, meaning }
+    };
     let mut entries: Vec<Entry<'_>> = looks.shown().map(entry).collect();
     entries.sort_by_key(|entry| (entry.look.glyph, entry.stype));
     entries
@@ -35,7 +39,7 @@ fn entries(looks: &Looks) -> Vec<Entry<'_>> {
 fn layout(entries: &[Entry<'_>], style: &Style, width: u32) -> Layout {
     let side = style.cell.clamp(32, 40);
     let text = |entry: &Entry<'_>| {
-        text_width(entry.name, NAME).max(text_width(entry.look.glyph.meaning(), MEANING)) as u32
+        text_width(entry.name, NAME).max(text_width(entry.meaning, MEANING)) as u32
     };
     let widest = entries.iter().map(text).max().unwrap_or(0);
     let columns = ((width - GAP.min(width)) / (side + widest + 3 * GAP)).max(1);
@@ -62,7 +66,7 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, style: &Style, top: u32
         let room = step.saturating_sub(side + 2 * GAP) as f32;
         let fitting = |text, size: f32| shortened(text, (room / (size * ADVANCE)) as usize);
         picture.text((left, y + 2.0), NAME, INK, &fitting(entry.name, NAME));
-        let meaning = fitting(entry.look.glyph.meaning(), MEANING);
+        let meaning = fitting(entry.meaning, MEANING);
         picture.text((left, y + 4.0 + NAME), MEANING, INK.mixed(GROUND, 35), &meaning);
     }
 }

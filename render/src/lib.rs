@@ -45,6 +45,7 @@ mod observed;
 mod picture;
 mod pixels;
 mod png;
+mod prospects;
 mod shape;
 mod sheet;
 mod svg;

@@ -3,6 +3,7 @@
 use crate::colour::{Colour, INK, PAPER};
 use crate::figure::{Form, Hint, Mood};
 use crate::glyph::Glyph;
+use crate::prospects::{Prospects, meaning};
 use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 use std::collections::BTreeMap;
@@ -67,15 +68,22 @@ pub struct Looks {
     shown: Vec<SpriteType>,
     /// `true` if avatars can hold resources or have health.
     holdings: bool,
+    /// By type: its meaning in legends.
+    meanings: Vec<String>,
+    prospects: Prospects,
 }
 
 impl Looks {
     /// Computes the looks of an analysed game, with the pictures that it names. Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
-        Looks::with_pictures(analysis, &pictures(analysis.game()))
+        let looks = Looks::with_pictures(analysis, &pictures(analysis.game()));
+        let told = |stype: SpriteType| meaning(analysis, stype, looks.look(stype).form);
+        let meanings = analysis.game().sprite_types().map(told).collect();
+        Looks { meanings, ..looks }
     }
 
-    /// Computes the looks that follow from the rules alone, whatever pictures the game names. Cost: O(types²).
+    /// Computes the looks that follow from the rules alone, whatever pictures the game names, with the meanings of the
+    /// glyphs. Cost: O(types²).
     pub fn of_rules(analysis: &Analysis) -> Looks {
         Looks::with_pictures(analysis, &BTreeMap::new())
     }
@@ -116,7 +124,9 @@ impl Looks {
         let wounds = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
         let health = analysis.encounters().iter().any(|encounter| encounter.effects.iter().any(wounds));
         let holdings = health || !analysis.resources().is_empty();
-        Looks { game: game.clone(), looks, visible, shown, holdings }
+        let meanings = glyphs.iter().map(|glyph| glyph.meaning().to_owned()).collect();
+        let prospects = Prospects::of(analysis);
+        Looks { game: game.clone(), looks, visible, shown, holdings, meanings, prospects }
     }
 
     /// Returns the game that they belong to.
@@ -127,6 +137,15 @@ impl Looks {
     /// Returns the look of a type.
     pub fn look(&self, stype: SpriteType) -> Look {
         self.looks[stype.index()]
+    }
+
+    /// Returns the meaning of a type, in a few words: of its glyph, and how it moves.
+    pub fn meaning(&self, stype: SpriteType) -> &str {
+        &self.meanings[stype.index()]
+    }
+
+    pub(crate) fn prospects(&self) -> &Prospects {
+        &self.prospects
     }
 
     /// Returns the types whose sprites players can ever see, in registry order.

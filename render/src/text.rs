@@ -31,15 +31,23 @@ pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
         Outcome::Stopped(limit) => format!(", stopped: {limit}"),
         other => format!(", {}", format!("{other:?}").to_lowercase()),
     };
-    let _ = write!(text, "\ntick {}, score {}{outcome}", state.tick() + 1, state.score());
-    let held = caption::holdings(looks, state);
-    let _ = writeln!(text, "{}{held}", if held.is_empty() { "" } else { "\nholds: " });
+    let prospects = looks.prospects();
+    let time = prospects.time(state).map_or(String::new(), |time| format!(" ({time})"));
+    let _ = writeln!(text, "\ntick {}{time}, score {}{outcome}", state.tick() + 1, state.score());
+    let lines = [
+        ("holds", caption::holdings(looks, state)),
+        ("to win", prospects.goals(state)),
+        ("soon", prospects.countdowns(game, state)),
+    ];
+    for (word, line) in lines.into_iter().filter(|(_, line)| !line.is_empty()) {
+        let _ = writeln!(text, "{word}: {line}");
+    }
     let cells = stacks(looks, symbols, state);
     let there: BTreeSet<(Glyph, SpriteType)> =
         cells.iter().flatten().map(|&stype| (looks.look(stype).glyph, stype)).collect();
     let _ = writeln!(text);
-    for (glyph, stype) in there {
-        let _ = writeln!(text, "{} {} ({})", symbols.symbol(stype), game.name(stype), glyph.meaning());
+    for (_, stype) in there {
+        let _ = writeln!(text, "{} {} ({})", symbols.symbol(stype), game.name(stype), looks.meaning(stype));
     }
     let columns = state.size().0.max(1) as usize;
     let several: Vec<(usize, &Vec<SpriteType>)> =

@@ -219,8 +219,14 @@ impl Choices<'_> {
     fn color(&self, lines: &mut [SpriteLine]) {
         let roles: BTreeMap<&str, &Casting> =
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
-        let mut taken = vec![self.scene.floor_color.clone(), self.scene.wall_color.clone()];
-        color_lines(lines, &roles, &self.scene.floor_color, &mut taken);
+        let mut palette = Palette {
+            scene: self.scene,
+            taken: vec![self.scene.floor_color.clone(), self.scene.wall_color.clone()],
+            given: BTreeMap::new(),
+        };
+        // States have the colour of the thing, which may stand below them.
+        palette.color(lines, &roles, false);
+        palette.color(lines, &roles, true);
     }
 
     /// Names a picture for every type: `img=role/noun`, or `img=role/adjective/noun` for another state of something.
@@ -275,32 +281,41 @@ impl Choices<'_> {
     }
 }
 
-fn color_lines(
-    lines: &mut [SpriteLine],
-    roles: &BTreeMap<&str, &Casting>,
-    floor: &str,
-    taken: &mut Vec<String>,
-) {
-    for line in lines {
-        let name = line.name.text.as_str();
-        let color = match (name, roles.get(name)) {
-            ("floor", _) => Some(floor.to_owned()),
-            ("wall", _) | (_, None) => None,
-            (_, Some(casting)) => {
-                let role = match casting {
-                    Casting::Role(role) => role.as_str(),
-                    Casting::State { of, .. } => match roles.get(of.as_str()) {
-                        Some(Casting::Role(role)) => role.as_str(),
-                        _ => of.as_str(),
-                    },
-                };
-                let color = super::vocabulary::color(role, taken);
-                taken.push(color.to_owned());
-                Some(color.to_owned())
-            }
-        };
-        line.params.extend(color.map(|color| Param::new("color", color)));
-        color_lines(&mut line.children, roles, floor, taken);
+/// The colours that types have got.
+struct Palette {
+    scene: &'static Scene,
+    taken: Vec<String>,
+    /// By type, or by the role of which a type is a state.
+    given: BTreeMap<String, String>,
+}
+
+impl Palette {
+    fn color(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, states: bool) {
+        for line in lines {
+            let name = line.name.text.as_str();
+            let color = match (name, roles.get(name)) {
+                ("floor", _) => (!states).then(|| self.scene.floor_color.clone()),
+                ("wall", _) | (_, None) => None,
+                (_, Some(Casting::Role(role))) => (!states).then(|| self.draw(name, role)),
+                (_, Some(Casting::State { of, adjective })) => states.then(|| {
+                    let own = adjective.to_uppercase();
+                    match self.given.get(of) {
+                        _ if palette::COLORS.contains(&own.as_str()) => own,
+                        Some(color) => color.clone(),
+                        None => self.draw(of, of),
+                    }
+                }),
+            };
+            line.params.extend(color.map(|color| Param::new("color", color)));
+            self.color(&mut line.children, roles, states);
+        }
+    }
+
+    fn draw(&mut self, name: &str, role: &str) -> String {
+        let color = super::vocabulary::color(role, &self.taken).to_owned();
+        self.taken.push(color.clone());
+        self.given.insert(name.to_owned(), color.clone());
+        color
     }
 }
 

@@ -140,19 +140,28 @@ impl KernelGenome {
     }
 }
 
-/// Builds the game of a kernel file under the names of its types, for authors of kernels, with all or none of its variants.
+/// Builds the game of a kernel file in a scene, or under the names of its types, for authors of kernels, with all or none
+/// of its variants.
 ///
 /// # Errors
 /// The faults of the file, or of its rules.
 pub fn preview(
     name: &str,
     text: &str,
+    scene: Option<&str>,
     variants: bool,
     seed: Seed,
 ) -> Result<(String, Course), GenerateError> {
     let kernel = Kernel::read(name, text).map_err(|fault| GenerateError::Unsuitable(fault.to_string()))?;
     let kernel: &'static Kernel = Box::leak(Box::new(kernel));
-    let scene: &'static Scene = Box::leak(Box::new(Scene::plain(kernel)));
+    let scene: &'static Scene = match scene {
+        None => Box::leak(Box::new(Scene::plain(kernel))),
+        Some(wanted) => Scene::of(kernel).find(|scene| scene.name == wanted).ok_or_else(|| {
+            let fitting: Vec<&str> = Scene::of(kernel).map(|scene| scene.name.as_str()).collect();
+            let message = format!("scene {wanted} does not fit kernel {name}: try {}", fitting.join(", "));
+            GenerateError::Unsuitable(message)
+        })?,
+    };
     let variants = if variants { (0..kernel.variants.len()).collect() } else { Vec::new() };
     let values = kernel.numbers.draw(&mut seed.sampler());
     let genome = KernelGenome { kernel, variants, values, grafts: Vec::new(), scene, nouns: seed, time: LONG };

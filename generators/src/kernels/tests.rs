@@ -98,11 +98,11 @@ fn the_same_seed_gives_the_same_game_and_levels() {
 fn a_faulty_kernel_is_refused_with_its_fault() {
     let file = include_str!("../../kernels/weight-on-the-plate.toml");
     let seed = Seed::from_text("faults");
-    assert!(preview("sound", file, false, seed).is_ok());
+    assert!(preview("sound", file, None, false, seed).is_ok());
     let check = |from: &str, to: &str, said: &str| {
         let altered = file.replacen(from, to, 1);
         assert_ne!(altered, file, "{from}");
-        let error = preview("faulty", &altered, false, seed).unwrap_err().to_string();
+        let error = preview("faulty", &altered, None, false, seed).unwrap_err().to_string();
         assert!(error.contains("kernel faulty") && error.contains(said), "{error}");
     };
     check("kind =", "sort =", "unknown field `sort`");

@@ -23,10 +23,9 @@ pub(crate) fn mark(art: &mut Art, at: u8) {
 
 fn signs(art: &mut Art, figure: &Figure) {
     use Glyph as G;
-    let has_face = figure.parts.iter().any(|part| !matches!(part, Part::Outline(..)));
     match art.look.glyph {
         G::Exit | G::Treasure | G::Prey | G::Target | G::Socket | G::Peril => art.star(0.83, 0.17, 0.17),
-        G::Hazard | G::HostileShot if !figure.is_dangerous && !has_face => {
+        G::Hazard | G::HostileShot if !figure.is_dangerous && !art.look.form.has_face() => {
             let sign = Outline::polygon(&[[0.14, 0.02], [0.28, 0.28], [0.0, 0.28]]);
             art.solid(sign, VERMILION);
             art.stroke(Outline::line(&[[0.14, 0.11], [0.14, 0.18]]), PAPER, 0.05);

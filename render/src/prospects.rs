@@ -1,0 +1,158 @@
+//! What the rules allow a player to know ahead: time left, what a win still needs, countdowns, who moves how.
+
+use crate::figure::Form;
+use crate::glyph::Glyph;
+use engine::analysis::{Condition, Goal, Harm, Motion};
+use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
+
+/// The facts about a game that captions are made of.
+#[derive(Clone, Debug)]
+pub(crate) struct Prospects {
+    /// The tick at which the game is lost or won.
+    deadline: Option<(i32, bool)>,
+    /// The counts that win, with the names that the terminations give.
+    goals: Vec<(String, Goal)>,
+    /// The resources of which several are required at once, with that number.
+    needed: Vec<(SpriteType, i32)>,
+    counts_down: bool,
+}
+
+impl Prospects {
+    pub(crate) fn of(analysis: &Analysis) -> Prospects {
+        let (game, aims) = (analysis.game(), analysis.aims());
+        let lost = aims.deadline.map(|tick| (tick, false));
+        let deadline = lost.into_iter().chain(aims.survive.map(|tick| (tick, true))).min();
+        let counted = |goal: &&Goal| goal.win && !goal.condition.types().is_empty();
+        let goals = analysis.goals().iter().filter(counted);
+        let goals = goals.map(|goal| (names(game, goal), goal.clone())).collect();
+        let several = analysis.resources().iter().filter(|resource| resource.needed > 1);
+        let needed = several.map(|resource| (resource.stype, resource.needed)).collect();
+        let counts = |stype: SpriteType| {
+            let facts = analysis.facts(stype);
+            let is_a = |class| game.class(stype).is_some_and(|own| own.is_a(class));
+            let lasts = is_a(SpriteClass::Flicker) && !facts.fleeting;
+            let regular = is_a(SpriteClass::SpawnPoint) && !is_left_to_chance(game, stype);
+            facts.possible && !facts.hidden && (regular || lasts)
+        };
+        let counts_down = game.sprite_types().any(counts);
+        Prospects { deadline, goals, needed, counts_down }
+    }
+
+    /// Returns the number of that resource that some rule requires, if it is more than one.
+    pub(crate) fn needed(&self, resource: &str, game: &Game) -> Option<i32> {
+        let known = self.needed.iter().find(|(stype, _)| game.name(*stype) == resource);
+        known.map(|(_, number)| *number)
+    }
+
+    /// Returns the resources of which several are required.
+    pub(crate) fn required(&self) -> impl Iterator<Item = (SpriteType, i32)> + '_ {
+        self.needed.iter().copied()
+    }
+
+    /// Returns the time left, in a few words: `89 left`, or `survive 40`.
+    pub(crate) fn time(&self, state: &State) -> Option<String> {
+        let (limit, wins) = self.deadline?;
+        let left = limit.saturating_sub(state.tick()).max(0);
+        Some(if wins { format!("survive {left}") } else { format!("{left} left") })
+    }
+
+    pub(crate) fn has_goals(&self) -> bool {
+        !self.goals.is_empty()
+    }
+
+    /// Returns what a win still needs: `friend 1 of 3`, `exit 1 to go`.
+    pub(crate) fn goals(&self, state: &State) -> String {
+        let part = |(names, goal): &(String, Goal)| {
+            let count = |stype| i32::try_from(state.alive(stype)).unwrap_or(i32::MAX);
+            let now: i32 = goal.condition.types().iter().map(|&stype| count(stype)).sum();
+            match goal.condition {
+                Condition::AtLeast(_, limit) => format!("{names} {now} of {limit}"),
+                Condition::Exactly(_, limit) if limit > 0 => format!("{names} {now} of {limit}"),
+                _ => format!("{names} {} to go", goal.condition.missing(count, state.tick())),
+            }
+        };
+        self.goals.iter().map(part).collect::<Vec<_>>().join(" or ")
+    }
+
+    pub(crate) fn counts_down(&self) -> bool {
+        self.counts_down
+    }
+
+    /// Returns the next event of each type that counts down: `molehill makes one in 4 (2 left)`, `fire ends in 3`.
+    pub(crate) fn countdowns(&self, game: &Game, state: &State) -> String {
+        let mut next: Vec<Countdown> = Vec::new();
+        for found in game.countdowns(state) {
+            let soon = |countdown: &Countdown| countdown.ticks.unwrap_or(i32::MAX);
+            match next.iter_mut().find(|known| known.stype == found.stype) {
+                Some(known) if soon(&found) < soon(known) => *known = found,
+                Some(_) => {}
+                None => next.push(found),
+            }
+        }
+        let part = |countdown: &Countdown| {
+            let name = game.name(countdown.stype);
+            let left = countdown.left.map_or(String::new(), |left| format!(" ({left} left)"));
+            match (countdown.ticks, countdown.event) {
+                (Some(ticks), Event::Makes) => format!("{name} acts in {ticks}{left}"),
+                (Some(ticks), Event::Ends) => format!("{name} ends in {ticks}"),
+                (None, _) => format!("{name}{left}"),
+            }
+        };
+        let told = |countdown: &&Countdown| countdown.ticks.is_some() || countdown.left.is_some();
+        next.iter().filter(told).map(part).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Returns `true` if the line of a type names a probability and no total.
+fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
+    let lines = game.description().sprite_lines();
+    let line = lines.iter().find(|(_, line)| line.name.text == game.name(stype));
+    let has = |key: &str| line.is_some_and(|(_, line)| line.params.iter().any(|param| param.key.text == key));
+    has("prob") && !has("total")
+}
+
+/// Returns the names that a termination counts, as it gives them.
+fn names(game: &Game, goal: &Goal) -> String {
+    let line = &game.description().terminations[goal.line];
+    let given = line.params.iter().filter(|param| param.key.text.starts_with("stype"));
+    let given: Vec<String> = given.map(|param| param.value.text.replace(',', "+")).collect();
+    given.join("+")
+}
+
+/// Returns the meaning of a type in legends: of its glyph, with its movement and harm.
+pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
+    let glyph = Glyph::of(analysis, stype);
+    let game = analysis.game();
+    let whom = |other: SpriteType| {
+        let is_you = analysis.avatars().iter().any(|avatar| analysis.applies(other, avatar.stype));
+        if is_you { "you".to_owned() } else { game.name(other).to_owned() }
+    };
+    let motion = match analysis.facts(stype).motion {
+        Motion::Chasing(other) => format!("chases {}", whom(other)),
+        Motion::Fleeing(other) => format!("flees from {}", whom(other)),
+        Motion::Wandering => "wanders".to_owned(),
+        Motion::Straight(_) => "goes straight on".to_owned(),
+        Motion::Still | Motion::Steered => String::new(),
+    };
+    let harm = match analysis.harm(stype) {
+        Harm::Kills => "deadly",
+        Harm::Wounds => "wounds",
+        Harm::Conditional => "deadly at times",
+        // An enemy does harm in some other way: with what it makes, or to what must be kept.
+        Harm::None if matches!(glyph, Glyph::Enemy | Glyph::Charger) => "harms",
+        Harm::None => "harmless",
+    };
+    let blocks = || {
+        let avatars = analysis.avatars();
+        !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
+    };
+    match glyph {
+        Glyph::Enemy | Glyph::Charger | Glyph::Friend | Glyph::Raft if !motion.is_empty() => {
+            format!("{motion}, {harm}")
+        }
+        Glyph::Prey if !motion.is_empty() => format!("{}, {motion}", glyph.meaning()),
+        Glyph::Neutral | Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),
+        Glyph::Gate if form.has_face() => "in the way until dealt with".to_owned(),
+        _ => glyph.meaning().to_owned(),
+    }
+}
