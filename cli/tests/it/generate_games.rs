@@ -14,13 +14,12 @@ fn generate(folder: &Path, out: &str, more: &[&str], status: i32) -> Value {
 }
 
 #[track_caller]
-fn same_bytes(rules: &str, method: &str, kind: &str) {
+fn same_bytes(method: &str, kind: &str) {
     let home = tempfile::tempdir().unwrap();
     let (count, kinds) =
         if sweeping() { (2, &["--kind", kind, "--kind", "shooter"][..]) } else { (1, &["--kind", kind][..]) };
     let count_text = count.to_string();
-    let more =
-        ["--rules", rules, "--method", method, "--count", &count_text, "--levels", "2", "--seed", "bytes"];
+    let more = ["--method", method, "--count", &count_text, "--levels", "2", "--seed", "bytes"];
     let more = [&more[..], kinds].concat();
     let told = generate(home.path(), "one", &[&more[..], &["--jobs", "1"]].concat(), 0);
     generate(home.path(), "three", &[&more[..], &["--jobs", "3"]].concat(), 0);
@@ -41,29 +40,24 @@ fn same_bytes(rules: &str, method: &str, kind: &str) {
 
 #[test]
 fn constructive_games_are_the_same_on_any_number_of_threads() {
-    same_bytes("patterns", "constructive", "box-puzzle");
+    same_bytes("constructive", "demolition");
 }
 
 #[test]
 fn searched_games_are_the_same_on_any_number_of_threads() {
-    same_bytes("patterns", "search", "box-puzzle");
+    same_bytes("search", "demolition");
 }
 
 #[test]
 fn evolved_games_are_the_same_on_any_number_of_threads() {
-    same_bytes("patterns", "evolutionary", "box-puzzle");
-}
-
-#[test]
-fn games_of_kernels_are_the_same_on_any_number_of_threads() {
-    same_bytes("kernels", "constructive", "demolition");
+    same_bytes("evolutionary", "demolition");
 }
 
 #[test]
 fn a_report_shows_the_games() {
     let home = tempfile::tempdir().unwrap();
     let more =
-        ["--count", "1", "--levels", "2", "--kind", "box-puzzle", "--seed", "bytes", "--report", "report"];
+        ["--count", "1", "--levels", "2", "--kind", "demolition", "--seed", "bytes", "--report", "report"];
     generate(home.path(), "new", &more, 0);
     let report = files(&home.path().join("report"));
     assert_eq!(report.keys().collect::<Vec<_>>(), ["report.html", "report.json", "sheet.png"]);
@@ -76,10 +70,8 @@ fn impossible_requests_are_refused_with_advice() {
     let home = tempfile::tempdir().unwrap();
     fs::create_dir(home.path().join("old")).unwrap();
     fs::write(home.path().join("old/mine.txt"), "mine").unwrap();
-    let cases: [(&[&str], &[&str]); 8] = [
+    let cases: [(&[&str], &[&str]); 6] = [
         (&["--method", "magic"], &["magic", "constructive", "evolutionary"]),
-        (&["--rules", "magic"], &["magic", "patterns", "kernels"]),
-        (&["--rules", "kernels", "--method", "search"], &["--rules kernels", "constructive", "search"]),
         (&["--kind", "shoter"], &["shoter", "did you mean `shooter`?"]),
         (&["--count", "0"], &["0"]),
         (&["--levels", "21"], &["21", "20"]),

@@ -4,7 +4,7 @@ use crate::levels::Method;
 use generators::games::Kind;
 use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
-use validators::{Criteria, CriteriaError};
+use validators::{Criteria, CriteriaError, GATES};
 
 /// An order of games.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,13 +81,23 @@ impl GameOrder {
         }
     }
 
-    /// The criteria of games that are to be played, stricter than those of a release where chance has a say, so that judges with
-    /// other dice find the same: random keys win 5 of 40 episodes at most instead of 8. The ladder of players is left to
-    /// releases, which label levels by it.
+    /// The order with another number of levels; fewer than three show no progression, so that is not asked then.
+    #[must_use]
+    pub fn with_levels(mut self, levels: u32) -> GameOrder {
+        if levels < 3 {
+            self.criteria.ask.retain(|name| name != "progression");
+        }
+        GameOrder { levels, ..self }
+    }
+
+    /// The criteria of games that are to be played: those of levels, and all [gates](validators::GATES). Stricter than those of
+    /// a release where chance has a say, so that judges with other dice find the same: random keys win 5 of 40 episodes at
+    /// most instead of 8. The ladder of players is left to releases, which label levels by it.
     pub fn criteria_by_default() -> Criteria {
-        let ask = ["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length"];
+        let of_levels =
+            ["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length"];
         Criteria {
-            ask: ask.map(str::to_owned).to_vec(),
+            ask: of_levels.iter().chain(GATES).map(|&name| name.to_owned()).collect(),
             budget: 1_000_000,
             foresight: 0.4,
             least_ticks: 16,

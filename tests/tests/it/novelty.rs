@@ -2,7 +2,6 @@
 //! duplicate distance lies between copies with other numbers and other games (docs/novelty.md).
 
 use engine::{Game, Seed};
-use generators::Generator;
 use generators::games::{Kind, Masked, Rethemed};
 use generators::kernels::KernelGenome;
 use std::path::Path;

@@ -75,7 +75,7 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let mut order = GameOrder { levels: args.levels, ..GameOrder::new(args.method, args.count) };
+    let mut order = GameOrder::new(args.method, args.count).with_levels(args.levels);
     if !args.kind.is_empty() {
         order.kinds.clone_from(&args.kind);
     }
