@@ -116,3 +116,35 @@ impl GateRow {
         table
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use report::canonical::to_canonical_json;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n  InteractionSet\n    avatar wall > stepBack\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=60 win=False\n";
+
+    #[test]
+    fn a_walk_to_a_plum_fails_and_is_counted() {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("wwwwww\nwA  pw\nwwwwww\n").unwrap();
+        let seed = Seed::from_text("gates");
+        let criteria = Criteria { budget: 1000, ..GateSurvey::criteria() };
+        let row = GateSurvey::new(&criteria, seed).unwrap().row("plums", &game, &[level]);
+        assert_eq!((row.levels, row.won), (1, 1));
+        assert_eq!(row.gates["drama"].passes, Some(false));
+        assert_eq!(row.gates["progression"].passes, None);
+        assert!(row.line().starts_with("plums: won 1 of 1, progression?, drama! 0.00,"), "{}", row.line());
+        let table = GateRow::table(&[("ours", &[row])]).to_markdown();
+        assert!(table.contains("| drama | 0 of 1 | 0.00 |"), "{table}");
+    }
+
+    #[test]
+    fn default_thresholds_move_no_recipe() {
+        let written = to_canonical_json(&Criteria::default()).unwrap();
+        assert!(!written.contains("gates"), "{written}");
+        let mut criteria = Criteria::default();
+        criteria.gates.drama = 0.3;
+        assert!(to_canonical_json(&criteria).unwrap().contains("gates"));
+    }
+}
