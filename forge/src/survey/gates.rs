@@ -90,7 +90,7 @@ impl GateRow {
             };
             Some(format!("{gate}{mark}{figure}"))
         };
-        let answers: Vec<String> = GATES.iter().filter_map(|gate| answer(gate)).collect();
+        let answers: Vec<String> = GATES.iter().filter_map(answer).collect();
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 

@@ -81,11 +81,12 @@ pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]
         let on = case.recording.iter().enumerate().filter(|(_, recorded)| places(recorded.level));
         let levels: Vec<usize> = on.map(|(number, _)| number).collect();
         let moves = analysis.facts(stype).motion != Motion::Still || !analysis.facts(stype).makes.is_empty();
-        (!levels.is_empty()).then(|| Element {
+        let without = (!levels.is_empty()).then(|| without_type(game, stype))??;
+        Some(Element {
             name: format!("`{}`", game.name(stype)),
             line: Line::sprite(game, game.name(stype)),
             levels,
-            without: without_type(game, stype).unwrap_or_else(|| game.clone()),
+            without,
             is_type: true,
             shifts: moves && analysis.is_stochastic(),
         })

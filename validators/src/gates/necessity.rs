@@ -69,9 +69,8 @@ impl GameValidator for Necessity {
         elements.retain(|element| !is_open(element));
         let matters: Vec<(bool, String)> =
             elements.par_iter().map(|element| self.matters(case, element, &subjects)).collect();
-        let all = elements.len().max(1);
         let needed = matters.iter().filter(|(matters, _)| *matters).count();
-        let share = needed as f64 / all as f64;
+        let share = if elements.is_empty() { 1.0 } else { needed as f64 / elements.len() as f64 };
         let idle = elements.iter().zip(&matters).filter(|(_, (matters, _))| !matters);
         let idle: Vec<Evidence> = idle.map(|(element, (_, why))| element.problem(why.clone())).collect();
         let text = format!("{needed} of {} rules and types change how the game is won", elements.len());
