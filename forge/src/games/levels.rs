@@ -166,7 +166,7 @@ impl Levels<'_> {
     ) -> Option<Vec<Judgement>> {
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
-        let together = self.panel.judge_together(game, &boards, &reports, seed);
+        let together = self.panel.screen_together(game, &boards, &reports, seed);
         tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
         match together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
             Some(obstacle) => {
@@ -196,7 +196,7 @@ impl Levels<'_> {
             boards.push(found.level.clone());
             reports.push(report);
         }
-        let together = panel.judge_together(game, &boards, &reports, seed.child("game", 0));
+        let together = panel.screen_together(game, &boards, &reports, seed.child("game", 0));
         tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
