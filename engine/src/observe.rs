@@ -335,7 +335,9 @@ mod tests {
         for _ in 0..20 {
             let (logs, embers) = (count(&state, "log"), count(&state, "ember"));
             let foretold = game.countdowns(&state);
-            let now = |event| foretold.iter().filter(|known| known.event == event && known.ticks == Some(1)).count();
+            let now = |event| {
+                foretold.iter().filter(|known| known.event == event && known.ticks == Some(1)).count()
+            };
             game.step(&mut state, Action::Nil);
             assert_eq!(count(&state, "log") - logs, now(Event::Makes), "{foretold:?}");
             assert_eq!(embers - count(&state, "ember"), now(Event::Ends), "{foretold:?}");

@@ -170,7 +170,8 @@ impl<'a> Hint<'a> {
     /// Reads the value of `img=`.
     pub(crate) fn of(img: &'a str) -> Hint<'a> {
         let parts: Vec<&str> = img.split('/').collect();
-        let known = |role: &str| role == "hero" || role == "floor" || role == "wall" || named("@", role).is_some();
+        let known =
+            |role: &str| role == "hero" || role == "floor" || role == "wall" || named("@", role).is_some();
         match parts[..] {
             [role, noun] if known(role) => Hint { role: Some(role), adjective: None, noun },
             [role, adjective, noun] if known(role) => {
@@ -205,7 +206,8 @@ impl<'a> Hint<'a> {
         if named(".", adjective).is_some() {
             return None;
         }
-        let position = |is: &dyn Fn(&Figure) -> bool| TABLE.iter().position(|figure| figure.is_mark && is(figure));
+        let position =
+            |is: &dyn Fn(&Figure) -> bool| TABLE.iter().position(|figure| figure.is_mark && is(figure));
         let known = position(&|figure| figure.words.contains(&adjective));
         known.or_else(|| position(&|figure| figure.words.is_empty())).and_then(|at| u8::try_from(at).ok())
     }

@@ -38,9 +38,8 @@ fn entries(looks: &Looks) -> Vec<Entry<'_>> {
 
 fn layout(entries: &[Entry<'_>], style: &Style, width: u32) -> Layout {
     let side = style.cell.clamp(32, 40);
-    let text = |entry: &Entry<'_>| {
-        text_width(entry.name, NAME).max(text_width(entry.meaning, MEANING)) as u32
-    };
+    let text =
+        |entry: &Entry<'_>| text_width(entry.name, NAME).max(text_width(entry.meaning, MEANING)) as u32;
     let widest = entries.iter().map(text).max().unwrap_or(0);
     let columns = ((width - GAP.min(width)) / (side + widest + 3 * GAP)).max(1);
     Layout { columns, step: width / columns, side }

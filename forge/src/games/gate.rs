@@ -147,22 +147,10 @@ mod tests {
     fn order() -> GameOrder {
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
         let criteria = Criteria {
-            ask: names(&[
-                "well-formed",
-                "not-idle",
-                "not-random",
-                "winnable",
-                "length",
-                "skill",
-                "skill-overall",
-            ]),
+            ask: names(&["well-formed", "not-idle", "not-random", "winnable", "length"]),
             budget: 150_000,
-            skill_wins: 0.0,
-            skill_scores: 0.0,
-            ladder: names(&["do-nothing", "random", "olets:50"]),
-            held_out: names(&["olets:200"]),
-            ladder_plays: 8,
-            skill_overall: 0.0,
+            idle_plays: 4,
+            random_plays: 10,
             ..GameOrder::criteria_by_default()
         };
         let order = GameOrder::new(Method::Constructive, 1);
@@ -201,16 +189,14 @@ mod tests {
         check(&|order| order.least_interactions = 100, &[], MEAGRE);
         check(&|order| order.least_mechanics = 100, &[], MEAGRE);
         check(&|order| order.criteria.least_ticks = 1000, &[], "length");
-        check(&|order| order.criteria.skill_overall = 1.0, &[], "skill-overall");
+        let dull = |order: &mut GameOrder| ask_for_drama(&mut order.criteria);
+        check(&dull, &[], "drama");
         check(&|order| order.level_tries = 0, &[], "no level 0");
     }
 
     #[test]
     fn a_game_has_a_course_and_time_for_it() {
-        let order = GameOrder::new(Method::Constructive, 1);
-        let criteria =
-            Criteria { budget: 150_000, idle_plays: 4, random_plays: 10, ..order.criteria.clone() };
-        let order = GameOrder { levels: 2, kinds: vec![Kind::Demolition], criteria, ..order };
+        let order = GameOrder { kinds: vec![Kind::Demolition], ..order() };
         let seed = Seed::from_text("course");
         let make = || make_games(&order, &[], "canary", seed, &()).unwrap().games.remove(0);
         let made = make();
@@ -247,13 +233,20 @@ mod tests {
         };
         assert!(hold(&|_| {}));
         let unskilled = |criteria: &mut Criteria| {
-            criteria.ladder.truncate(2);
+            criteria.ask.push("skill".to_owned());
+            criteria.ladder = ["do-nothing", "random"].map(str::to_owned).to_vec();
             criteria.held_out.clear();
             (criteria.skill_wins, criteria.skill_scores) = (1.0, 1.0);
         };
         assert!(!hold(&unskilled), "levels");
-        assert!(!hold(&|criteria| criteria.skill_overall = 1.0), "the game");
+        assert!(!hold(&ask_for_drama), "the game");
         assert!(hold(&|criteria| (criteria.budget, criteria.least_ticks) = (1, 1000)), "what is certain");
+    }
+
+    /// More than any game has.
+    fn ask_for_drama(criteria: &mut Criteria) {
+        criteria.ask.push("drama".to_owned());
+        criteria.gates.drama = 1.0;
     }
 
     fn genome_game(genome: &KernelGenome) -> Game {

@@ -76,9 +76,9 @@ impl Looker {
     /// Looks at a game. Cost: 48 plays of at most 400 ticks, and [`PlayMeasures`].
     pub(super) fn look(&self, genome: &KernelGenome) -> Look {
         let seed = self.seed.child(&genome.key().to_string(), 0);
-        let made = genome.build().and_then(|KernelGame { game, course }| {
-            Ok((Candidate::generated(game, "", 0)?.game, course))
-        });
+        let made = genome
+            .build()
+            .and_then(|KernelGame { game, course }| Ok((Candidate::generated(game, "", 0)?.game, course)));
         let Ok((game, course)) = made else { return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0) };
         let analysis = Analysis::of(&game);
         let (kind, coupling) = (GameKind::of(&analysis), Coupling::of(&analysis).strength());

@@ -277,7 +277,13 @@ impl Company {
             true => (usize::MAX, usize::MAX),
             false => ((count / 20).max(1), (count * 3 / 20).max(2)),
         };
-        Company { forms: Vec::new(), titles: BTreeSet::new(), casts: Vec::new(), crowds: BTreeMap::new(), room }
+        Company {
+            forms: Vec::new(),
+            titles: BTreeSet::new(),
+            casts: Vec::new(),
+            crowds: BTreeMap::new(),
+            room,
+        }
     }
 
     /// Takes the game in, or says why not.

@@ -14,8 +14,8 @@ mod order;
 
 pub mod report;
 
-pub use cast::Cast;
 pub use candidate::{Candidate, MadeGame, Step, marked};
+pub use cast::Cast;
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{GameSet, GamesError, Progress, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};

@@ -164,7 +164,8 @@ pub fn preview(
     };
     let variants = if variants { (0..kernel.variants.len()).collect() } else { Vec::new() };
     let values = kernel.numbers.draw(&mut seed.sampler());
-    let genome = KernelGenome { kernel, variants, values, grafts: Vec::new(), scene, nouns: seed, time: LONG };
+    let genome =
+        KernelGenome { kernel, variants, values, grafts: Vec::new(), scene, nouns: seed, time: LONG };
     let KernelGame { game, course } = genome.build()?;
     let mut description = game.description;
     description.header.trivia.above.extend([game.title, game.summary, game.goal]);

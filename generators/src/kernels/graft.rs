@@ -89,9 +89,10 @@ impl<'a> Guest<'a> {
                 names.insert(stype.clone(), own);
             }
         }
-        let strange = self.kernel.roles.iter().filter(|(stype, casting)| {
-            matches!(casting, Casting::Role(_)) && !names.contains_key(*stype)
-        });
+        let strange =
+            self.kernel.roles.iter().filter(|(stype, casting)| {
+                matches!(casting, Casting::Role(_)) && !names.contains_key(*stype)
+            });
         strange.filter_map(|(stype, _)| self.graft(host, stype, &names)).collect()
     }
 
@@ -124,8 +125,9 @@ impl<'a> Guest<'a> {
         }
         let interactions = self.interactions(&types, same);
         let meets = |wanted: &dyn Fn(&str) -> bool| {
-            let sides =
-                |line: &InteractionLine| line.second.iter().chain([&line.first]).any(|word| wanted(&word.text));
+            let sides = |line: &InteractionLine| {
+                line.second.iter().chain([&line.first]).any(|word| wanted(&word.text))
+            };
             interactions.iter().any(sides)
         };
         let ties = meets(&|name| name == "hero")
@@ -135,15 +137,18 @@ impl<'a> Guest<'a> {
         }
         let role = |stype: &&str| {
             let casting = match &self.kernel.roles[*stype] {
-                Casting::State { of, adjective } => Casting::State {
-                    of: names.get(of).unwrap_or(of).clone(),
-                    adjective: adjective.clone(),
-                },
+                Casting::State { of, adjective } => {
+                    Casting::State { of: names.get(of).unwrap_or(of).clone(), adjective: adjective.clone() }
+                }
                 role => role.clone(),
             };
             (names[*stype].clone(), casting)
         };
-        let facts = self.kernel.facts.iter().map(|fact| super::template::filled(fact, &self.kernel.numbers, &self.values));
+        let facts = self
+            .kernel
+            .facts
+            .iter()
+            .map(|fact| super::template::filled(fact, &self.kernel.numbers, &self.values));
         let graft = Description {
             sprites: self.sprites(&types)?.into_iter().cloned().collect(),
             interactions: interactions.clone(),
@@ -155,7 +160,9 @@ impl<'a> Guest<'a> {
             sprites: graft.sprites,
             interactions: graft.interactions,
             roles: types.iter().map(role).collect(),
-            facts: facts.filter(|fact| tells_of(fact, stype) && super::phrase::fill(fact, &names).is_ok()).collect(),
+            facts: facts
+                .filter(|fact| tells_of(fact, stype) && super::phrase::fill(fact, &names).is_ok())
+                .collect(),
             names,
             items,
         })
@@ -201,7 +208,9 @@ impl<'a> Guest<'a> {
 /// Tests whether a sentence names a type, in any form.
 fn tells_of(sentence: &str, stype: &str) -> bool {
     let only = BTreeMap::from([(stype.to_owned(), stype.to_owned())]);
-    sentence.split('<').skip(1).filter_map(|rest| rest.split_once('>')).any(|(inside, _)| {
-        super::phrase::fill(&format!("<{inside}>"), &only).is_ok()
-    })
+    sentence
+        .split('<')
+        .skip(1)
+        .filter_map(|rest| rest.split_once('>'))
+        .any(|(inside, _)| super::phrase::fill(&format!("<{inside}>"), &only).is_ok())
 }

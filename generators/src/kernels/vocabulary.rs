@@ -7,7 +7,10 @@ const SUITING: &[(&[&str], &[&str])] = &[
     (&["hero"], &["GREEN", "LIGHTGREEN"]),
     (&["exit", "haven", "outlet", "portal"], &["LIGHTBLUE", "BLUE"]),
     (&["key", "prize", "coin", "treasure"], &["GOLD", "YELLOW", "LIGHTYELLOW"]),
-    (&["door", "gate", "crate", "bridge", "soil", "plot", "dam", "trough"], &["BROWN", "ORANGE", "LIGHTORANGE"]),
+    (
+        &["door", "gate", "crate", "bridge", "soil", "plot", "dam", "trough"],
+        &["BROWN", "ORANGE", "LIGHTORANGE"],
+    ),
     (&["gulf", "pit", "shade", "flood"], &["DARKBLUE", "BLACK", "BLUE"]),
     (&["ice", "pane", "screen", "grille"], &["LIGHTBLUE", "WHITE"]),
     (&["rubble", "guard", "plate", "socket", "firm"], &["LIGHTGRAY", "GRAY", "DARKGRAY"]),

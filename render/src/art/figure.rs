@@ -70,7 +70,8 @@ fn add(art: &mut Art, part: &Part) {
         &Part::Mouth([x, y], width) => {
             let half = width / 2.0;
             let drop = if art.look.mood == Mood::Asleep { 0.0 } else { width * 0.35 };
-            let smile = [[x - half, y], [x - half * 0.5, y + drop], [x + half * 0.5, y + drop], [x + half, y]];
+            let smile =
+                [[x - half, y], [x - half * 0.5, y + drop], [x + half * 0.5, y + drop], [x + half, y]];
             art.stroke(Outline::line(&smile), INK, 0.04);
         }
     }
@@ -78,7 +79,12 @@ fn add(art: &mut Art, part: &Part) {
 
 /// A closed eye.
 fn shut(art: &mut Art, [x, y]: [f32; 2], radius: f32) {
-    let lid = [[x - radius, y], [x - radius * 0.5, y + radius * 0.5], [x + radius * 0.5, y + radius * 0.5], [x + radius, y]];
+    let lid = [
+        [x - radius, y],
+        [x - radius * 0.5, y + radius * 0.5],
+        [x + radius * 0.5, y + radius * 0.5],
+        [x + radius, y],
+    ];
     art.stroke(Outline::line(&lid), INK, 0.045);
 }
 

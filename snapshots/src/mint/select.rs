@@ -196,7 +196,8 @@ impl Fit {
             let distinct: BTreeSet<&Digest> = contender.items.iter().collect();
             let repeats = distinct.len() < contender.items.len();
             let of_new = |same: &dyn Fn(&Contender) -> bool| {
-                contender.is_new && fit.iter().map(|&other| &contenders[other]).any(|other| other.is_new && same(other))
+                contender.is_new
+                    && fit.iter().map(|&other| &contenders[other]).any(|other| other.is_new && same(other))
             };
             let why = match () {
                 () if contender.is_known(plan) => "in a release before",

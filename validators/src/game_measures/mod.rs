@@ -14,5 +14,5 @@ pub use futures::{FUTURES, SIGHT};
 pub use guards::Guards;
 pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind};
 pub use play::PlayMeasures;
-pub use regret::Regret;
 pub(crate) use play::mechanics;
+pub use regret::Regret;

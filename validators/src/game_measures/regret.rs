@@ -128,17 +128,18 @@ impl Moment<'_> {
 mod tests {
     use super::*;
 
-    /// A gem that is worth points and closes the way out for good, or none.
+    /// A gem that is worth points and, with the trap, closes the way out for good.
     fn regret(trap: &str) -> Regret {
         let source = format!(
-            "BasicGame\n    SpriteSet\n        gem > Immovable\n        out > Immovable\n        shut > Immovable\n        \
-             hero > MovingAvatar\n    LevelMapping\n        g > gem\n        o > out\n        A > hero\n    \
+            "BasicGame\n    SpriteSet\n        floor > Immovable\n        gem > Immovable\n        out > Immovable\n        shut > Immovable\n        \
+             open > Immovable\n        hero > MovingAvatar\n    LevelMapping\n        . > floor\n        g > floor gem\n        o > floor out\n        A > floor hero\n    \
              InteractionSet\n        hero wall > stepBack\n        gem hero > killSprite scoreChange=5\n{trap}        \
-             out hero > killSprite\n    TerminationSet\n        SpriteCounter stype=hero limit=0 win=False\n        \
-             SpriteCounter stype=out limit=0 win=True\n        Timeout limit=60 win=False\n"
+             out hero > transformTo stype=open\n    TerminationSet\n        SpriteCounterMore stype=open limit=1 \
+             win=True\n        Timeout limit=60 win=False\n"
         );
         let game = Game::from_source(&source).unwrap();
-        let level = game.level("wwwwwwwwww\nw........w\nw.A......w\nw.g......w\nw.......ow\nwwwwwwwwww\n").unwrap();
+        let level =
+            game.level("wwwwwwwwww\nw........w\nw.A......w\nw.g......w\nw.......ow\nwwwwwwwwww\n").unwrap();
         let seed = Seed::from_text("regret");
         let (mut episode, mut state) = Episode::begin(&game, &level, seed);
         let way = [[Action::Right; 6].as_slice(), &[Action::Down; 2]].concat();
@@ -152,7 +153,7 @@ mod tests {
     #[test]
     fn greed_that_loses_is_regretted() {
         let plain = regret("");
-        let trapped = regret("        hero gem > killSprite\n");
+        let trapped = regret("        hero gem > transformToAll stype=out stypeTo=shut\n");
         assert_eq!(plain.cost, 0.0, "{plain:?}");
         assert!(trapped.cost > 0.0, "{trapped:?}");
     }
