@@ -52,8 +52,10 @@ impl Look {
     /// and their colours, if the drawing shows them, are similar.
     pub fn is_like(self, other: Look) -> bool {
         let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
+        // Figures have less of the colour of the type than glyphs.
+        let alike = if self.form.figure().is_some() { 3 * ALIKE } else { ALIKE };
         drawing(self) == drawing(other)
-            && (!self.form.is_coloured() || self.colour.distance(other.colour) < ALIKE)
+            && (!self.form.is_coloured() || self.colour.distance(other.colour) < alike)
     }
 }
 

@@ -11,7 +11,7 @@ const SUITING: &[(&[&str], &[&str])] = &[
         &["door", "gate", "crate", "bridge", "soil", "plot", "dam", "trough"],
         &["BROWN", "ORANGE", "LIGHTORANGE"],
     ),
-    (&["gulf", "pit", "shade", "flood"], &["DARKBLUE", "BLACK", "BLUE"]),
+    (&["gulf", "pit", "shade", "flood"], &["DARKBLUE", "BLUE", "BLACK"]),
     (&["ice", "pane", "screen", "grille"], &["LIGHTBLUE", "WHITE"]),
     (&["rubble", "guard", "plate", "socket", "firm"], &["LIGHTGRAY", "GRAY", "DARKGRAY"]),
     (&["hunter", "fire", "pest", "thief"], &["RED", "LIGHTRED"]),

@@ -23,13 +23,17 @@ pub(crate) fn mark(art: &mut Art, at: u8) {
 
 fn signs(art: &mut Art, figure: &Figure) {
     use Glyph as G;
-    match art.look.glyph {
+    let glyph = art.look.glyph;
+    if matches!(glyph, G::Hazard | G::Peril | G::HostileShot)
+        && !figure.is_dangerous
+        && !art.look.form.has_face()
+    {
+        let sign = Outline::polygon(&[[0.14, 0.02], [0.28, 0.28], [0.0, 0.28]]);
+        art.solid(sign, VERMILION);
+        art.stroke(Outline::line(&[[0.14, 0.11], [0.14, 0.18]]), PAPER, 0.05);
+    }
+    match glyph {
         G::Exit | G::Treasure | G::Prey | G::Target | G::Socket | G::Peril => art.star(0.83, 0.17, 0.17),
-        G::Hazard | G::HostileShot if !figure.is_dangerous && !art.look.form.has_face() => {
-            let sign = Outline::polygon(&[[0.14, 0.02], [0.28, 0.28], [0.0, 0.28]]);
-            art.solid(sign, VERMILION);
-            art.stroke(Outline::line(&[[0.14, 0.11], [0.14, 0.18]]), PAPER, 0.05);
-        }
         G::Charger => {
             if let Some(direction) = art.facing {
                 let pointer = Outline::polygon(&[[1.0, 0.5], [0.86, 0.37], [0.86, 0.63]]);

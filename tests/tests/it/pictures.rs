@@ -1,7 +1,10 @@
 //! Every game that loads can be drawn: the hostile games and the corpus, in every format.
 
-use engine::{Action, Analysis, Game, Level, Seed};
+use engine::{Action, Analysis, Game, Level, Seed, syntax};
+use generators::games::Kind;
+use generators::kernels::KernelGenome;
 use render::{Looks, RenderError, Style, Symbols};
+use std::collections::BTreeSet;
 use std::fs;
 use tests::hostile::Case;
 use tests::workspace_root;
@@ -46,6 +49,33 @@ fn hostile_games_can_be_drawn() {
     assert!(drawn > 40, "{drawn}");
 }
 
+/// Any two types that can be seen differ in form, mark, clearly in colour, or in the number of dots.
+fn assert_distinct(name: &str, looks: &Looks) {
+    let shown: Vec<_> = looks.shown().collect();
+    for (at, &one) in shown.iter().enumerate() {
+        for &other in &shown[at + 1..] {
+            let names = [one, other].map(|stype| looks.game().name(stype).to_owned());
+            assert!(!looks.look(one).is_like(looks.look(other)), "{name}: {names:?} look alike");
+        }
+    }
+}
+
+#[test]
+fn in_games_of_kernels_no_two_types_look_alike() {
+    let mut kernels = BTreeSet::new();
+    for seed in (0..400).map(|number| Seed::from_text("kernel looks").child("game", number)) {
+        let genome = KernelGenome::draw(Kind::ALL, seed).unwrap();
+        let game = genome.build().unwrap().game;
+        let name = game.patterns.join(" ");
+        kernels.insert(game.patterns[0].clone());
+        let source = syntax::print(&game.description);
+        assert!(source.contains("img=hero/"), "{name}");
+        let game = Game::from_source(&source).unwrap();
+        assert_distinct(&name, &Looks::of(&Analysis::of(&game)));
+    }
+    assert!(kernels.len() >= 30, "{kernels:?}");
+}
+
 #[test]
 fn in_the_corpus_every_type_has_its_own_look_and_symbol() {
     let mut folders: Vec<_> =
@@ -60,11 +90,8 @@ fn in_the_corpus_every_type_has_its_own_look_and_symbol() {
         let looks = Looks::of(&analysis);
         let symbols = Symbols::of(&analysis, &looks);
         let shown: Vec<_> = looks.shown().collect();
-        let count = shown.len();
-        let mut distinct: Vec<_> = shown.iter().map(|&stype| looks.look(stype)).collect();
-        distinct.sort_unstable();
-        distinct.dedup();
-        assert_eq!(distinct.len(), count, "{name}");
+        assert_distinct(&name, &looks);
+        assert_distinct(&name, &Looks::of_rules(&analysis));
         let solid = shown.iter().filter(|&&stype| looks.look(stype).glyph != render::Glyph::Floor);
         let mut characters: Vec<char> = solid.clone().map(|&stype| symbols.symbol(stype)).collect();
         characters.sort_unstable();
