@@ -130,6 +130,17 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     let rect = |record: &SpriteRecord| [record.rect.x, record.rect.y, record.rect.w, record.rect.h];
     let avatars: BTreeSet<[i32; 4]> =
         records.iter().filter(|record| is_avatar(looks, record)).map(rect).collect();
+    if let Some(floor) = looks.floor() {
+        let grounds = records.iter().filter(|record| looks.look(SpriteType(record.stype)).form.is_ground());
+        let covered: BTreeSet<[i32; 4]> = grounds.map(rect).collect();
+        let ((columns, rows), block, side) = (state.size(), state.block(), cell as f32);
+        for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+            if !covered.contains(&[x * block, y * block, block, block]) {
+                let (x, y) = (left as f32 + x as f32 * side, y as f32 * side);
+                picture.sprite(Place { x, y, w: side, h: side }, game.name(floor), looks.look(floor), None);
+            }
+        }
+    }
     let mut below: BTreeSet<[i32; 4]> = BTreeSet::new();
     // Sprites in the rectangle of an avatar: they come last, in its corners.
     let mut company: BTreeMap<[i32; 4], usize> = BTreeMap::new();

@@ -73,6 +73,8 @@ pub struct Looks {
     /// By type: its meaning in legends.
     meanings: Vec<String>,
     prospects: Prospects,
+    /// The floor of a composed game.
+    floor: Option<SpriteType>,
 }
 
 impl Looks {
@@ -128,7 +130,9 @@ impl Looks {
         let holdings = health || !analysis.resources().is_empty();
         let meanings = glyphs.iter().map(|glyph| glyph.meaning().to_owned()).collect();
         let prospects = Prospects::of(analysis);
-        Looks { game: game.clone(), looks, visible, shown, holdings, meanings, prospects }
+        let is_floor = |(_, img): &(&SpriteType, &String)| Hint::of(img).role == Some("floor");
+        let floor = pictures.iter().find(is_floor).map(|(&stype, _)| stype);
+        Looks { game: game.clone(), looks, visible, shown, holdings, meanings, prospects, floor }
     }
 
     /// Returns the game that they belong to.
@@ -144,6 +148,11 @@ impl Looks {
     /// Returns the meaning of a type, in a few words: of its glyph, and how it moves.
     pub fn meaning(&self, stype: SpriteType) -> &str {
         &self.meanings[stype.index()]
+    }
+
+    /// Returns the floor of a composed game: its levels leave it out where it would not be seen.
+    pub(crate) fn floor(&self) -> Option<SpriteType> {
+        self.floor
     }
 
     pub(crate) fn prospects(&self) -> &Prospects {

@@ -139,8 +139,7 @@ fn a_player_keeps_its_size_in_a_pile() {
     let source = GAME.replace("        . > floor\n", "        . > floor\n        z > floor pin marten\n");
     let game = Game::from_source(&source).unwrap();
     let state = game.start(&game.level("w.z").unwrap(), Seed::from_text("pile"));
-    let picture =
-        render::picture(&Looks::of(&Analysis::of(&game)), &state, &Style::bare(40)).unwrap();
+    let picture = render::picture(&Looks::of(&Analysis::of(&game)), &state, &Style::bare(40)).unwrap();
     let width = |name: &str| {
         let is_it = |tile: &usize| picture.tiles()[*tile].name.as_deref() == Some(name);
         picture.stamps().iter().find(|stamp| is_it(&stamp.tile)).map(|stamp| stamp.place.w)
@@ -163,9 +162,13 @@ fn pictures_of_a_game_are_drawn_but_the_rules_decide_the_meaning() {
 #[test]
 fn captions_tell_what_is_left() {
     let source = GAME.replace("limit=1\n        marten latch", "limit=2\n        marten latch");
-    let source = source.replace("        newt > ", "        den > SpawnPoint stype=dart cooldown=5 total=3\n        newt > ");
+    let source = source.replace(
+        "        newt > ",
+        "        den > SpawnPoint stype=dart cooldown=5 total=3\n        newt > ",
+    );
     let source = source.replace("        . > floor\n", "        . > floor\n        e > floor den\n");
-    let source = source.replace("pin > Resource limit=1", "pin > Resource limit=3") + "        Timeout limit=50 win=False\n";
+    let source = source.replace("pin > Resource limit=1", "pin > Resource limit=3")
+        + "        Timeout limit=50 win=False\n";
     let game = Game::from_source(&source).unwrap();
     let analysis = Analysis::of(&game);
     let looks = Looks::of(&analysis);
@@ -173,8 +176,12 @@ fn captions_tell_what_is_left() {
     game.step(&mut state, Action::Nil);
     let text = render::text(&looks, &Symbols::of(&analysis, &looks), &state);
     let lines: Vec<&str> = text.lines().skip(6).take(4).collect();
-    let expect =
-        ["tick 1 (50 left), score 0", "holds: pin 0 of 2", "to win: hatch 1 to go", "soon: den acts in 5 (3 left)"];
+    let expect = [
+        "tick 1 (50 left), score 0",
+        "holds: pin 0 of 2",
+        "to win: hatch 1 to go",
+        "soon: den acts in 5 (3 left)",
+    ];
     assert_eq!(lines, expect);
 }
 

@@ -250,11 +250,8 @@ impl Choices<'_> {
         let interactions = description.interactions.clone();
         let mentioned: BTreeSet<&str> = interactions
             .iter()
-            .flat_map(|line| {
-                let values = line.params.iter().map(|param| &param.value);
-                line.second.iter().chain([&line.first]).chain(values)
-            })
-            .flat_map(|word| word.text.split(','))
+            .flat_map(|line| line.second.iter().chain([&line.first]))
+            .map(|word| word.text.as_str())
             .collect();
         let mut symbols = BTreeMap::from([("wall".to_owned(), 'w'), ("hero".to_owned(), 'A')]);
         let mut taken = vec!['.', 'w', 'A'];

@@ -24,6 +24,11 @@ pub(crate) fn mark(art: &mut Art, at: u8) {
 fn signs(art: &mut Art, figure: &Figure) {
     use Glyph as G;
     let glyph = art.look.glyph;
+    if art.look.mood == Mood::Asleep && art.look.form.has_face() {
+        let snore = [[0.05, 0.07], [0.25, 0.07], [0.05, 0.27], [0.25, 0.27]];
+        art.stroke(Outline::line(&snore), PAPER, 0.13);
+        art.stroke(Outline::line(&snore), INK, 0.055);
+    }
     if matches!(glyph, G::Hazard | G::Peril | G::HostileShot)
         && !figure.is_dangerous
         && !art.look.form.has_face()
@@ -56,9 +61,6 @@ fn add(art: &mut Art, part: &Part) {
         &Part::Eyes([x, y], apart, radius) if art.look.mood == Mood::Asleep => {
             shut(art, [x - apart / 2.0, y], radius);
             shut(art, [x + apart / 2.0, y], radius);
-            let snore = [[0.72, 0.06], [0.94, 0.06], [0.72, 0.26], [0.94, 0.26]];
-            art.stroke(Outline::line(&snore), PAPER, 0.13);
-            art.stroke(Outline::line(&snore), INK, 0.055);
         }
         &Part::Eyes(at, apart, radius) => art.eyes(at, apart, radius, art.look.mood == Mood::Angry),
         &Part::Eye(at, radius) if art.look.mood == Mood::Asleep => shut(art, at, radius),
@@ -83,12 +85,9 @@ fn add(art: &mut Art, part: &Part) {
 
 /// A closed eye.
 fn shut(art: &mut Art, [x, y]: [f32; 2], radius: f32) {
-    let lid = [
-        [x - radius, y],
-        [x - radius * 0.5, y + radius * 0.5],
-        [x + radius * 0.5, y + radius * 0.5],
-        [x + radius, y],
-    ];
+    let below = y + radius * 0.5;
+    let lid = [[x - radius, y], [x - radius * 0.5, below], [x + radius * 0.5, below], [x + radius, y]];
+    art.solid(Outline::circle(x, y, radius), art.main().light());
     art.stroke(Outline::line(&lid), INK, 0.045);
 }
 
