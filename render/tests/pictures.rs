@@ -180,7 +180,7 @@ fn captions_tell_what_is_left() {
         "tick 1 (50 left), score 0",
         "holds: pin 0 of 2",
         "to win: hatch 1 to go",
-        "soon: den acts in 5 (3 left)",
+        "soon: den acts in 5 (2 left)",
     ];
     assert_eq!(lines, expect);
 }
