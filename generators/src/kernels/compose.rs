@@ -116,7 +116,7 @@ impl Choices<'_> {
         self.picture(&mut description.sprites, &nouns);
         let symbols = self.map_symbols(&mut description, &nouns);
         let mut wall = SpriteLine { name: nouns["wall"].as_str().into(), ..SpriteLine::default() };
-        wall.params.push(Param::new("img", &format!("wall/{}", nouns["wall"])));
+        wall.params.push(Param::new("img", format!("wall/{}", nouns["wall"])));
         wall.params.push(Param::new("color", &self.scene.wall_color));
         if let Some(line) = description.sprites.iter_mut().find(|line| line.name.text == "wall") {
             line.children.push(wall);
@@ -340,7 +340,7 @@ fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nou
             }
             _ => None,
         };
-        line.params.extend(picture.map(|picture| Param::new("img", &picture)));
+        line.params.extend(picture.map(|picture| Param::new("img", picture)));
         picture_lines(&mut line.children, roles, nouns);
     }
 }
