@@ -32,7 +32,7 @@ impl Mask {
         let names: BTreeMap<String, String> =
             own.into_iter().zip(numbers).map(|(name, number)| (name, format!("t{number}"))).collect();
         let mut masked = description.renamed(&names);
-        strip_cosmetics(&mut masked);
+        strip(&mut masked, &["img", "color"]);
         let game = Game::compile(&masked).map_err(|problems| {
             EvaluationError::Malformed(format!("the names of the game cannot be masked: {problems}"))
         })?;
@@ -53,14 +53,21 @@ impl Mask {
     }
 }
 
-/// Removes everything that is not part of the rules.
-fn strip_cosmetics(description: &mut Description) {
-    fn sprites(lines: &mut [SpriteLine]) {
+/// Removes comments and these parameters of sprite types.
+fn strip(description: &mut Description, keys: &[&str]) {
+    fn sprites(lines: &mut [SpriteLine], keys: &[&str]) {
         for line in lines {
             line.trivia = Trivia::default();
-            line.params.retain(|param| !["img", "color"].contains(&param.key.text.as_str()));
-            sprites(&mut line.children);
+            line.params.retain(|param| !keys.contains(&param.key.text.as_str()));
+            sprites(&mut line.children, keys);
         }
     }
-    sprites(&mut description.sprites);
+    sprites(&mut description.sprites, keys);
+}
+
+/// The rules without the names of pictures, which tell the roles of types.
+pub(crate) fn without_pictures(description: &Description) -> Description {
+    let mut description = description.clone();
+    strip(&mut description, &["img"]);
+    description
 }

@@ -18,7 +18,7 @@ use crate::client::{ChatMessage, Role};
 use crate::encoding;
 use crate::error::EvaluationError;
 use crate::legend::{Legend, LegendOptions};
-use crate::mask::Mask;
+use crate::mask::{Mask, without_pictures};
 use crate::subject::Subject;
 use crate::tokens;
 use crate::turn::Turn;
@@ -264,7 +264,7 @@ impl Prompter {
         let guide = Guide::from_analysis(analysis);
         let (described, vgdl) = match self.settings.rules {
             Rules::Described => (true, None),
-            Rules::Vgdl => (false, Some(print_bare(analysis.game().description()))),
+            Rules::Vgdl => (false, Some(print_bare(&without_pictures(analysis.game().description())))),
             Rules::None => (false, None),
         };
         let text = self.render(
