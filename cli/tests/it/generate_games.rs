@@ -45,12 +45,12 @@ fn constructive_games_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn searched_games_are_the_same_on_any_number_of_threads() {
-    same_bytes("search", "demolition");
+    same_bytes("search", "key-and-door");
 }
 
 #[test]
 fn evolved_games_are_the_same_on_any_number_of_threads() {
-    same_bytes("evolutionary", "demolition");
+    same_bytes("evolutionary", "resource");
 }
 
 #[test]

@@ -188,7 +188,9 @@ mod tests {
         check(&same, &[GameForm::of(&made.game)], NEAR_KNOWN);
         check(&|order| order.least_interactions = 100, &[], MEAGRE);
         check(&|order| order.least_mechanics = 100, &[], MEAGRE);
-        check(&|order| order.criteria.least_ticks = 1000, &[], "length");
+        let long =
+            |order: &mut GameOrder| (order.criteria.least_ticks, order.criteria.most_ticks) = (1000, 2000);
+        check(&long, &[], "length");
         let dull = |order: &mut GameOrder| ask_for_drama(&mut order.criteria);
         check(&dull, &[], "drama");
         check(&|order| order.level_tries = 0, &[], "no level 0");
@@ -240,7 +242,10 @@ mod tests {
         };
         assert!(!hold(&unskilled), "levels");
         assert!(!hold(&ask_for_drama), "the game");
-        assert!(hold(&|criteria| (criteria.budget, criteria.least_ticks) = (1, 1000)), "what is certain");
+        assert!(
+            hold(&|criteria| (criteria.budget, criteria.least_ticks, criteria.most_ticks) = (1, 1000, 2000)),
+            "what is certain"
+        );
     }
 
     /// More than any game has.
