@@ -31,15 +31,12 @@ def game_file(folder):
 
 
 def source(folder):
-    """The folders with a game, and single files of games with levels beside them."""
-    games = [path.parent for path in sorted(folder.glob("*/game.*"))]
-    return games or sorted(p for p in folder.glob("*.txt") if "_lvl" not in p.name)
+    """The games of a folder that have five levels."""
+    return [game for game in sorted(folder.iterdir()) if game_file(game) and has_levels(game)]
 
 
 def level(game, number):
-    if game.is_dir():
-        return str(next(p for p in (game / f"lvl{number}.txt", game / f"level{number}.txt") if p.exists()))
-    return str(game.with_name(f"{game.stem}_lvl{number}.txt"))
+    return str(game / f"lvl{number}.txt")
 
 
 def rules(arcade, game):
@@ -94,7 +91,7 @@ def main():
     games = []
     for group, folder, number in zip(("generated", "public", "corpus"),
                                      (args.generated, args.public, args.corpus), args.numbers):
-        there = [game for game in source(folder) if has_levels(game)]
+        there = source(folder)
         games += [(group, game) for game in draw.sample(there, min(number, len(there)))]
     draw.shuffle(games)
     key = {}
@@ -113,10 +110,7 @@ def main():
 
 
 def has_levels(game):
-    try:
-        return all(pathlib.Path(level(game, number)).exists() for number in range(5))
-    except StopIteration:
-        return False
+    return all(pathlib.Path(level(game, number)).exists() for number in range(5))
 
 
 if __name__ == "__main__":
