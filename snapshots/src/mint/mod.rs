@@ -91,9 +91,8 @@ pub enum MintError {
     },
     /// No selection of candidates meets the quotas.
     #[error(
-        "no choice of games was found among {candidates} candidates that is as the recipe asks: {missed}; raise \
-         `generated.candidates` or `corpus.candidates`, or ask for what they can give, and go on with --resume, which keeps what \
-         is made"
+        "no selection of {candidates} candidates meets the recipe: {missed}; raise `generated.candidates` or \
+         `corpus.candidates`, or relax the quotas, and continue with --resume, which keeps finished jobs"
     )]
     Uneven {
         /// The number of candidates.
