@@ -21,7 +21,7 @@ use generators::levels::{Examples, LevelConfig};
 use report::canonical::to_canonical_json;
 use std::sync::Arc;
 use validators::novelty::GameForm;
-use validators::{Criteria, Panel};
+use validators::{Criteria, GATES, Panel};
 
 /// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
@@ -55,12 +55,12 @@ pub enum Job {
 /// are never smaller, so that an archive keeps its games if a recipe asks for more candidates.
 const ISLAND: u32 = 4;
 
-/// The cost of a job in seconds of one core per requested level: without `skill` as in `starter`, with `skill` as in
-/// `medium`. Those of archives and searches without `skill` are guesses.
-const ARCHIVE: (f64, f64) = (2.9, 5.0);
-const SEARCH: (f64, f64) = (2.9, 5.4);
-const CONSTRUCTIVE: (f64, f64) = (1.03, 3.0);
-const CORPUS: (f64, f64) = (0.41, 0.58);
+/// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
+/// `starter`, with both as in `medium`. Those of archives and searches without `skill` are guesses.
+const ARCHIVE: [f64; 3] = [0.1, 4.7, 16.0];
+const SEARCH: [f64; 3] = [0.1, 4.7, 16.0];
+const CONSTRUCTIVE: [f64; 3] = [0.03, 4.7, 16.0];
+const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
 
 impl<'a> Plan<'a> {
     /// Makes the plan of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of
@@ -108,14 +108,15 @@ impl<'a> Plan<'a> {
     /// The rough total cost of jobs, in seconds of one core of the machine that docs/recipes.md describes.
     pub fn seconds(&self, jobs: &[Job]) -> f64 {
         let usual = Criteria::default();
-        let of = |(plain, skill): (f64, f64), levels: u32, criteria: &Criteria| {
+        let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
+            let base = if GATES.iter().any(|gate| criteria.includes(gate)) { gated } else { plain };
             // Decisions cost about a third of what the other judges cost.
             let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
             let played = match criteria.includes("skill") {
                 true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
                 false => 0.0,
             };
-            f64::from(levels) * (plain * thought + (skill - plain) * played)
+            f64::from(levels) * (base * thought + (skill - base) * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
         let cost = |job: &Job| match *job {
