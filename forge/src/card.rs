@@ -18,7 +18,7 @@ pub enum Origin {
     Generated {
         /// The generator.
         generator: String,
-        /// The patterns that were composed.
+        /// The kernel, its variants, the grafts and the scene, each with its kind: `kernel/one-spark`.
         patterns: Vec<String>,
         /// The index of the candidate among those for its place, from 0.
         candidate: u32,
@@ -32,7 +32,7 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
     }
 
-    /// The patterns of mechanics that a generated game was composed of, without duplicates: excluding its theme or
+    /// The kernel, variants and grafts of a generated game, without duplicates; of earlier generations its patterns, excluding its theme or
     /// scene, and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };

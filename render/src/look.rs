@@ -16,9 +16,9 @@ const MAX_PIPS: u8 = 4;
 /// The look of a sprite type: the input of its tile, except orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Look {
-    /// What the rules make of the type: its meaning in legends.
+    /// The glyph by the rules: the meaning of the type in legends.
     pub glyph: Glyph,
-    /// What is drawn: a figure if the game names a picture, else the glyph.
+    /// The drawn shape: a figure if the game names a picture, else the glyph.
     pub form: Form,
     /// The mark of its state, an index into the table of figures.
     pub(crate) mark: Option<u8>,

@@ -1,4 +1,4 @@
-//! What the rules allow a player to know ahead: time left, what a win still needs, countdowns, who moves how.
+//! The prospects that the rules allow a player to know: time left, what a win still needs, countdowns, who moves how.
 
 use crate::figure::Form;
 use crate::glyph::Glyph;

@@ -4,6 +4,8 @@ use crate::sealed::{self, Secret};
 use engine::{Digest, Game, Seed};
 use forge::games::Board;
 use generators::games::Kind;
+use generators::kernels::kinds;
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GoalKind};
@@ -338,6 +340,15 @@ impl Recipe {
         if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
             return wrong("generated.mix", "takes weights, not all of them 0".to_owned());
         }
+        if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
+            let known = kinds().map(Kind::name).join(", ");
+            let message =
+                format!("names `{}`, of which no games are generated; there are {known}", kind.name());
+            return wrong("generated.kinds", message);
+        }
+        if new.games > 0 && new.levels < 3 && self.criteria.includes("progression") {
+            return wrong("generated.levels", format!("is {}; `progression` needs at least 3", new.levels));
+        }
         self.check_selection()?;
         for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
             if least < 5 || most < least || most > 100 {
@@ -553,6 +564,10 @@ mod tests {
         check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
         check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");
         check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
+        check(&format!("{GOOD}kinds = ['herding']"), "`generated.kinds` names `herding`, of which no games");
+        check(&format!("{GOOD}kinds = ['luer']"), "luer");
+        let ask = "ask = ['not-idle', 'not-random', 'winnable', 'progression']";
+        check(&format!("{GOOD}levels = 2\n[criteria]\n{ask}"), "`progression` needs at least 3");
         check(&format!("{GOOD}[criteria]\ndepths = []"), "`criteria.depths`");
         check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
         check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");

@@ -70,9 +70,10 @@ fn impossible_requests_are_refused_with_advice() {
     let home = tempfile::tempdir().unwrap();
     fs::create_dir(home.path().join("old")).unwrap();
     fs::write(home.path().join("old/mine.txt"), "mine").unwrap();
-    let cases: [(&[&str], &[&str]); 6] = [
+    let cases: [(&[&str], &[&str]); 7] = [
         (&["--method", "magic"], &["magic", "constructive", "evolutionary"]),
         (&["--kind", "shoter"], &["shoter", "did you mean `shooter`?"]),
+        (&["--kind", "herding"], &["herding", "unknown kind"]),
         (&["--count", "0"], &["0"]),
         (&["--levels", "21"], &["21", "20"]),
         (&["--jobs", "0"], &["--jobs"]),

@@ -1,4 +1,4 @@
-//! The roles that sprite types play in the patterns, and the words that a theme has for them.
+//! The roles that sprite types play in games, and the words that a theme has for them.
 
 /// Declares the roles once: the variant and the field of [`Words`] that names it.
 macro_rules! roles {

@@ -31,7 +31,7 @@ pub struct KernelGenome {
     pub(crate) variants: Vec<usize>,
     /// The values of the kernel's numbers.
     pub(crate) values: Vec<u32>,
-    /// What it has of other kernels.
+    /// The grafts of other kernels.
     pub(crate) grafts: Vec<&'static Graft>,
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,

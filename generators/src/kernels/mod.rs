@@ -23,5 +23,5 @@ mod vocabulary;
 pub use compose::{Course, CourseLevel};
 pub use genome::{KernelGame, KernelGenome, preview};
 pub use kernel::Slot;
-pub use turns::Turns;
+pub use turns::{Turns, kinds};
 pub use variation::KernelVariation;

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 pub(crate) struct Scene {
     #[serde(skip)]
     pub(crate) name: String,
-    /// Who is where and wants what, in one sentence.
+    /// The story in one sentence: who is where and wants what.
     pub(crate) story: String,
     /// The colours of floor and walls.
     pub(crate) floor_color: String,

@@ -8,6 +8,12 @@ use engine::Seed;
 /// The most turns of a kind in a round, however many kernels it has.
 const MOST: usize = 3;
 
+/// The kinds that have kernels, in the order of [`Kind::ALL`].
+pub fn kinds() -> impl Iterator<Item = Kind> {
+    let has_kernel = |kind: &Kind| Kernel::all().iter().any(|kernel| kernel.kind == *kind);
+    Kind::ALL.iter().copied().filter(has_kernel)
+}
+
 /// The order in which kernels take turns: kinds first, then the kernels of each, both in an order that is drawn.
 #[derive(Clone, Debug)]
 pub struct Turns {

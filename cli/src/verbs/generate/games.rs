@@ -14,6 +14,7 @@ use forge::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, make_game
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
+use generators::kernels::kinds;
 use indicatif::ProgressBar;
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -23,12 +24,12 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use validators::{Criteria, GameForm, Panel};
 
-/// Makes new games: rules, a theme, and levels from easy to hard. The same flags give the same bytes, on any number
-/// of threads.
+/// Makes new games: rules round a dilemma, a scene, and levels from introduction to exam. The same flags give the same
+/// bytes, on any number of threads.
 ///
 /// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random
-/// players win, that skill pays, that every rule is used and matters, and that the game is not near to any corpus
-/// game or any other of the set. The folder holds a folder for each game, as a release does: game.vgdl, lvl0.txt and
+/// players win, that the game passes all gates (`arcade docs gates`), and that it is not near to any corpus game or any
+/// other of the set. The folder holds a folder for each game, as a release does: game.vgdl, lvl0.txt and
 /// so on, card.json, witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or
 /// absent.
 ///
@@ -66,8 +67,8 @@ pub(crate) struct Args {
 }
 
 fn kind(text: &str) -> Result<Kind, String> {
-    let names = || Kind::ALL.iter().map(|kind| kind.name());
-    Kind::ALL.iter().copied().find(|kind| kind.name() == text).ok_or_else(|| {
+    let names = || kinds().map(Kind::name);
+    kinds().find(|kind| kind.name() == text).ok_or_else(|| {
         let all = || format!("there are {}", names().join(", "));
         let help = engine::nearest(text, names()).map_or_else(all, |near| format!("did you mean `{near}`?"));
         format!("unknown kind; {help}")

@@ -18,7 +18,7 @@ const DRAWS: u64 = 24;
 /// A cell, as column and row.
 pub(crate) type Cell = (usize, usize);
 
-/// What builders of levels have to know about the types of a game.
+/// The facts about the types of a game that builders of levels need.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Traits {
     /// The types that the game has.
