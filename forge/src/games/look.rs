@@ -4,7 +4,7 @@ use crate::games::Candidate;
 use engine::{Analysis, Episode, Level, Outcome, Seed};
 use generators::kernels::{Course, KernelGame, KernelGenome, Slot};
 use generators::{Axis, Evaluation};
-use validators::game_measures::{Coupling, GameKind, GoalKind, PlayMeasures, Regret};
+use validators::game_measures::{Coupling, PlayMeasures, Regret};
 use validators::{Case, Ladder, LadderConfig, Recorded, Rung};
 
 /// The levels of a look.
@@ -50,14 +50,14 @@ pub(super) struct Look {
     pub(super) calls: u64,
 }
 
-/// The axes of an archive of games: what one is after, how much the rules pull against each other, and how much happens
-/// without one.
+/// The axes of an archive of games: the kernel, how much the rules pull against each other, and how much happens without
+/// the player.
 pub(super) fn axes() -> Vec<Axis> {
-    let kinds = |name: &str, last: usize| Axis::new(name, (0.0, last as f64 + 1.0), last + 1);
+    let kernels = KernelGenome::kernels().count();
     vec![
-        kinds("goal", GoalKind::Score as usize),
-        Axis::new("coupling", (0.0, 1.0), 6),
-        Axis::new("pace", (0.0, 1.0), 3),
+        Axis::new("kernel", (0.0, kernels as f64), kernels),
+        Axis::new("coupling", (0.0, 1.0), 3),
+        Axis::new("pace", (0.0, 1.0), 2),
     ]
 }
 
@@ -81,7 +81,8 @@ impl Looker {
             .and_then(|KernelGame { game, course }| Ok((Candidate::generated(game, "", 0)?.game, course)));
         let Ok((game, course)) = made else { return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0) };
         let analysis = Analysis::of(&game);
-        let (kind, coupling) = (GameKind::of(&analysis), Coupling::of(&analysis).strength());
+        let coupling = Coupling::of(&analysis).strength();
+        let kernel = KernelGenome::kernels().position(|name| name == genome.kernel()).unwrap_or_default();
         let played: Vec<Played> = (0..)
             .zip(SLOTS)
             .filter_map(|(number, slot)| Looker::play(&analysis, &course, slot, seed.child("level", number)))
@@ -92,7 +93,7 @@ impl Looker {
             .map(|played| Recorded { level: &played.level, episodes: &played.episodes })
             .collect();
         let measures = PlayMeasures::of(&analysis, &recording, seed.child("measures", 0));
-        let place = |pace| vec![kind.goal as usize as f64, coupling, pace];
+        let place = |pace| vec![kernel as f64, coupling, pace];
         let drawn = played.len() as f64 / SLOTS.len() as f64;
         let Some(measures) = measures else {
             return Look::of([drawn, 0.0, 0.0, 0.0], 0.0, place(0.0), calls);

@@ -98,6 +98,9 @@ pub fn make_one(
     (made.map(|(game, _)| game), tally)
 }
 
+/// The least number of finalists that are judged in a round of an archive, on all threads, and of games that are looked at.
+const BATCH: usize = 4;
+
 struct Maker<'a> {
     order: &'a GameOrder,
     gate: GameGate<'a>,
@@ -209,7 +212,9 @@ impl<'a> Maker<'a> {
         let mut shown = BTreeSet::new();
         for round in 0..self.order.effort.attempts {
             // The first round fills the archive, the others mend it where the judges said no.
-            let looks = if round == 0 { looks } else { looks / 4 };
+            let missing = wanted - set.games.len();
+            let looks =
+                if round == 0 { looks } else { (self.order.effort.looks as usize * missing / 4).max(BATCH) };
             let look = |genome: &KernelGenome| {
                 self.progress.looked();
                 looker.look(genome)
@@ -219,8 +224,11 @@ impl<'a> Maker<'a> {
                 set.tally.calls(look.calls);
                 look.evaluation
             });
-            let missing = wanted - set.games.len();
-            let picked = spread(search.archive(), missing, &[], |_, _| false, &mut shown, KernelGenome::key);
+            let is_welcome = |genome: &KernelGenome| company.has_room(genome.kernel(), genome.kind().name());
+            let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
+            let wanted_now = missing.max(BATCH);
+            let key = KernelGenome::key;
+            let picked = spread(search.archive(), wanted_now, &[], is_near, is_welcome, &mut shown, key);
             let judge = |(cell, genome): &(usize, KernelGenome)| {
                 let mut tally = Tally::default();
                 let key = genome.key().to_string();
@@ -235,6 +243,7 @@ impl<'a> Maker<'a> {
             let judged: Vec<_> = picked.par_iter().map(judge).collect();
             for (cell, made, mut tally) in judged {
                 match made.map(|made| company.welcome(&made).map(|()| made)) {
+                    Some(Ok(_)) if set.games.len() == wanted => tally.taken_back("more than asked for"),
                     Some(Ok(made)) => {
                         self.progress.made(&made.card.title);
                         set.games.push(made);
@@ -262,8 +271,10 @@ struct Company {
     forms: Vec<GameForm>,
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
-    /// The number of games of each kernel and of each kind.
-    crowds: BTreeMap<String, usize>,
+    /// The number of games of each kernel.
+    of_kernels: BTreeMap<String, usize>,
+    /// The number of games of each kind.
+    of_kinds: BTreeMap<String, usize>,
     /// The most games of a kernel and of a kind.
     room: (usize, usize),
 }
@@ -281,9 +292,16 @@ impl Company {
             forms: Vec::new(),
             titles: BTreeSet::new(),
             casts: Vec::new(),
-            crowds: BTreeMap::new(),
+            of_kernels: BTreeMap::new(),
+            of_kinds: BTreeMap::new(),
             room,
         }
+    }
+
+    /// Tests whether a game of this kernel and kind could be taken in.
+    fn has_room(&self, kernel: &str, kind: &str) -> bool {
+        let count = |counts: &BTreeMap<String, usize>, name: &str| counts.get(name).copied().unwrap_or(0);
+        count(&self.of_kernels, kernel) < self.room.0 && count(&self.of_kinds, kind) < self.room.1
     }
 
     /// Takes the game in, or says why not.
@@ -299,14 +317,12 @@ impl Company {
         if self.casts.iter().any(|other| cast.is_shared(other)) {
             return Err("a cast twice");
         }
-        let kernel = made.card.origin.kernel().unwrap_or_default().to_owned();
-        let of_kind = format!("kind/{}", made.card.kind);
-        let crowd = |name: &String| self.crowds.get(name).copied().unwrap_or(0);
-        if crowd(&kernel) >= self.room.0 || crowd(&of_kind) >= self.room.1 {
+        let kernel = made.card.origin.kernel().unwrap_or_default();
+        if !self.has_room(kernel, &made.card.kind) {
             return Err("enough of its kind");
         }
-        *self.crowds.entry(kernel).or_default() += 1;
-        *self.crowds.entry(of_kind).or_default() += 1;
+        *self.of_kernels.entry(kernel.to_owned()).or_default() += 1;
+        *self.of_kinds.entry(made.card.kind.clone()).or_default() += 1;
         self.titles.insert(made.card.title.clone());
         self.casts.push(cast);
         self.forms.push(form);

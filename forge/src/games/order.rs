@@ -66,7 +66,8 @@ impl GameOrder {
     pub fn new(method: Method, count: u32) -> GameOrder {
         let (attempts, patience) = match method {
             Method::Constructive => (96, 3),
-            Method::Search | Method::Evolutionary => (12, 2),
+            Method::Search => (24, 2),
+            Method::Evolutionary => (48, 1),
         };
         GameOrder {
             method,

@@ -3,6 +3,7 @@
 use super::course::{self, Board, Traits};
 use super::graft::Graft;
 use super::kernel::{Casting, Kernel, Slot};
+use super::naming;
 use super::phrase::{self, Nouns};
 use super::scene::Scene;
 use super::template;
@@ -114,16 +115,15 @@ impl Choices<'_> {
         let traits = traits(&description);
         self.color(&mut description.sprites);
         self.picture(&mut description.sprites, &nouns);
-        let symbols = self.map_symbols(&mut description, &nouns);
-        let mut wall = SpriteLine { name: nouns["wall"].as_str().into(), ..SpriteLine::default() };
-        wall.params.push(Param::new("img", format!("wall/{}", nouns["wall"])));
-        wall.params.push(Param::new("color", &self.scene.wall_color));
+        let declared = description.sprite_lines().iter().map(|(_, line)| line.name.text.clone()).collect();
+        let sampler_of_names = &mut self.nouns.child("names", 0).sampler();
+        let names = naming::names(&nouns, self.roles(), declared, sampler_of_names);
+        let symbols = self.map_symbols(&mut description, &names);
         if let Some(line) = description.sprites.iter_mut().find(|line| line.name.text == "wall") {
-            line.children.push(wall);
+            line.params.push(Param::new("img", format!("wall/{}", nouns["wall"])));
+            line.params.push(Param::new("color", &self.scene.wall_color));
         }
-        let mut renamed = nouns.clone();
-        renamed.remove("wall");
-        let description = description.renamed(&renamed);
+        let description = description.renamed(&names);
         let fill = |text: &str| phrase::fill(text, &nouns).map_err(GenerateError::Unsuitable);
         let sentence = |text: &str| Ok::<String, GenerateError>(phrase::sentence(&fill(text)?));
         let titles: Vec<&String> = self.kernel.titles.iter().chain(&self.scene.titles).collect();
@@ -237,7 +237,11 @@ impl Choices<'_> {
     }
 
     /// Writes the LevelMapping: floor, walls, the hero, then all types that levels place.
-    fn map_symbols(&self, description: &mut Description, nouns: &Nouns) -> BTreeMap<String, char> {
+    fn map_symbols(
+        &self,
+        description: &mut Description,
+        names: &BTreeMap<String, String>,
+    ) -> BTreeMap<String, char> {
         let maps = self.kernel.levels.iter().filter_map(|level| level.map(self.values).ok());
         let placed: BTreeSet<String> = maps
             .flat_map(|map| map.types().map(str::to_owned).collect::<Vec<_>>())
@@ -261,14 +265,14 @@ impl Choices<'_> {
             description.mapping.push(MappingLine { symbol, names, ..MappingLine::default() });
         };
         line('.', &["floor"]);
-        line('w', &[nouns["wall"].as_str()]);
+        line('w', &["wall"]);
         line('A', &["floor", "hero"]);
         for stype in own
             .iter()
             .filter(|stype| placed.contains(*stype) && !symbols.contains_key(*stype))
             .collect::<Vec<_>>()
         {
-            let symbol = palette::symbol(&nouns[stype], &taken);
+            let symbol = palette::symbol(&names[stype], &taken);
             taken.push(symbol);
             // Floor is not seen under what no rule moves or removes.
             match mentioned.contains(stype.as_str()) {

@@ -81,6 +81,17 @@ impl KernelGenome {
         self.kernel.kind
     }
 
+    /// The name of its kernel.
+    pub fn kernel(&self) -> &str {
+        &self.kernel.name
+    }
+
+    /// The names of all kernels, those of a kind together: an axis of an archive.
+    pub fn kernels() -> impl Iterator<Item = &'static str> {
+        let of_kind = |kind: Kind| Kernel::all().iter().filter(move |kernel| kernel.kind == kind);
+        Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
+    }
+
     /// The same game with another limit of ticks.
     #[must_use]
     pub fn timed(&self, ticks: u32) -> KernelGenome {

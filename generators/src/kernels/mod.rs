@@ -11,6 +11,7 @@ mod genome;
 mod graft;
 mod kernel;
 mod map;
+mod naming;
 mod phrase;
 mod scene;
 mod template;

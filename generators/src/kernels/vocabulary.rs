@@ -25,6 +25,11 @@ const SUITING: &[(&[&str], &[&str])] = &[
     (&["well", "spring"], &["BLUE", "LIGHTBLUE"]),
 ];
 
+/// Tests whether a word is a role that has a colour.
+pub(crate) fn is_role(word: &str) -> bool {
+    SUITING.iter().any(|(roles, _)| roles.contains(&word))
+}
+
 /// The colour of a type of this role that no other type has, as long as there are enough.
 pub(crate) fn color(role: &str, taken: &[String]) -> &'static str {
     let suiting =

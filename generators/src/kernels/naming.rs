@@ -1,0 +1,144 @@
+//! Names of types in VGDL, as authors of small games write them: one short word in lower case.
+//!
+//! Titles and stories use the nouns of the scene; rules use these names. An `iceBear` is a `bear`, a lit `fairLamp` a
+//! `litlamp`, an open `boathouse` an `exit`.
+
+use super::kernel::Casting;
+use super::phrase::Nouns;
+use super::vocabulary;
+use crate::games::english;
+use engine::Sampler;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Last words of nouns that say too little alone.
+const VAGUE: &[&str] = &[
+    "bar", "bay", "board", "bunch", "butt", "can", "car", "case", "circle", "corner", "drop", "flat", "head",
+    "heap", "hill", "hold", "hole", "hook", "in", "jet", "litter", "lump", "machine", "maker", "master",
+    "pad", "pan", "patch", "pile", "plug", "press", "pull", "race", "rind", "ring", "score", "sheet",
+    "shoot", "side", "step", "stick", "strip", "stroke", "stub", "tip", "waste",
+];
+
+/// The longest name of two words.
+const LONGEST: usize = 12;
+
+/// Draws the names of the types of a game, by their names in the kernel. Types without a noun and `wall` keep theirs.
+pub(crate) fn names<'a>(
+    nouns: &Nouns,
+    castings: impl Iterator<Item = (&'a String, &'a Casting)>,
+    declared: BTreeSet<String>,
+    sampler: &mut Sampler,
+) -> BTreeMap<String, String> {
+    let castings: BTreeMap<_, _> = castings.collect();
+    let without_noun = |name: &String| !nouns.contains_key(name);
+    let taken = declared.into_iter().filter(without_noun).chain(["wall".to_owned()]).collect();
+    let mut names = Names { nouns, given: BTreeMap::new(), taken };
+    let habit = sampler.below(3);
+    names.give("floor", [["floor", "floor", "ground"][habit].to_owned()]);
+    // Authors call the player by its part in the story, or `avatar`.
+    if sampler.below(2) == 0 && !names.taken.contains("avatar") {
+        names.give("hero", ["avatar".to_owned()]);
+    }
+    for (stype, casting) in &castings {
+        if matches!(casting, Casting::Role(_)) {
+            let noun = &nouns[stype.as_str()];
+            names.give(stype, [short(noun), joined(noun), format!("{}{}", joined(noun), 2)]);
+        }
+    }
+    for (stype, casting) in &castings {
+        if let Casting::State { of, adjective } = casting {
+            names.state(stype, of, adjective);
+        }
+    }
+    names.given
+}
+
+struct Names<'a> {
+    nouns: &'a Nouns,
+    given: BTreeMap<String, String>,
+    taken: BTreeSet<String>,
+}
+
+impl Names<'_> {
+    /// Gives a type the first of the names that is free, if it has none.
+    fn give<const N: usize>(&mut self, stype: &str, candidates: [String; N]) {
+        if self.given.contains_key(stype) {
+            return;
+        }
+        let free = candidates.iter().find(|name| !self.taken.contains(*name));
+        let name = free.unwrap_or_else(|| panic!("{candidates:?} are taken")).clone();
+        self.taken.insert(name.clone());
+        self.given.insert(stype.to_owned(), name);
+    }
+
+    fn state(&mut self, stype: &str, of: &str, adjective: &str) {
+        let noun = &self.nouns[stype];
+        // The noun of a state is the adjective and the noun of the thing.
+        let thing = noun.strip_prefix(adjective).unwrap_or(noun);
+        let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
+        let both = format!("{adjective}{thing}");
+        // A kernel has its own word for some states: a follower, the ashes of something.
+        let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
+        let tells_more = is_word && stype != adjective && !vocabulary::is_role(stype);
+        let first = match (of, adjective) {
+            ("exit", "open") => "exit",
+            ("hero", _) => adjective,
+            _ if tells_more => stype,
+            _ if both.len() <= LONGEST => &both,
+            _ => adjective,
+        };
+        self.give(stype, [first.to_owned(), both.clone(), format!("{both}2")]);
+    }
+}
+
+/// Returns the last word of a noun, or the whole noun where that says too little.
+fn short(noun: &str) -> String {
+    let spaced = english::spaced(noun);
+    match spaced.rsplit_once(' ') {
+        Some((_, last)) if !VAGUE.contains(&last) => last.to_owned(),
+        _ => joined(noun),
+    }
+}
+
+fn joined(noun: &str) -> String {
+    noun.to_ascii_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Seed;
+
+    #[test]
+    fn names_are_short_and_differ() {
+        let role = |role: &str| Casting::Role(role.to_owned());
+        let state = |of: &str, adjective: &str| Casting::State { of: of.into(), adjective: adjective.into() };
+        let cast = [
+            ("bear", role("sleeper"), "iceBear"),
+            ("dazed", state("bear", "dazed"), "dazedIceBear"),
+            ("exit", role("exit"), "boathouse"),
+            ("fuel", role("fuel"), "oilCan"),
+            ("hunter", role("hunter"), "polarBear"),
+            ("litLamp", state("lamp", "lit"), "litFairLamp"),
+            ("openExit", state("exit", "open"), "openBoathouse"),
+            ("wokenBear", state("bear", "woken"), "wokenIceBear"),
+        ];
+        let nouns: Nouns = cast.iter().map(|(stype, _, noun)| ((*stype).into(), (*noun).into())).collect();
+        let castings: Vec<_> =
+            cast.into_iter().map(|(stype, casting, _)| (stype.to_owned(), casting)).collect();
+        let castings = castings.iter().map(|(stype, casting)| (stype, casting));
+        let names = names(&nouns, castings, BTreeSet::new(), &mut Seed::from_text("names").sampler());
+        let expect = [
+            ("bear", "bear"),
+            ("dazed", "dazedbear"),
+            ("exit", "boathouse"),
+            ("fuel", "oilcan"),
+            ("hunter", "polarbear"),
+            ("litLamp", "litlamp"),
+            ("openExit", "exit"),
+            ("wokenBear", "wokenbear"),
+        ];
+        for (stype, name) in expect {
+            assert_eq!(names[stype], name, "{stype}");
+        }
+    }
+}
