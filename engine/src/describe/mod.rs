@@ -25,7 +25,7 @@ pub struct Guide {
     pub losing: Vec<String>,
     /// The behaviour of each other sprite, a line each, in registry order.
     pub sprites: Vec<String>,
-    /// The members of the groups that the interactions name, a line each.
+    /// The members of the groups that interactions, chasers and fleeing sprites name, a line each.
     pub groups: Vec<String>,
     /// The effects that run by the clock, a line each.
     pub timed_effects: Vec<String>,

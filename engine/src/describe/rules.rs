@@ -1,7 +1,7 @@
 //! Interactions and terminations in words.
 
 use super::words::{Party, a, count, list, members, percent, sentence};
-use crate::analysis::{Analysis, Condition, Encounter, Goal};
+use crate::analysis::{Analysis, Condition, Encounter, Goal, Motion};
 use crate::game::{Counting, SpriteType, Timed};
 use crate::ontology::effects::{Effect, SpeedChange};
 use crate::ontology::terminations::Decision;
@@ -304,14 +304,16 @@ fn by_itself(analysis: &Analysis, effect: &Effect, target: Option<SpriteType>) -
     }
 }
 
-/// One line for each group that a rule names, with its members.
+/// One line for each group that an interaction, a chaser or a fleeing sprite names, with its members.
 pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
+    let follows = |follower: SpriteType, stype: SpriteType| {
+        let facts = analysis.facts(follower);
+        facts.possible && [Motion::Chasing(stype), Motion::Fleeing(stype)].contains(&facts.motion)
+    };
     let named = |stype: SpriteType| {
-        analysis
-            .encounters()
-            .iter()
-            .any(|encounter| encounter.first == stype || encounter.second == Some(stype))
+        let meets = |encounter: &Encounter| encounter.first == stype || encounter.second == Some(stype);
+        analysis.encounters().iter().any(meets) || game.sprite_types().any(|other| follows(other, stype))
     };
     let group = |stype: SpriteType| {
         let members = members(analysis, stype);

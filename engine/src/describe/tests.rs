@@ -130,6 +130,16 @@ fn several_avatars_are_distinguished() {
 }
 
 #[test]
+fn groups_that_are_chased_are_told() {
+    let source = "BasicGame\n  SpriteSet\n    lure >\n      bait > Immovable\n      avatar > MovingAvatar\n    bear > Chaser \
+                  stype=lure cooldown=2\n  LevelMapping\n    b > bait\n    c > bear\n  InteractionSet\n    avatar bear > \
+                  killSprite\n  TerminationSet\n    Timeout limit=9 win=True\n";
+    let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
+    assert_eq!(guide.sprites[0], "The bear chases the nearest lure, a cell every 2 ticks.");
+    assert_eq!(guide.groups, ["Any lure means you or the bait."]);
+}
+
+#[test]
 fn counters_and_their_decisions() {
     let source = "BasicGame no_counters=2\n  SpriteSet\n    key > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    k > key\n  InteractionSet\n    avatar key > stepBack counter=1,-2 counterElse=0,-1\n  TerminationSet\n    Timeout limit=9 use_counter=True compare=True\n";
     let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));

@@ -75,7 +75,8 @@ impl Names<'_> {
         // The noun of a state is the adjective and the noun of the thing.
         let thing = noun.strip_prefix(adjective).unwrap_or(noun);
         let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
-        let both = format!("{adjective}{thing}");
+        let both = [thing, joined(of)].map(|thing| format!("{adjective}{thing}"));
+        let both = both.into_iter().min_by_key(|both| both.len() > LONGEST).expect("there are two");
         // A kernel has its own word for some states: a follower, the ashes of something.
         let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
         let tells_more = is_word && stype != adjective && !vocabulary::is_role(stype);
