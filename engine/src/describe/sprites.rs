@@ -78,13 +78,14 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     if traits.health != 0 {
         parts.push(format!("has {}", count(i64::from(traits.health), "health point")));
     }
+    parts.retain(|part| !part.is_empty());
     if facts.singleton {
-        parts.push("only one exists at a time".to_owned());
+        let once = if parts.is_empty() { "exists only once at a time" } else { "only one exists at a time" };
+        parts.push(once.to_owned());
     }
     if facts.hidden && analysis.role(stype) != Role::Floor {
         parts.push("cannot be seen".to_owned());
     }
-    parts.retain(|part| !part.is_empty());
     parts
 }
 

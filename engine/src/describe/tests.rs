@@ -107,6 +107,19 @@ What the level's characters stand for:
 }
 
 #[test]
+fn a_sprite_that_is_alone_has_a_whole_sentence() {
+    let source = ORCHARD
+        .replace("net > Flicker limit=3 singleton=True", "net > Immovable singleton=True")
+        .replace("cart > Passive", "cart > Passive singleton=True hidden=True");
+    let guide = Guide::of(&Game::from_source(&source).unwrap());
+    for line in
+        ["The net exists only once at a time.", "The cart exists only once at a time; cannot be seen."]
+    {
+        assert!(guide.sprites.iter().any(|told| told == line), "{:?}", guide.sprites);
+    }
+}
+
+#[test]
 fn several_avatars_are_distinguished() {
     let game = Game::from_source(
         "BasicGame\n  SpriteSet\n    key > Immovable\n    door > Door\n    hero >\n      bare > MovingAvatar\n      armed > \
