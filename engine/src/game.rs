@@ -4,6 +4,7 @@ use crate::contacts::Contacts;
 use crate::deferred_move::Barriers;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::geometry::Direction;
+use crate::limits::MAX_TICKS;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::sprites::Mover;
@@ -489,6 +490,12 @@ impl Game {
     /// none, [`Direction::NIL`] for sprites that draw it.
     pub fn orientation(&self, stype: SpriteType) -> Direction {
         self.0.types[stype.index()].traits.orientation
+    }
+
+    /// The maximum number of ticks of an episode: the lowest `limit=` of a Timeout, or that of the reference.
+    pub fn time_limit(&self) -> u64 {
+        // The reference's own limit takes effect one tick after a Timeout with the same limit.
+        self.0.first_timeout.clamp(1, MAX_TICKS + 1).unsigned_abs().into()
     }
 
     /// Returns `true` if the game draws no random numbers: the same actions always give the same episode.

@@ -249,6 +249,10 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     assert_eq!((&forecast["output_tokens"], &forecast["max_output_tokens"]), (&2400.into(), &96_000.into()));
     let said = text(&run(home.path(), &bounded[1..], 0).stdout);
     assert!(said.contains("assuming answers of 100 tokens; at most 0.10 M"), "{said}");
+    // A Timeout of the game bounds the steps, whatever --max-steps says.
+    let unbounded =
+        ["--json", "evaluate", "hailglass", "--levels", "0", "--model", "openai:gpt-4o", "--dry-run"];
+    assert_eq!(json(&run(home.path(), &unbounded, 0))["requests"], 400);
     assert!(server.received().is_empty() && !home.path().join("results").exists());
 }
 

@@ -134,11 +134,13 @@ fn pairs_run_where_they_first_appear() {
 fn time_limits() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
     let mut board = setup(sprites, "").ends("Timeout limit=3 win=True").place(&PAIR);
+    assert_eq!(board.game.time_limit(), 3);
     assert_eq!(board.play("...").state.outcome(), Outcome::Ongoing);
     assert_eq!((board.wait().state.outcome(), board.state.tick()), (Outcome::Won, 3));
     let mut board = setup(sprites, "").ends("Timeout limit=500.0").place(&PAIR);
     assert_eq!(board.wait().state.outcome(), Outcome::Lost, "a number with a point is no limit");
     let mut board = setup(sprites, "").ends("").place(&PAIR);
+    assert_eq!(board.game.time_limit(), 2001);
     assert_eq!(board.play(&".".repeat(2000)).state.outcome(), Outcome::Ongoing);
     assert_eq!((board.wait().state.outcome(), board.state.tick()), (Outcome::Lost, 2000));
 }

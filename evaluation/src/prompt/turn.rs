@@ -1,6 +1,6 @@
 //! The data for the templates of a turn.
 
-use super::{Encodings, PromptSettings, PromptStyle};
+use super::{Encodings, PromptSettings, PromptStyle, Rules};
 use crate::encoding::{self, direction_name};
 use crate::legend::{Entry, Legend};
 use crate::turn::Turn;
@@ -28,11 +28,16 @@ pub(super) struct View<'a> {
 impl View<'_> {
     pub(super) fn data(&self) -> Value {
         let (now, turn) = (self.now, self.turn);
-        let left = turn.limit.saturating_sub(turn.number);
+        let last = u64::from(now.ticks) + turn.limit.saturating_sub(turn.number);
+        // A prompt without rules does not tell when a Timeout ends the game.
+        let limit = match self.settings.rules {
+            Rules::None => u64::MAX,
+            Rules::Described | Rules::Vgdl => turn.subject.game.time_limit(),
+        };
         let mut data = json!({
             "settings": self.settings,
             "tick": now.ticks,
-            "last_tick": u64::from(now.ticks) + left,
+            "last_tick": last.min(limit),
             "score": now.score.to_string(),
             "avatar": now.avatar.as_ref().map(avatar),
             "holds": self.holding.then(|| holds(now)),

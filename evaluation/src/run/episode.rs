@@ -31,6 +31,11 @@ impl Task<'_> {
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
     }
 
+    /// The maximum number of decisions that can be made: a Timeout may end the episode before `max_steps`.
+    pub fn most_steps(&self) -> u64 {
+        self.max_steps.min(self.subject.game.time_limit())
+    }
+
     /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
     pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, .. } = start else { return Ok(()) };

@@ -95,6 +95,18 @@ fn prompts_to_read() {
     show("reference_contextual.txt", "first-ice", &PromptSettings { mode: Mode::Contextual, ..reference }, 2);
 }
 
+/// The last tick is that of the rules, unless the prompt has none.
+#[test]
+fn the_last_tick_matches_the_rules() {
+    let subject = game("first-ice");
+    for (rules, last) in [(Rules::Described, 200), (Rules::Vgdl, 200), (Rules::None, 1000)] {
+        let settings = PromptSettings { rules, ..PromptSettings::default() };
+        let shown =
+            text(&prompter(&subject, &settings).prompt(&Walk::new(&subject, 0).turn(), &[], &[]).messages);
+        assert!(shown.contains(&format!("Tick 0 of at most {last}.")), "{rules:?}: {shown}");
+    }
+}
+
 /// The tokens of a step. `cargo test -p infinite-arcade-evaluation --test it prompts -- --nocapture tokens` prints the table of
 /// `docs/prompts.md`.
 #[test]

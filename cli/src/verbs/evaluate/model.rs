@@ -360,19 +360,19 @@ impl RequestedModel {
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
         let mut batches = Vec::new();
         for task in tasks {
-            let prompter = self.prompter(task.subject)?;
+            let (prompter, steps) = (self.prompter(task.subject)?, task.most_steps());
             let first = Observed::first(task);
             let prompt = prompter.prompt(&first.turn(task), &[], &[]);
             let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());
             let room = self.prompts.history_tokens.saturating_sub(fixed + turn);
             let past = match self.prompts.mode {
                 Mode::ZeroShot => 0,
-                Mode::Contextual => history(task.max_steps, turn + answer, room),
+                Mode::Contextual => history(steps, turn + answer, room),
             };
             batches.push(Batch {
-                requests: task.max_steps,
+                requests: steps,
                 stable_tokens: fixed,
-                changing_tokens: turn + past / task.max_steps,
+                changing_tokens: turn + past / steps,
                 output_tokens: answer,
             });
         }
