@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, IsTerminal, Write};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The output streams of a verb.
@@ -116,6 +116,12 @@ impl Console {
         if !self.quiet {
             let _ = writeln!(io::stderr(), "{}", shown(&text.to_string()));
         }
+    }
+
+    /// Returns a function that prints remarks, for players in other threads.
+    pub(crate) fn remarks(&self) -> Arc<dyn Fn(&str) + Send + Sync> {
+        let remarks = Console::new(self.json, self.quiet);
+        Arc::new(move |text| remarks.remark(text))
     }
 
     /// Prints the failure, even when quiet; also as a document if JSON is wanted and the verb has written none.

@@ -86,6 +86,27 @@ fn external_agents_play_and_resume() {
     assert!(text(&malformed.stderr).contains("is not a command line"), "{}", text(&malformed.stderr));
 }
 
+/// An evaluation without a usable answer does not end without a word.
+#[test]
+fn unusable_answers_are_counted_and_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = "while read line; do case $line in *'\"type\":\"turn\"'*|*'\"type\":\"invalid\"'*) \
+                  echo '{\"action\":\"fly\"}';; esac; done\n";
+    fs::write(folder.path().join("agent.sh"), script).unwrap();
+    let played = run(folder.path(), &evaluate("cmd:sh agent.sh", &["--json"]), 0);
+    let tally = &serde_json::from_slice::<Value>(&played.stdout).unwrap()["tally"];
+    assert_eq!((&tally["steps"], &tally["unusable"]), (&6.into(), &6.into()));
+    let told = text(&played.stderr);
+    assert!(told.contains("6 of 6 steps have no usable answer"), "{told}");
+    // So does one that had ended before.
+    let again = run(folder.path(), &evaluate("cmd:sh agent.sh", &["--resume"]), 0);
+    assert!(text(&again.stderr).contains("6 of 6 steps have no usable answer"), "{}", text(&again.stderr));
+    fs::remove_dir_all(folder.path().join("results")).unwrap();
+    fs::write(folder.path().join("agent.sh"), script.replace("fly", "left")).unwrap();
+    let usable = run(folder.path(), &evaluate("cmd:sh agent.sh", &[]), 0);
+    assert!(!text(&usable.stderr).contains("usable"), "{}", text(&usable.stderr));
+}
+
 /// Answers three times, then waits for a file `go`; it has child processes, one of which leaves the group and the
 /// session, and ignores signals that ask it to end.
 #[cfg(target_os = "linux")]

@@ -3,7 +3,7 @@
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_STEP};
 use crate::metrics::replay;
-use crate::player::{Contestant, Halt};
+use crate::player::{Contestant, Halt, Validity};
 use crate::run::episode::{PlayResult, Task, play};
 use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
 use crate::run::text::read_text;
@@ -55,6 +55,10 @@ pub struct Tally {
     pub ended: u64,
     /// The number of those that were won.
     pub won: u64,
+    /// The number of steps of all episodes.
+    pub steps: u64,
+    /// The number of steps without a usable answer, in which nothing was done.
+    pub unusable: u64,
     /// The number of episodes that were aborted, or not started because others were.
     pub open: u64,
     /// The reason why the first of them was aborted.
@@ -255,6 +259,7 @@ impl Evaluation {
         progress: &impl Progress,
     ) -> Result<Tally, EvaluationError> {
         let (stopped, failures) = (AtomicBool::new(false), AtomicU64::new(0));
+        let (steps, unusable) = (AtomicU64::new(0), AtomicU64::new(0));
         let first = Mutex::new(None);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
@@ -278,6 +283,15 @@ impl Evaluation {
                     first.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
                 }
             }
+            let of_log = |(steps, unusable): (u64, u64), event: &Event| match event {
+                Event::Step { validity, .. } => {
+                    (steps + 1, unusable + u64::from(*validity != Validity::Valid))
+                }
+                _ => (steps, unusable),
+            };
+            let (taken, useless) = journal.events().iter().fold((0, 0), of_log);
+            steps.fetch_add(taken, Ordering::Relaxed);
+            unusable.fetch_add(useless, Ordering::Relaxed);
             progress.episode(task, &result);
             Ok(Some(result))
         });
@@ -295,6 +309,8 @@ impl Evaluation {
             episodes,
             ended,
             won,
+            steps: steps.into_inner(),
+            unusable: unusable.into_inner(),
             open: episodes - ended,
             infrastructure: matches!(
                 halted,

@@ -134,7 +134,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             folder.display()
         );
     }
-    let (contestant, model) = requested.connect(args, &subjects.games)?;
+    let (contestant, model) = requested.connect(args, &subjects.games, console)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
     } else {
@@ -231,6 +231,7 @@ impl RequestedPlayer {
         &self,
         args: &Args,
         subjects: &[Subject],
+        console: &Console,
     ) -> Result<(PlayerOf, Option<Arc<ConnectedModel>>), Failure> {
         let contestant: PlayerOf = match self {
             RequestedPlayer::Planner(spec) => {
@@ -255,7 +256,10 @@ impl RequestedPlayer {
             }
             RequestedPlayer::Process(read) => {
                 let (command, timeout) = (read.command().to_owned(), args.model.timeout);
-                let process = move || process(&command, timeout).expect("it was read before");
+                let remark = console.remarks();
+                let process = move || {
+                    process(&command, timeout).expect("it was read before").with_notices(remark.clone())
+                };
                 Box::new(move |_| Contestant::Agent(Box::new(process())))
             }
             RequestedPlayer::Model(model) => {
@@ -376,11 +380,17 @@ fn print_results(
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
-    let Tally { episodes, ended, won, open, halted, infrastructure } = tally;
+    let Tally { episodes, ended, won, steps, unusable, open, halted, infrastructure } = tally;
     console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won", entrant.name));
     if let Some((Spent { requests, tokens, .. }, cost)) = spent {
         let cost = cost.map_or("cost unknown".to_owned(), |cost| format!("{cost:.4} USD"));
         console.say(format_args!("{requests} requests, {tokens} tokens, {cost}"));
+    }
+    if *unusable > 0 {
+        console.remark(format_args!(
+            "warning: {unusable} of {steps} steps have no usable answer, and nothing was done in them; the answers are in {}",
+            folder.join("episodes").display()
+        ));
     }
     let open = match open {
         1 => "1 episode is unfinished".to_owned(),

@@ -33,6 +33,7 @@ use message::{Message, Past, Seen};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The number of characters of a wrong answer that are recorded.
@@ -40,6 +41,9 @@ const MAX_RECORDED: usize = 500;
 
 /// The number of times to ask again after a wrong answer.
 const MAX_REASKS: u32 = 1;
+
+/// The longest wait for the answer to an `invalid` message before a notice.
+const NOTICE_AFTER: Duration = Duration::from_secs(10);
 
 /// The maximum number of bytes of answers to earlier turns before the answer to a question, 1 MiB.
 const MAX_STALE: usize = 1 << 20;
@@ -69,6 +73,16 @@ pub struct Process {
     words: Vec<String>,
     config: ProcessConfig,
     running: Option<Running>,
+    notices: Notices,
+}
+
+/// A function that shows notices to the user.
+struct Notices(Arc<dyn Fn(&str) + Send + Sync>);
+
+impl std::fmt::Debug for Notices {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Notices")
+    }
 }
 
 #[derive(Debug)]
@@ -87,7 +101,15 @@ impl Process {
         let words = words.ok_or_else(|| {
             format!("`cmd:{command}` is not a command line; write the program and its arguments, quoted as for a shell")
         })?;
-        Ok(Process { command: command.to_owned(), words, config, running: None })
+        let notices = Notices(Arc::new(|_| ()));
+        Ok(Process { command: command.to_owned(), words, config, running: None, notices })
+    }
+
+    /// Sets the function that shows notices to the user, such as that the process is silent after its answer was refused.
+    #[must_use]
+    pub fn with_notices(mut self, notices: Arc<dyn Fn(&str) + Send + Sync>) -> Process {
+        self.notices = Notices(notices);
+        self
     }
 
     /// Checks that the program of the command line exists, and the script that an interpreter is to run, before anything
@@ -123,17 +145,27 @@ impl Process {
         Ok(self.running.insert(running))
     }
 
+    /// Returns the notice of a process that ignores `invalid` messages.
+    fn silence(&self, turn: &Turn<'_>) -> String {
+        let (command, number, seconds) = (&self.command, turn.number, self.config.timeout.as_secs_f64());
+        format!(
+            "`{command}` does not answer since its answer at step {number} was refused as `invalid`: each such message asks for another \
+             answer; waiting for up to {seconds} s"
+        )
+    }
+
     fn not_started(&self, why: &str) -> Halt {
         Halt::Rejected(format!("`{}` cannot be started: {why}", self.command))
     }
 
     /// Handles a failure of the player: kills it and reports its last output.
-    fn failed(&mut self, no_line: NoLine, turn: &Turn<'_>) -> Halt {
+    fn failed(&mut self, no_line: NoLine, turn: &Turn<'_>, attempt: u32) -> Halt {
         let number = turn.number;
         let what = match no_line {
             NoLine::TimedOut => {
                 let seconds = self.config.timeout.as_secs_f64();
-                format!("did not answer at step {number} within {seconds} s")
+                let refused = if attempt > 0 { " after its answer was refused as `invalid`" } else { "" };
+                format!("did not answer at step {number} within {seconds} s{refused}")
             }
             NoLine::Closed => format!("exited at step {number}"),
             NoLine::TooLong => {
@@ -174,9 +206,13 @@ impl Agent for Process {
         let running = self.running(turn)?;
         running.process.send_line(line(&running.shown.turn(turn, None)));
         for attempt in 0..=MAX_REASKS {
-            let answer = match receive(&self.running(turn)?.process, timeout, turn.number) {
+            let notice_after = (attempt > 0).then(|| NOTICE_AFTER.min(timeout / 2));
+            self.running(turn)?;
+            let process = &self.running.as_ref().expect("it was started").process;
+            let notice = || (self.notices.0)(&self.silence(turn));
+            let answer = match receive(process, timeout, turn.number, notice_after, notice) {
                 Ok(answer) => answer,
-                Err(no_line) => return Err(self.failed(no_line, turn)),
+                Err(no_line) => return Err(self.failed(no_line, turn, attempt)),
             };
             match read(&answer, turn) {
                 Ok(action) => return Ok(Choice { action, validity: Validity::Valid }),
@@ -263,12 +299,26 @@ struct Addressed {
 }
 
 /// Returns the next answer. Answers to an earlier turn are skipped, so that an agent that names turns cannot get out of
-/// step; the timeout keeps running meanwhile.
-fn receive(process: &LineProcess, timeout: Duration, turn: u64) -> Result<Vec<u8>, NoLine> {
+/// step; the timeout keeps running meanwhile. After `notice_after` it calls `notice` once.
+fn receive(
+    process: &LineProcess,
+    timeout: Duration,
+    turn: u64,
+    mut notice_after: Option<Duration>,
+    notice: impl Fn(),
+) -> Result<Vec<u8>, NoLine> {
     let (asked, mut stale) = (Stopwatch::start(), 0);
     loop {
         let left = timeout.checked_sub(asked.elapsed()).ok_or(NoLine::TimedOut)?;
-        let answer = process.receive(left)?;
+        let quiet = notice_after.map(|after| after.saturating_sub(asked.elapsed()));
+        let answer = match process.receive(quiet.map_or(left, |quiet| quiet.min(left))) {
+            Err(NoLine::TimedOut) if quiet.is_some_and(|quiet| quiet < left) => {
+                notice_after = None;
+                notice();
+                continue;
+            }
+            answer => answer?,
+        };
         if !serde_json::from_slice::<Addressed>(&answer).is_ok_and(|addressed| addressed.turn < turn) {
             return Ok(answer);
         }

@@ -224,6 +224,30 @@ fn late_answers_do_not_extend_the_timeout() {
     assert!(message.contains("more than 1024 KiB of answers to earlier steps at step 1"), "{message}");
 }
 
+/// The user is told before the time is over that the agent ignores `invalid` messages.
+#[test]
+fn silence_after_an_invalid_answer_is_reported() {
+    let script = "read hello; read turn; echo '{\"action\":\"fly\"}'; exec sleep 600";
+    let mut board = Board::with(script, Duration::from_millis(600));
+    let shown = Arc::new(std::sync::Mutex::new(Vec::new()));
+    let notices = shown.clone();
+    let agent = std::mem::replace(&mut board.agent, Process::new("x", ProcessConfig::default()).unwrap());
+    board.agent = agent.with_notices(Arc::new(move |words| notices.lock().unwrap().push(words.to_owned())));
+    let message = board.failure();
+    let refused = "did not answer at step 0 within 0.6 s after its answer was refused as `invalid`";
+    assert!(message.contains(refused), "{message}");
+    let shown = shown.lock().unwrap();
+    assert_eq!(shown.len(), 1, "{shown:?}");
+    assert!(shown[0].contains("does not answer since its answer at step 0 was refused"), "{shown:?}");
+    // An answer in time needs no notice.
+    let mut prompt = Board::of(
+        "read hello; read turn; echo '{\"action\":\"fly\"}'; read invalid; echo '{\"action\":\"up\"}'; exec sleep 600",
+    );
+    let agent = std::mem::replace(&mut prompt.agent, Process::new("x", ProcessConfig::default()).unwrap());
+    prompt.agent = agent.with_notices(Arc::new(|words| panic!("{words}")));
+    assert_eq!(prompt.decide().map(|choice| choice.action), Ok(Action::Up));
+}
+
 #[test]
 fn failures_are_reported_with_the_end_of_stderr() {
     let check = |script: &str, timeout: Duration, expected: &[&str]| {
