@@ -197,7 +197,8 @@ fn mint(
         draft.commit()?;
         let place = out.display().to_string();
         console.document(&json!({ "out": place, "shard": shard.to_string(), "lots": jobs.len() }))?;
-        console.say(format_args!("shard {shard} of `{}`: {} jobs, in {place}", plan.recipe.name, jobs.len()));
+        let jobs = crate::counted::count(jobs.len(), "job");
+        console.say(format_args!("shard {shard} of `{}`: {jobs}, in {place}", plan.recipe.name));
         if plan.is_sealed() {
             console.say("keep it private: it contains winning episodes");
         }
