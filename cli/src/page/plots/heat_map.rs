@@ -101,4 +101,24 @@ mod tests {
         assert!(!svg.contains("NaN") && svg.contains("small &amp; &quot;wise&quot;"));
         assert_eq!(svg.matches("<g ").count(), svg.matches("</g>").count());
     }
+
+    #[test]
+    fn titles_of_groups_stay_above_their_columns() {
+        let groups = ["hands-off-the-fuse-cord", "the-kneaders-stand"];
+        let groups = groups.map(|name| (name.to_owned(), vec!["0".to_owned()]));
+        let svg = heat_map(&HeatMap {
+            label: "win rate",
+            rows: &[label("random", "")],
+            groups: &groups,
+            cells: &[vec![Some(0.0), Some(1.0)]],
+            scale: [0.0, 1.0],
+            show: |value| format!("{value}"),
+        });
+        // The second title starts a cell and a gap later; a letter is less than eight pixels wide.
+        let letters = ((CELL[0] + GAP) / 8.0) as usize;
+        let titles: Vec<&str> =
+            svg.split("class=\"head\">").skip(1).map(|rest| rest.split('<').next().unwrap()).collect();
+        assert_eq!(titles, ["ha…rd", "th…nd"]);
+        assert!(titles.iter().all(|title| title.chars().count() <= letters), "{titles:?}");
+    }
 }
