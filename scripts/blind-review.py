@@ -12,18 +12,13 @@ import argparse
 import json
 import pathlib
 import random
-import subprocess
 import tempfile
 
-from PIL import Image
+from filmstrip import frames, run, sheet
 
 FRAMES = 8
 PLANNER = "olets:300"
 TICKS = 160
-
-
-def run(arcade, *args):
-    return subprocess.run([arcade, *args], capture_output=True, text=True, check=False, timeout=300)
 
 
 def game_file(folder):
@@ -62,19 +57,7 @@ def filmstrip(arcade, game, number, out, seed):
                     break
         if best is None:
             return
-        frames = Image.open(best[0])
-        count = getattr(frames, "n_frames", 1)
-        picked = sorted({round(at * (count - 1) / (FRAMES - 1)) for at in range(FRAMES)})
-        pictures = []
-        for at in picked:
-            frames.seek(at)
-            pictures.append(frames.convert("RGB"))
-        width, height = max(p.width for p in pictures), max(p.height for p in pictures)
-        columns = 4
-        sheet = Image.new("RGB", (columns * (width + 6), -(-len(pictures) // columns) * (height + 6)), "white")
-        for at, picture in enumerate(pictures):
-            sheet.paste(picture, ((at % columns) * (width + 6), at // columns * (height + 6)))
-        sheet.save(out)
+        sheet(frames(best[0], FRAMES), 4).save(out)
 
 
 def main():

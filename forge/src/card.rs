@@ -56,6 +56,9 @@ pub struct LevelCard {
     pub rows: usize,
     /// The generator that made it.
     pub generator: String,
+    /// Its question to the player, in a sentence, if it is a level of a course.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asks: Option<String>,
     /// The difficulty that was requested, from 0 to 1.
     pub difficulty: f64,
     /// The index of the candidate among those for its place, from 0.

@@ -152,8 +152,12 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
             format!("{motion}, {harm}")
         }
         Glyph::Prey if !motion.is_empty() => format!("{}, {motion}", glyph.meaning()),
-        Glyph::Neutral | Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),
-        Glyph::Gate if form.has_face() => "in the way until dealt with".to_owned(),
+        Glyph::Neutral if blocks() => "solid".to_owned(),
+        Glyph::Neutral => harm.to_owned(),
+        Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),
+        Glyph::Gate => "in the way until opened or removed".to_owned(),
+        Glyph::Wall if !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
+        Glyph::Ward if analysis.facts(stype).fleeting => "soon gone".to_owned(),
         _ => glyph.meaning().to_owned(),
     }
 }

@@ -214,6 +214,7 @@ pub(crate) mod tests {
             columns: 9,
             rows: 9,
             generator: "g".to_owned(),
+            asks: None,
             difficulty: 0.5,
             candidate: 0,
             witness_ticks: 9,

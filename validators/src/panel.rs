@@ -380,19 +380,19 @@ fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Returns the reason why a failed or unknown verdict on the rules is only a consequence of levels that cannot be
-/// won.
+/// Returns the reason why a verdict on the rules is only a consequence of levels that cannot be won, or says nothing
+/// since none can.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());
     }
     let (lost, all) = (reports.iter().filter(|report| report.is_unwinnable()).count(), reports.len());
     match verdict {
-        Verdict::Pass { .. } => None,
         _ if lost == 0 => None,
         _ if lost == all => {
             Some(if all == 1 { UNWINNABLE } else { "skipped: no level can be won" }.to_owned())
         }
+        Verdict::Pass { .. } => None,
         // A proof over all levels holds even if some cannot be won.
         Verdict::Fail { .. } => None,
         Verdict::Unknown { .. } => Some(format!("skipped: {lost} of {all} levels cannot be won")),

@@ -46,12 +46,19 @@ impl GameValidator for RuleUse {
                 guards.push(Evidence::new(text).of_rule(rule));
                 continue;
             }
-            let (why, list) = match meets(analysis, recording, &reaches, line) {
-                false => (": its sprites can never meet", &mut dead),
-                true => ("", &mut unseen),
+            let (text, advice, list) = match meets(analysis, recording, &reaches, line) {
+                false => (
+                    format!("`{}` never runs: its sprites can never meet", rule.text),
+                    "remove it, or add a level that needs it",
+                    &mut dead,
+                ),
+                true => (
+                    format!("`{}` was not seen to run", rule.text),
+                    "play it by hand; if it cannot run, remove it or add a level that needs it",
+                    &mut unseen,
+                ),
             };
-            let text = format!("`{}` never runs{why}", rule.text);
-            list.push(Evidence::new(text).of_rule(rule).advise("remove it, or add a level that needs it"));
+            list.push(Evidence::new(text).of_rule(rule).advise(advice));
         }
         let verdict = match (dead.first(), unseen.is_empty()) {
             (Some(first), _) => Verdict::fail(with_count(&first.text, dead.len() - 1)),

@@ -3,7 +3,7 @@
 use crate::card::LevelCard;
 use crate::tally::Tally;
 use engine::{Digest, Episode, Game, Level, Seed};
-use generators::kernels::{Course, Slot};
+use generators::kernels::{Course, CourseLevel, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use validators::{Criteria, Finding, Judgement, Panel, Rate, Report, SkillOverall, mcts_rate};
@@ -17,6 +17,8 @@ pub struct FoundLevel {
     pub report: Report,
     /// The generator that made it.
     pub generator: &'static str,
+    /// Its question to the player, if it is one of a course.
+    pub asks: Option<String>,
     /// The difficulty that its generator was asked for, from 0 to 1.
     pub difficulty: f64,
     /// Its number among the candidates for its place, from 0.
@@ -62,12 +64,15 @@ enum PlaceGenerator<'a> {
 }
 
 impl PlaceGenerator<'_> {
-    fn generate(&self, game: &Game, seed: Seed) -> Result<Level, GenerateError> {
+    /// Generates a level, and its question to the player if it is one of a course.
+    fn generate(&self, game: &Game, seed: Seed) -> Result<(Level, Option<String>), GenerateError> {
         match self {
-            PlaceGenerator::Rules(levels) => levels.generate(seed),
+            PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None)),
             PlaceGenerator::Course(course, slot) => {
-                let text = course.level(*slot, seed)?.text;
-                game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))
+                let CourseLevel { text, asks, .. } = course.level(*slot, seed)?;
+                let level =
+                    game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))?;
+                Ok((level, Some(asks)))
             }
         }
     }
@@ -209,7 +214,9 @@ impl Levels<'_> {
         let panel =
             Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
         let (place, mut carried) = ((found.difficulty, found.candidate), found.report.judgements.clone());
+        let asks = found.asks.clone();
         let mut found = self.judged(&panel, game, level, place, found.seed, tally)?;
+        found.asks = asks;
         carried.retain(|judgement| PLAYED.contains(&judgement.criterion));
         for judgement in &mut carried {
             for episode in &mut judgement.finding.episodes {
@@ -242,19 +249,19 @@ impl Levels<'_> {
         };
         for candidate in 0..self.tries {
             let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
-            let level = match generator.generate(game, seed.child("layout", 0)) {
-                Ok(level) if taken.contains(&level.digest()) => {
+            let (level, asks) = match generator.generate(game, seed.child("layout", 0)) {
+                Ok((level, _)) if taken.contains(&level.digest()) => {
                     tally.level(0, Some("the same level twice"));
                     continue;
                 }
-                Ok(level) => level,
+                Ok(generated) => generated,
                 Err(_) => {
                     tally.level(0, Some("level generator"));
                     continue;
                 }
             };
             if let Some(found) = self.judged(self.panel, game, level, (difficulty, candidate), seed, tally) {
-                return Some(found);
+                return Some(FoundLevel { asks, ..found });
             }
         }
         None
@@ -277,6 +284,7 @@ impl Levels<'_> {
             level,
             report,
             generator: self.source.name(),
+            asks: None,
             difficulty,
             candidate,
             seed,
@@ -317,6 +325,7 @@ impl FoundLevel {
             columns: self.level.columns(),
             rows: self.level.rows(),
             generator: self.generator.to_owned(),
+            asks: self.asks.clone(),
             difficulty: self.difficulty,
             candidate: self.candidate,
             witness_ticks: witness.actions.len(),

@@ -124,27 +124,29 @@ impl<'a> Maker<'a> {
 
     /// Each game by itself; one that is near to earlier ones, or of a crowded kind, makes way for the next of its place.
     fn one_by_one(&self) -> GameSet {
-        let numbers = (0..self.order.count).into_par_iter();
-        let mut attempted: Vec<Attempted> = numbers.map(|number| self.attempt(number, 0)).collect();
         let mut company = Company::of(self.order);
         let mut set = GameSet { games: Vec::new(), tally: Tally::default(), looks: 0 };
-        for (number, attempted) in (0..).zip(&mut attempted) {
-            while let Some((game, next)) = attempted.made.take() {
-                match company.welcome(&game) {
-                    Ok(()) => {
-                        set.games.push(game);
-                        break;
+        let mut games = BTreeMap::new();
+        let mut open: Vec<(u32, u32)> = (0..self.order.count).map(|number| (number, 0)).collect();
+        while !open.is_empty() {
+            let attempt = |&(number, from): &(u32, u32)| (number, self.attempt(number, from));
+            let attempted: Vec<(u32, Attempted)> = open.par_iter().map(attempt).collect();
+            open.clear();
+            for (number, mut attempted) in attempted {
+                if let Some((game, next)) = attempted.made {
+                    match company.welcome(&game) {
+                        Ok(()) => drop(games.insert(number, game)),
+                        Err(why) => {
+                            attempted.tally.taken_back(why);
+                            open.push((number, next));
+                        }
                     }
-                    Err(why) => attempted.tally.taken_back(why),
                 }
-                let again = self.attempt(number, next);
-                attempted.made = again.made;
-                attempted.tally.add(&again.tally);
-                attempted.looks += again.looks;
+                set.tally.add(&attempted.tally);
+                set.looks += attempted.looks;
             }
-            set.tally.add(&attempted.tally);
-            set.looks += attempted.looks;
         }
+        set.games = games.into_values().collect();
         set
     }
 
@@ -154,11 +156,13 @@ impl<'a> Maker<'a> {
         let seed = self.seed.child("game", u64::from(number));
         for attempt in from..self.order.effort.attempts {
             let seed = seed.child("attempt", u64::from(attempt));
-            let passes = attempt / self.order.effort.patience.max(1);
+            let patience = self.order.effort.patience.max(1);
+            let passes = attempt / patience;
             let drawn = KernelGenome::in_turn(&self.turns, number, passes, seed.child("rules", 0));
             let Some(drawn) = drawn else { break };
             let proposed = match self.order.method {
-                Method::Constructive => vec![drawn],
+                Method::Constructive if (attempt + 1) % patience == 0 => vec![drawn],
+                Method::Constructive => self.promising(drawn, seed, &mut attempted),
                 _ => self.searched(&drawn, seed.child("search", 0), &mut attempted),
             };
             if proposed.is_empty() {
@@ -176,6 +180,15 @@ impl<'a> Maker<'a> {
             }
         }
         attempted
+    }
+
+    /// The game, if a look at it promises something: the judges cost many looks. The last game of a kernel before its turn
+    /// passes is judged in any case, since some are beyond the players of a look.
+    fn promising(&self, drawn: KernelGenome, seed: Seed, attempted: &mut Attempted) -> Vec<KernelGenome> {
+        self.progress.looked();
+        let look = Looker::new(seed.child("look", 0)).look(&drawn);
+        attempted.note(&look);
+        if look.is_promising { vec![drawn] } else { Vec::new() }
     }
 
     /// The best games of a search that starts from games of the same kind.

@@ -110,6 +110,7 @@ impl Choices<'_> {
             description.sprites.extend(graft.sprites.iter().cloned());
             description.interactions.extend(graft.interactions.iter().cloned());
         }
+        score(&mut description, &mut self.nouns.child("score", 0).sampler());
         let mut sampler = self.nouns.sampler();
         let nouns = self.cast(&mut sampler)?;
         let traits = traits(&description);
@@ -346,6 +347,23 @@ fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nou
         };
         line.params.extend(picture.map(|picture| Param::new("img", picture)));
         picture_lines(&mut line.children, roles, nouns);
+    }
+}
+
+/// Changes the points of a game as authors' habits differ: as the kernel has them, one at a time, or no penalties.
+fn score(description: &mut Description, sampler: &mut Sampler) {
+    let habit = sampler.below(3);
+    for line in &mut description.interactions {
+        let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
+        match habit {
+            0 => {}
+            1 => {
+                for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
+                    param.value = if is_penalty(param) { "-1" } else { "1" }.into();
+                }
+            }
+            _ => line.params.retain(|param| !is_penalty(param)),
+        }
     }
 }
 

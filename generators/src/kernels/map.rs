@@ -50,7 +50,7 @@ pub(crate) enum Size {
 /// The interior walls of a room.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Style {
-    /// Now and then a symmetric pair of pillars.
+    /// Worn corners now and then.
     #[default]
     Plain,
     Open,

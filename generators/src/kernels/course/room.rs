@@ -166,11 +166,14 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
     let mut wall = |x: usize, y: usize| board.put((area.left + x, area.top + y), Some("wall"));
     match style {
         Style::Open => {}
+        // Worn corners: nobody builds two posts into every room.
         Style::Plain => {
-            if width >= 5 && height >= 3 && sampler.ratio(2, 5) {
-                let y = height / 2;
-                wall(1, y);
-                wall(width - 2, y);
+            if width >= 4 && height >= 3 {
+                for (x, y) in [(0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)] {
+                    if sampler.ratio(1, 3) {
+                        wall(x, y);
+                    }
+                }
             }
         }
         Style::Pillars => {
@@ -197,9 +200,16 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             }
         }
         Style::Ring => {
+            // A large block has an aisle, so that there are two loops; its corners may be gone.
+            let aisle = |size: usize| (size >= 7).then_some(size / 2);
+            let (aisle_x, aisle_y) = (aisle(width), aisle(height).filter(|_| width < 7));
+            let is_worn = width > 5 && height > 5 && sampler.ratio(1, 2);
             for y in 1..height - 1 {
                 for x in 1..width - 1 {
-                    wall(x, y);
+                    let at_corner = (x == 1 || x == width - 2) && (y == 1 || y == height - 2);
+                    if aisle_x != Some(x) && aisle_y != Some(y) && !(is_worn && at_corner) {
+                        wall(x, y);
+                    }
                 }
             }
         }

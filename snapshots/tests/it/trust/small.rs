@@ -93,6 +93,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
             columns: level.columns(),
             rows: level.rows(),
             generator: "constructive".into(),
+            asks: None,
             difficulty: 0.0,
             candidate: 0,
             witness_ticks: episode.actions.len(),
