@@ -1,6 +1,7 @@
 //! `arcade export`: a snapshot as a dataset, as folders of games, or as one file.
 
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::verbs::release::in_pool;
@@ -124,7 +125,7 @@ fn archive(args: &Args, console: &Console) -> Answer {
             "an archive is the whole release, with its solutions: omit --twin and --solutions, or choose another --format"
         );
     }
-    let Packed { root, digest, unpacked, size } = match pack(&args.snapshot, &args.out) {
+    let Packed { root, digest, unpacked, size, papers } = match pack(&args.snapshot, &args.out) {
         Ok(packed) => packed,
         Err(error @ SnapshotError::Unsound { .. }) => {
             console.document(&json!({ "problems": [error.to_string()] }))?;
@@ -135,10 +136,15 @@ fn archive(args: &Args, console: &Console) -> Answer {
     };
     console.document(&json!({
         "out": args.out.display().to_string(), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
+        "papers_left_out": papers,
     }))?;
     console
         .say(format_args!("{}: {size} bytes, {unpacked} unpacked, of digest {digest}", args.out.display()));
     console.say(format_args!("root {root}"));
+    if papers > 0 {
+        let papers = count(papers, "file");
+        console.say(format_args!("papers/ ({papers}) is not in the archive: publish that folder beside it"));
+    }
     Ok(true)
 }
 

@@ -136,7 +136,12 @@ fn twins_are_rows_and_games() {
 #[test]
 fn archives_hold_the_whole_release() {
     let folder = TINY.path();
-    run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0);
+    let output = run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0);
+    let said = text(&output.stdout);
+    assert!(
+        said.ends_with("papers/ (4 files) is not in the archive: publish that folder beside it\n"),
+        "{said}"
+    );
     let root = |place: &str| {
         let output = run(folder, &["--json", "verify", place], 0);
         serde_json::from_slice::<Value>(&output.stdout).unwrap()["root"].clone()

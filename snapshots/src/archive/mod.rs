@@ -57,6 +57,8 @@ pub struct Packed {
     pub unpacked: u64,
     /// Bytes of the file.
     pub size: u64,
+    /// The number of papers beside the release, which are not packed.
+    pub papers: usize,
 }
 
 /// Packs the release folder `root` into the file `out`, which must not exist. The same release gives the same
@@ -80,7 +82,7 @@ pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
             more: integrity.problems.len() - 1,
         });
     }
-    let manifest = integrity.manifest;
+    let (manifest, papers) = (integrity.manifest, integrity.beside.papers.len());
     if fs::symlink_metadata(out).is_ok() {
         return Err(SnapshotError::Taken(out.to_path_buf()));
     }
@@ -89,7 +91,7 @@ pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     let packed = pack_into(root, &manifest, &mut file, &partial)?;
     drop(file);
     draft.commit_single()?;
-    Ok(packed)
+    Ok(Packed { papers, ..packed })
 }
 
 fn pack_into(
@@ -142,6 +144,7 @@ fn pack_into(
         digest: Digest::from_bytes(*hasher.finalize().as_bytes()),
         unpacked,
         size,
+        papers: 0,
     })
 }
 
