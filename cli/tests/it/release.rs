@@ -438,6 +438,14 @@ fn non_snapshots_are_named() {
 #[test]
 fn replays_take_no_more_than_is_allowed() {
     let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100"], 1).stdout);
+    let expect = "tiny: not checked: the bound of 100 units of work is too small for its witnesses";
+    assert!(said.contains(expect) && !said.contains("NOT verify"), "{said}");
+    let output = run(TINY.path(), &["--json", "verify", "tiny", "--max-work", "100"], 1);
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["exceeded"], 100);
+    // Another root is a fault under any bound.
+    let root = "0".repeat(64);
+    let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100", "--root", &root], 1).stdout);
     assert!(said.contains("its witnesses take more than 100 units of work to replay"), "{said}");
     run(TINY.path(), &["verify", "tiny", "--max-work", "100000000"], 0);
 }

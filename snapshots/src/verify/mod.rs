@@ -59,6 +59,9 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// The units of work that the replays took, at most the bound; see [`Bounds`].
     pub work: u64,
+    /// The bound, if the replays together take more; then no witness was judged, which is among the problems.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exceeded: Option<u64>,
     /// The number of papers beside the release, which its root does not cover.
     pub papers: usize,
     /// Files that other programs left beside the release, by name; they are not read.
@@ -108,6 +111,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     }
     let mut games = Vec::new();
     let mut work = 0;
+    let mut exceeded = None;
     if problems.is_empty() {
         let folders = namesakes(game_folders(&manifest, &mut problems));
         let meter = Meter::new(bounds.of(declared_levels(&manifest)));
@@ -120,8 +124,9 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         let checked: Vec<Vec<GameCheck>> =
             folders.par_iter().map(|folders| checker.namesakes(folders)).collect::<Result<_, _>>()?;
         games = checked.into_iter().flatten().collect();
-        work = meter.exceeded().unwrap_or(meter.spent());
-        match meter.exceeded() {
+        exceeded = meter.exceeded();
+        work = exceeded.unwrap_or(meter.spent());
+        match exceeded {
             // The replays that finished depend on the threads, so no results of replays are reported.
             Some(limit) => problems.push(format!(
                 "games: its witnesses take more than {limit} units of work to replay, the bound for {} levels",
@@ -152,6 +157,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
             false => Witnesses::NotReplayed { semantics: manifest.semantics },
         },
         work,
+        exceeded,
         name: manifest.name.clone(),
         problems,
         manifest,

@@ -27,7 +27,8 @@ use std::path::{Path, PathBuf};
 /// file that proves one file or one game; with --item, --proof and --root, checks such a proof against the file or
 /// the game's folder alone.
 ///
-/// Exit status 0: sound. 1: not sound, with every problem named, or not replayed. 2: not a snapshot.
+/// Exit status 0: sound. 1: not sound, with every problem named, or not replayed, or not checked because the bound is
+/// too small. 2: not a snapshot.
 ///
 /// Example: arcade verify releases/starter
 #[derive(clap::Args)]
@@ -126,11 +127,18 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 fn say(verification: &Verification, args: &Args, console: &Console) {
-    let Verification { name, root, files, games, levels, witnesses, papers, ignored, problems, .. } =
-        verification;
+    let Verification {
+        name, root, files, games, levels, witnesses, exceeded, papers, ignored, problems, ..
+    } = verification;
     let (files, games, levels) = (count(*files, "file"), count(*games, "game"), count(*levels, "level"));
     for problem in problems {
         console.say(one_line(problem));
+    }
+    if let (Some(bound), [_]) = (exceeded, &problems[..]) {
+        return console.say(format_args!(
+            "{name}: not checked: the bound of {bound} units of work is too small for its witnesses; --max-work sets \
+             another"
+        ));
     }
     if !problems.is_empty() {
         return console.say(format_args!("{name}: does NOT verify; problems: {}", problems.len()));
