@@ -262,6 +262,13 @@ fn is_file(recipe: &Path) -> bool {
     recipe.extension().is_some_and(|extension| extension == "toml")
 }
 
+/// Returns `true` if a name is that of a month, such as 2026-12.
+fn is_month(name: &str) -> bool {
+    let is_number =
+        |text: &str, digits: usize| text.len() == digits && text.bytes().all(|byte| byte.is_ascii_digit());
+    name.split_once('-').is_some_and(|(year, month)| is_number(year, 4) && is_number(month, 2))
+}
+
 /// Finds the recipe that the user names, read by `read`.
 fn find_recipe(path: &Path, read: impl Fn(&str) -> Result<Recipe, RecipeError>) -> Result<Recipe, Failure> {
     let name = path.to_string_lossy();
@@ -275,6 +282,11 @@ fn find_recipe(path: &Path, read: impl Fn(&str) -> Result<Recipe, RecipeError>) 
         let file = path.with_extension("toml");
         let help = match near {
             _ if file.is_file() => format!("to read your file, name it: {}", shell::quoted(&file)),
+            Some(near) if is_month(&name) && is_month(near) => format!(
+                "did you mean `{near}`? The recipe of another month is a file of its own: `arcade recipes show {near} > \
+                 {file}`, change its `name` and `seed`, and `arcade release {file}`",
+                file = file.display()
+            ),
             Some(near) => format!("did you mean `{near}`? Or name a .toml file"),
             None => format!("there are {}, or name a .toml file", known.join(", ")),
         };
