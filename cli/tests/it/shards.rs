@@ -168,12 +168,33 @@ fn full_disks_report_how_to_continue() {
     let folder = home.path();
     recipe(folder);
     // Files of at most a kilobyte or so: no job has room.
-    let script = "trap '' XFSZ; ulimit -f 2; exec \"$0\" release slices.toml --out 'my release'";
-    let binary = env!("CARGO_BIN_EXE_arcade");
-    let output = Command::new("sh").args(["-c", script, binary]).current_dir(folder).output().unwrap();
-    let said = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("continue with: arcade release slices.toml --out 'my release' --resume"), "{said}");
+    let full = |resume: &str| {
+        let mint = format!("exec \"$0\" release slices.toml --out 'my release' {resume}");
+        let script = format!("trap '' XFSZ; ulimit -f 2; {mint}");
+        let binary = env!("CARGO_BIN_EXE_arcade");
+        let output = Command::new("sh").args(["-c", &script, binary]).current_dir(folder).output().unwrap();
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{said}");
+        assert!(
+            said.contains("continue with: arcade release slices.toml --out 'my release' --resume"),
+            "{said}"
+        );
+        said
+    };
+    let said = full("");
+    assert!(!said.contains("finished jobs are kept"), "{said}");
+    // Finish the jobs of a recipe from which nothing can be selected.
+    greedy(folder);
+    run(folder, &["release", "slices.toml", "--out", "my release", "--resume"], 2);
+    recipe(folder);
+    let said = full("--resume");
+    assert!(said.contains("finished jobs are kept; once this is fixed"), "{said}");
+}
+
+/// Writes a recipe that asks for more games of a kind than its candidates have.
+fn greedy(folder: &Path) {
+    let greedy = format!("{RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
+    fs::write(folder.join("slices.toml"), greedy).unwrap();
 }
 
 /// Finished jobs are kept if only the selection changes.
@@ -182,8 +203,7 @@ fn more_candidates_reuse_finished_jobs() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     // More games than there are candidates for: a kind for which no single pattern set has two games.
-    let greedy = format!("{RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
-    fs::write(folder.join("slices.toml"), greedy).unwrap();
+    greedy(folder);
     let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
     assert!(said.contains("avatar watches 0 (asked 2 to 2)"), "{said}");
     recipe(folder);

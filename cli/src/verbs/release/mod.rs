@@ -22,6 +22,7 @@ use snapshots::version::CURRENT;
 use snapshots::{
     Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Secret, check_integrity, follow,
 };
+use std::fs;
 use std::path::{Path, PathBuf};
 use summary::summary;
 
@@ -144,7 +145,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     minted.map_err(|failure| match failure {
         // The finished jobs are kept.
         Failure::Environment(_) => Failure::Environment(anyhow::anyhow!(
-            "{failure}\nfinished jobs are kept; once this is fixed, continue with: {}",
+            "{failure}\n{}once this is fixed, continue with: {}",
+            if has_finished_jobs(&out) { "finished jobs are kept; " } else { "" },
             args.resumed(&out)
         )),
         other => other,
@@ -166,6 +168,13 @@ fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) 
     Ok(found.problems.is_empty()
         && minted_from.as_ref() == Some(recipe)
         && (minted_by.generation, minted_by.semantics) == (CURRENT.generation, CURRENT.semantics))
+}
+
+/// Returns `true` if the unfinished folder of `out` holds the result of a job.
+fn has_finished_jobs(out: &Path) -> bool {
+    let jobs = Draft::jobs_of(out).and_then(|jobs| fs::read_dir(jobs).ok());
+    let is_result = |entry: fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
+    jobs.is_some_and(|jobs| jobs.flatten().any(is_result))
 }
 
 /// Runs the jobs, and makes the shard or the release of them.
