@@ -103,7 +103,10 @@ pub enum SnapshotError {
     #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .0.display())]
     NotAFolder(PathBuf),
     /// The path is inside a `.partial` folder.
-    #[error("`{}` is unfinished: its minting was interrupted, mint it again", .0.display())]
+    #[error(
+        "`{}` is unfinished: continue its mint with `arcade release RECIPE --out {} --resume`, or mint it again",
+        .0.display(), finished(.0)
+    )]
     Unfinished(PathBuf),
     /// The manifest's format is newer than those that this binary knows.
     #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
@@ -173,6 +176,12 @@ pub enum SnapshotError {
     /// Two items have the same path.
     #[error(transparent)]
     DuplicatePath(#[from] DuplicatePath),
+}
+
+/// The folder that a `.partial` folder, or something in it, will become, for messages.
+fn finished(unfinished: &Path) -> String {
+    let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
+    draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").display().to_string())
 }
 
 impl SnapshotError {

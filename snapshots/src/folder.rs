@@ -153,7 +153,7 @@ pub(crate) fn same_file(a: &Metadata, b: &Metadata) -> bool {
 }
 
 /// Opens the regular file at `relative` below `root` without passing through a link.
-fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
+pub(crate) fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
     check_path(relative).map_err(|problem| SnapshotError::Path { path: relative.into(), problem })?;
     let mut path = root.to_path_buf();
     let mut components = relative.split('/').peekable();

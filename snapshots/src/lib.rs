@@ -84,7 +84,7 @@ pub use papers::{PAPERS, PAPERS_LIMITS, Untracked};
 pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
 pub use recipe::{CorpusPart, GeneratedPart, Known, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
-pub use regenerate::{RegenerateError, Regenerated, Regeneration};
+pub use regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
 pub use sealed::{COMMITS_TO_RECIPE_SINCE, HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
 pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
 pub use witness::Witness;

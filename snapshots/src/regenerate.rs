@@ -2,11 +2,13 @@
 
 use crate::corpus::Corpus;
 use crate::folder::{self, Limits};
+use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
 use crate::mint::{JobStore, MintError, Minted, Plan, Sink, lay_out};
 use crate::papers;
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::{SECRET_FILE, Secret, read_revealed};
+use crate::verify::refuse_unfinished;
 use crate::verify::version::impossible;
 use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, SnapshotError};
@@ -61,8 +63,17 @@ fn next_move(minted_by: &MintedBy) -> String {
 pub struct Regenerated {
     /// The new release.
     pub minted: Minted,
+    /// The result of comparing it.
+    pub compared: Compared,
+}
+
+/// A comparison of a release with a new one of the same recipe.
+#[derive(Clone, Debug)]
+pub struct Compared {
     /// The differences, each naming the file; empty if every byte is the same.
     pub differences: Vec<String>,
+    /// `false` if the folder holds only a manifest, which is all that was compared.
+    pub has_files: bool,
     /// `true` if it was minted with another set of dependencies (Cargo.lock), which is not a difference by itself.
     pub other_lockfile: bool,
 }
@@ -78,14 +89,19 @@ pub struct Regeneration {
 }
 
 impl Regeneration {
-    /// Reads the recipe of the release in the folder `root`, and its secret if it was revealed.
+    /// Reads the recipe of the release in the folder `root`, and its secret if it was revealed. Opens every file that
+    /// is to be compared, so that an unreadable one is reported before the jobs run.
     ///
     /// # Errors
-    /// The folder is no release, or this binary cannot mint it.
+    /// The folder is no release, it is damaged, or this binary cannot mint it.
     pub fn of(root: &Path) -> Result<Regeneration, RegenerateError> {
         if root.is_file() {
-            return Err(RegenerateError::NotAFolder);
+            return Err(match root.file_name().is_some_and(|name| name == MANIFEST_FILE) {
+                true => SnapshotError::NotASnapshot(root.to_path_buf()).into(),
+                false => RegenerateError::NotAFolder,
+            });
         }
+        refuse_unfinished(root)?;
         let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
             SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
                 SnapshotError::NotASnapshot(root.to_path_buf())
@@ -95,15 +111,15 @@ impl Regeneration {
         let manifest =
             Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
         let minted_by = manifest.minted_by();
+        let computed = manifest.computed_root()?;
+        let damage = impossible(&minted_by).or_else(|| {
+            (computed != manifest.root).then(|| "its root is not that of its content".to_owned())
+        });
+        if let Some(what) = damage {
+            return Err(RegenerateError::Damaged(what));
+        }
         if (minted_by.generation, minted_by.semantics) != (CURRENT.generation, CURRENT.semantics) {
-            let root = manifest.computed_root()?;
-            let damage = impossible(&minted_by).or_else(|| {
-                (root != manifest.root).then(|| "its root is not that of its content".to_owned())
-            });
-            return Err(match damage {
-                Some(what) => RegenerateError::Damaged(what),
-                None => RegenerateError::OtherVersion(minted_by),
-            });
+            return Err(RegenerateError::OtherVersion(minted_by));
         }
         let secret = match manifest.kind {
             ReleaseKind::Open => None,
@@ -113,8 +129,8 @@ impl Regeneration {
         let recipe: Recipe =
             serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
         recipe.check()?;
-        // Fails before minutes of minting if there is no folder to compare with.
-        Comparison::of(root)?;
+        // Fails before minutes of minting if the folder or one of its files cannot be read.
+        Comparison::of(root)?.open_all()?;
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
@@ -143,8 +159,35 @@ impl Regeneration {
             comparison.file(path, content)?;
             also(path, content)
         })?;
-        let differences = comparison.finish(&self.manifest, &self.bytes, &minted)?;
-        Ok(Regenerated { other_lockfile: self.manifest.lockfile != lockfile, minted, differences })
+        let compared = comparison.finish(&self.manifest, &self.bytes, &minted.manifest)?;
+        Ok(Regenerated { minted, compared })
+    }
+
+    /// Compares the release with the one in the folder `out`, if that is complete and was minted from the same recipe
+    /// by this version, and returns it with its manifest. Mints nothing.
+    ///
+    /// # Errors
+    /// There is a manifest in `out` that cannot be read, or the file system refuses.
+    pub fn compare_complete(&self, out: &Path) -> Result<Option<(Manifest, Compared)>, SnapshotError> {
+        let found = match check_integrity(out) {
+            Ok(found) => found,
+            Err(SnapshotError::NotASnapshot(_) | SnapshotError::NotAFolder(_)) => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let manifest = found.manifest;
+        let version = |manifest: &Manifest| (manifest.generation, manifest.semantics);
+        if !found.problems.is_empty()
+            || manifest.recipe != self.manifest.recipe
+            || version(&manifest) != version(&self.manifest)
+        {
+            return Ok(None);
+        }
+        let mut comparison = Comparison::of(&self.root)?;
+        for item in &manifest.items {
+            comparison.file(&item.path, &folder::read(out, &item.path, item.size)?)?;
+        }
+        let compared = comparison.finish(&self.manifest, &self.bytes, &manifest)?;
+        Ok(Some((manifest, compared)))
     }
 }
 
@@ -156,6 +199,8 @@ struct Comparison<'a> {
     /// Paths that already have a problem of their own.
     named: BTreeSet<String>,
     differences: Vec<String>,
+    /// `false` if the folder holds only a manifest.
+    has_files: bool,
 }
 
 impl Comparison<'_> {
@@ -165,13 +210,22 @@ impl Comparison<'_> {
         there.remove(MANIFEST_FILE);
         Ok(Comparison {
             root,
+            has_files: !(there.is_empty() && listing.problems.is_empty()),
             there,
             differences: listing.problems.iter().map(ToString::to_string).collect(),
             named: listing.problems.into_iter().map(|problem| problem.path).collect(),
         })
     }
 
+    /// Opens every file, to find those that cannot be read.
+    fn open_all(&self) -> Result<(), SnapshotError> {
+        self.there.iter().try_for_each(|path| folder::open(self.root, path).map(drop))
+    }
+
     fn file(&mut self, path: &str, content: &[u8]) -> Result<(), SnapshotError> {
+        if !self.has_files {
+            return Ok(());
+        }
         if !self.there.remove(path) {
             if !self.named.contains(path) {
                 self.differences.push(format!("{path}: missing"));
@@ -186,15 +240,19 @@ impl Comparison<'_> {
         mut self,
         manifest: &Manifest,
         bytes: &[u8],
-        minted: &Minted,
-    ) -> Result<Vec<String>, SnapshotError> {
+        minted: &Manifest,
+    ) -> Result<Compared, SnapshotError> {
         self.differences.extend(self.there.iter().map(|path| format!("{path}: not part of the release")));
-        let mut expected = Manifest { lockfile: manifest.lockfile, ..minted.manifest.clone() };
+        let mut expected = Manifest { lockfile: manifest.lockfile, ..minted.clone() };
         expected.seal_root()?;
         if expected.to_bytes()? != bytes {
             self.differences.push(format!("{MANIFEST_FILE}: differs"));
         }
         self.differences.sort();
-        Ok(self.differences)
+        Ok(Compared {
+            differences: self.differences,
+            has_files: self.has_files,
+            other_lockfile: manifest.lockfile != minted.lockfile,
+        })
     }
 }

@@ -7,16 +7,19 @@ use crate::failure::Answer;
 use crate::interrupt;
 use crate::protected;
 use crate::shell;
-use crate::verbs::release::{ProgressBars, commit, in_pool};
+use crate::verbs::release::{LONG, ProgressBars, commit, in_pool};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
-use snapshots::{Draft, Regeneration};
+use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
 ///
-/// Exit status 0: identical. 1: not identical, with every differing file named. 2: this arcade cannot mint it.
+/// Of a folder that holds only MANIFEST.json, the manifest alone is compared, with the root in it.
+///
+/// Exit status 0: identical. 1: not identical, with every differing file named. 2: this arcade cannot mint it, or its
+/// manifest is damaged. 128 + signal, such as 130 for Ctrl-C: interrupted; only with --out does --resume go on.
 ///
 /// Example: arcade regenerate releases/starter
 #[derive(clap::Args)]
@@ -47,6 +50,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     args.out.as_deref().map_or(Ok(()), protected::check)?;
     let corpus = embedded::corpus()?;
     let release = Regeneration::of(&args.snapshot)?;
+    if let (true, Some(out)) = (args.resume, &args.out)
+        && let Some((manifest, compared)) = release.compare_complete(out)?
+    {
+        return answer(args, &Answered { manifest: &manifest, compared: &compared, minted: false }, console);
+    }
     let plan = release.plan(&corpus)?;
     let open = if args.resume { Draft::resume } else { Draft::create };
     let draft = args.out.as_deref().map(open).transpose()?;
@@ -57,8 +65,22 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         None => Box::new(Memory::default()),
     };
-    if let Some(out) = &args.out {
-        interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
+    let (hint, told) = match &args.out {
+        Some(out) => {
+            let resumed = args.resumed(out);
+            (
+                format!("interrupted; continue with: {resumed}"),
+                format!("if interrupted, continue with: {resumed}"),
+            )
+        }
+        None => (
+            "interrupted; nothing is kept without --out".to_owned(),
+            "if interrupted, this starts over: only with --out does --resume go on".to_owned(),
+        ),
+    };
+    interrupt::watch(|| (), hint);
+    if plan.seconds(plan.jobs()) >= LONG {
+        console.remark(told);
     }
     let bars = ProgressBars::new(console);
     let result = in_pool(args.jobs, || {
@@ -71,26 +93,54 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     })??;
     bars.finish();
     interrupt::defer();
+    let Regenerated { minted, compared } = result;
     if let Some(draft) = draft {
-        commit(draft, &result.minted, str::to_owned)?;
+        commit(draft, &minted, str::to_owned)?;
     }
-    let identical = result.differences.is_empty();
-    let root = result.minted.manifest.root;
-    console.document(&json!({ "identical": identical, "differences": result.differences, "root": root }))?;
-    for difference in &result.differences {
+    answer(args, &Answered { manifest: &minted.manifest, compared: &compared, minted: true }, console)
+}
+
+/// A regenerated release, and its comparison with the original.
+struct Answered<'a> {
+    manifest: &'a Manifest,
+    compared: &'a Compared,
+    /// `false` if an earlier run has written it.
+    minted: bool,
+}
+
+fn answer(args: &Args, Answered { manifest, compared, minted }: &Answered<'_>, console: &Console) -> Answer {
+    let Compared { differences, has_files, other_lockfile, .. } = compared;
+    let (root, identical) = (manifest.root, differences.is_empty());
+    let out = args.out.as_ref().map(|out| out.display().to_string());
+    let mut document = json!({ "identical": identical, "differences": differences, "root": root, "files_compared": has_files });
+    if let Some(out) = &out {
+        document["out"] = json!(out);
+        document["complete"] = json!(!minted);
+    }
+    console.document(&document)?;
+    if let (false, Some(out)) = (minted, &out) {
+        console.say(format_args!("already complete: {out}; nothing was minted"));
+    }
+    for difference in differences {
         console.say(difference);
     }
-    if result.other_lockfile {
+    if *other_lockfile {
         console.remark(
             "note: minted with another Cargo.lock than the original; only its digest in the manifest differs",
         );
     }
-    match identical {
-        true => console.say(format_args!(
-            "identical: the manifest and {}, root {root}",
-            count(result.minted.manifest.items.len(), "file")
+    let files = count(manifest.items.len(), "file");
+    match (identical, has_files) {
+        (true, true) => console.say(format_args!("identical: the manifest and {files}, root {root}")),
+        (true, false) => console.say(format_args!(
+            "{} has no files to compare with; the root of the regenerated release is {root}, the same as the \
+             manifest's",
+            args.snapshot.display()
         )),
-        false => console.say(format_args!("NOT identical; files that differ: {}", result.differences.len())),
+        (false, _) => console.say(format_args!("NOT identical; files that differ: {}", differences.len())),
+    }
+    if let (true, Some(out)) = (minted, &out) {
+        console.say(format_args!("the regenerated release is in {out}"));
     }
     Ok(identical)
 }

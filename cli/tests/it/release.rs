@@ -49,7 +49,8 @@ fn a_release_verifies_and_regenerates() {
     let out = unusual();
     let output = arcade(folder).args(["regenerate", "tiny", "--out"]).arg(&out).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert!(text(&output.stdout).starts_with("identical"), "{}", text(&output.stdout));
+    let said = text(&output.stdout);
+    assert!(said.starts_with("identical") && said.contains("the regenerated release is in one"), "{said}");
     assert_eq!(files(&folder.join("tiny")), files(&folder.join(out)));
 }
 
@@ -274,6 +275,123 @@ fn a_changed_version_is_damage() {
     assert!(said.contains("is damaged or was changed") && !said.contains("install"), "{said}");
 }
 
+/// A changed seed would mint another release, so it is reported before minting.
+#[test]
+fn a_changed_seed_is_damage() {
+    let (folder, root) = copy();
+    let manifest = fs::read_to_string(root.join("MANIFEST.json")).unwrap();
+    assert!(manifest.contains("a coin"), "{manifest}");
+    fs::write(root.join("MANIFEST.json"), manifest.replacen("a coin", "a corn", 1)).unwrap();
+    let output = run(folder.path(), &["regenerate", "tiny", "--out", "again"], 2);
+    let said = text(&output.stderr);
+    assert!(said.contains("its root is not that of its content"), "{said}");
+    assert_eq!(text(&output.stdout), "");
+    assert!(!folder.path().join("again").exists() && !folder.path().join("again.partial").exists());
+}
+
+/// Root may read any file, so there is nothing to test under it.
+#[cfg(unix)]
+#[test]
+fn unreadable_files_are_reported_before_minting() {
+    use std::os::unix::fs::PermissionsExt;
+    let (folder, root) = copy();
+    let file = root.join("CARD.json");
+    fs::set_permissions(&file, fs::Permissions::from_mode(0)).unwrap();
+    if fs::File::open(&file).is_ok() {
+        return;
+    }
+    let said = text(&run(folder.path(), &["regenerate", "tiny", "--out", "again"], 3).stderr);
+    assert!(said.contains("CARD.json") && said.contains("Permission denied"), "{said}");
+    assert!(!said.contains("jobs"), "{said}");
+}
+
+#[test]
+fn a_manifest_alone_is_regenerated() {
+    let (home, root) = copy();
+    let folder = home.path();
+    let manifest = fs::read(root.join("MANIFEST.json")).unwrap();
+    let alone = |name: &str| {
+        fs::create_dir(folder.join(name)).unwrap();
+        fs::write(folder.join(name).join("MANIFEST.json"), &manifest).unwrap();
+    };
+    alone("bare");
+    let said = text(&run(folder, &["regenerate", "bare", "--out", "full"], 0).stdout);
+    let root_of = snapshots::Manifest::parse(&manifest).unwrap().root;
+    let expect = format!(
+        "bare has no files to compare with; the root of the regenerated release is {root_of}, the same as the manifest's\n\
+         the regenerated release is in full\n"
+    );
+    assert_eq!(said, expect);
+    assert_eq!(files(&folder.join("full")), files(&root));
+    let output = run(folder, &["--json", "regenerate", "bare"], 0);
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&document["identical"], &document["files_compared"]), (&true.into(), &false.into()));
+    // With any of its files, the others are missing.
+    fs::write(folder.join("bare/README.md"), fs::read(root.join("README.md")).unwrap()).unwrap();
+    let said = text(&run(folder, &["regenerate", "bare"], 1).stdout);
+    assert!(said.contains("CARD.json: missing") && said.contains("NOT identical"), "{said}");
+}
+
+/// A finished folder is not minted again, and still compared.
+#[test]
+fn a_finished_regeneration_is_complete() {
+    let (home, root) = copy();
+    let folder = home.path();
+    copy_tree(&root, &folder.join("again"));
+    let regenerate = ["regenerate", "tiny", "--out", "again"];
+    let resumed = [&regenerate[..], &["--resume"]].concat();
+    let said = text(&run(folder, &resumed, 0).stdout);
+    assert!(said.starts_with("already complete: again; nothing was minted\nidentical: "), "{said}");
+    let document: serde_json::Value =
+        serde_json::from_slice(&run(folder, &[&resumed[..], &["--json"]].concat(), 0).stdout).unwrap();
+    assert_eq!((&document["out"], &document["complete"]), (&"again".into(), &true.into()));
+    let said = text(&run(folder, &regenerate, 2).stderr);
+    assert!(said.contains("is not an empty folder"), "{said}");
+    fs::write(root.join("README.md"), "x").unwrap();
+    let said = text(&run(folder, &resumed, 1).stdout);
+    assert!(said.contains("README.md: differs"), "{said}");
+    fs::write(folder.join("again/README.md"), "x").unwrap();
+    run(folder, &resumed, 2);
+}
+
+/// Without --out, an interruption loses the work: long runs say so at the start, and at the end.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_regeneration_ends_with_its_status() {
+    use std::io::{BufRead, BufReader};
+    let (home, root) = copy();
+    let path = root.join("MANIFEST.json");
+    let mut manifest = snapshots::Manifest::parse(&fs::read(&path).unwrap()).unwrap();
+    let recipe = snapshots::Recipe::from_toml(include_str!("../../../seeds/starter.toml")).unwrap();
+    manifest.recipe = serde_json::to_value(recipe).unwrap();
+    manifest.seal_root().unwrap();
+    fs::write(&path, manifest.to_bytes().unwrap()).unwrap();
+    let mut command = arcade(home.path());
+    command.args(["regenerate", "tiny", "--jobs", "1"]).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let first = lines.next().unwrap();
+    assert_eq!(first, "if interrupted, this starts over: only with --out does --resume go on");
+    std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(lines.last().as_deref(), Some("interrupted; nothing is kept without --out"));
+}
+
+#[test]
+fn recipes_of_other_months_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = text(&run(folder.path(), &["release", "2026-11"], 2).stderr);
+    for words in [
+        "did you mean `2026-12`?",
+        "`arcade recipes show 2026-12 > 2026-11.toml`",
+        "`arcade release 2026-11.toml`",
+    ] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    let said = text(&run(folder.path(), &["release", "startr"], 2).stderr);
+    assert!(said.contains("did you mean `starter`? Or name a .toml file"), "{said}");
+}
+
 /// A shard may have nothing to do.
 #[test]
 fn more_shards_than_jobs_are_reported() {
@@ -328,8 +446,18 @@ fn an_unpublished_tree_does_not_verify() {
     let (folder, root) = copy();
     fs::create_dir(folder.path().join("new.partial")).unwrap();
     fs::rename(&root, folder.path().join("new.partial/tree")).unwrap();
-    let output = run(folder.path(), &["verify", "new.partial/tree"], 2);
-    assert!(text(&output.stderr).contains("unfinished"), "{}", text(&output.stderr));
+    let resumed = "`arcade release RECIPE --out new --resume`";
+    for place in ["new.partial", "new.partial/tree"] {
+        for arguments in [
+            &["verify", place][..],
+            &["regenerate", place],
+            &["export", place, "--format", "archive", "--out", "new.tar.zst"],
+            &["export", place, "--format", "games", "--out", "games"],
+        ] {
+            let said = text(&run(folder.path(), arguments, 2).stderr);
+            assert!(said.contains("is unfinished") && said.contains(resumed), "{arguments:?}: {said}");
+        }
+    }
 }
 
 #[test]
@@ -430,8 +558,12 @@ fn non_snapshots_are_named() {
         let said = text(&run(folder, &["verify", place], 2).stderr);
         assert!(said.contains(what) && said.contains(takes), "{place}: {said}");
     }
-    let said = text(&run(folder, &["verify", "nowhere"], 2).stderr);
-    assert!(said.contains("`nowhere` does not exist"), "{said}");
+    for verb in ["verify", "regenerate"] {
+        let said = text(&run(folder, &[verb, "nowhere"], 2).stderr);
+        assert!(said.contains("`nowhere` does not exist"), "{said}");
+    }
+    let said = text(&run(folder, &["regenerate", "sealed/public/MANIFEST.json"], 2).stderr);
+    assert!(said.contains("is a manifest: name the folder that it is in"), "{said}");
 }
 
 /// The replay of witnesses is bounded, and the user can change the bound.
@@ -447,6 +579,7 @@ fn replays_take_no_more_than_is_allowed() {
     let root = "0".repeat(64);
     let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100", "--root", &root], 1).stdout);
     assert!(said.contains("its witnesses take more than 100 units of work to replay"), "{said}");
+    assert!(said.contains("tiny: does NOT verify; problems: 2"), "{said}");
     run(TINY.path(), &["verify", "tiny", "--max-work", "100000000"], 0);
 }
 

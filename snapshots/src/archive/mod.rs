@@ -29,6 +29,7 @@ use crate::manifest::{Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind
 use crate::papers::Untracked;
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
+use crate::verify::refuse_unfinished;
 use engine::Digest;
 use entry::{BLOCK, END, padding};
 use frame::{FrameReader, FrameWriter, Unreadable};
@@ -74,6 +75,7 @@ pub struct Packed {
 /// ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent; `out` exists, or the file system
 /// refuses.
 pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
+    refuse_unfinished(root)?;
     let integrity = check_integrity(root)?;
     if let Some(first) = integrity.problems.first() {
         return Err(SnapshotError::Unsound {

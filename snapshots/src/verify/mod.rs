@@ -255,7 +255,7 @@ fn carries(content: &[u8], canary: &str) -> bool {
 }
 
 /// Refuses `.partial` folders and everything inside them: even a complete release is none before its publication.
-fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
+pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),
         _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },

@@ -90,7 +90,7 @@ impl Args {
 }
 
 /// Seconds of one core from which a mint prints how to resume it.
-const LONG: f64 = 30.0;
+pub(crate) const LONG: f64 = 30.0;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.commit {
@@ -143,7 +143,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let minted = mint(args, &plan, &jobs, secret.as_ref(), draft, &out, console);
     minted.map_err(|failure| match failure {
-        // The finished jobs are kept.
         Failure::Environment(_) => Failure::Environment(anyhow::anyhow!(
             "{failure}\n{}once this is fixed, continue with: {}",
             if has_finished_jobs(&out) { "finished jobs are kept; " } else { "" },
