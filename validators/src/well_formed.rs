@@ -3,7 +3,7 @@
 use crate::ending::Ending;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
-use engine::{Action, Episode, Game, Limit, Outcome, SpriteClass};
+use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, Seed, SpriteClass};
 
 /// The game can be won in principle, is not over in its first tick, and does nothing that makes the engine stop.
 ///
@@ -24,7 +24,15 @@ impl Validator for WellFormed {
                 warning.code == "no-win"
                     || warning.code == "swapped-rule" && warning.message.contains("cannot be won")
             });
-            let reason = told.map_or("the game cannot be won", |warning| warning.message.as_str());
+            let swapped = told.and_then(|warning| swapped(game, warning));
+            let reason = match (&swapped, told) {
+                (Some(rule), _) => format!(
+                    "the game cannot be won with `{}` as it stands, and may be won with the two sides swapped",
+                    rule.text
+                ),
+                (None, Some(warning)) => warning.message.clone(),
+                (None, None) => "the game cannot be won".to_owned(),
+            };
             let help = told.and_then(|warning| warning.help.clone());
             let wins = analysis.goals().iter().filter(|goal| goal.win);
             let seen = wins.map(|goal| Evidence {
@@ -33,7 +41,9 @@ impl Validator for WellFormed {
                 advice: help.clone(),
                 ..Evidence::default()
             });
-            return Finding::from(Verdict::fail(reason)).seen(seen);
+            let swapped = swapped
+                .map(|rule| Evidence::new("this rule acts on the sprite that is named first").of_rule(rule));
+            return Finding::from(Verdict::fail(reason)).seen(swapped.into_iter().chain(seen));
         }
         let (mut episode, mut state) = Episode::begin(game, level, seed);
         let reason = match episode.play(game, &mut state, Action::Nil) {
@@ -51,6 +61,13 @@ impl Validator for WellFormed {
         let seen = Ending::of(analysis, level, &episode).evidence(game);
         Finding::from(Verdict::fail_with(reason, episode)).seen(seen)
     }
+}
+
+/// The interaction that a warning about swapped sides is about.
+fn swapped(game: &Game, warning: &Diagnostic) -> Option<Line> {
+    let mut lines = game.description().interactions.iter();
+    let line = lines.position(|line| line.first.span.start == warning.span.start)?;
+    (warning.code == "swapped-rule").then(|| Line::interaction(game, line))
 }
 
 /// The line of the first sprite that uses path finding.

@@ -371,6 +371,9 @@ fn a_swapped_rule_is_named_with_its_repair() {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     assert!(!said.contains("never-fires"), "{said}");
+    let headline = "FAILS well-formed: the game cannot be won with `avatar lamp > collectResource` as it stands, \
+                    and may be won with the two sides swapped (./game.vgdl:13)\n";
+    assert!(said.contains(headline), "{said}");
 }
 
 #[test]

@@ -20,7 +20,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
     let names = document.levels.iter().map(|level| level.level.len());
     let width = names.chain([source.name.len()]).max().unwrap_or_default();
     for level in &document.levels {
-        let _ = writeln!(text, "{:<width$}  {}", level.level, headline(level));
+        let _ = writeln!(text, "{:<width$}  {}", level.level, headline(level, source));
     }
     let passed = document.levels.iter().filter(|level| level.passes).count();
     let count = document.levels.len();
@@ -29,7 +29,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
         .iter()
         .find(|judgement| !judgement.finding.verdict.is_pass() && !is_skipped(&judgement.finding));
     let of_game = match together {
-        Some(judgement) => format!("; {}", obstacle(judgement)),
+        Some(judgement) => format!("; {}", obstacle(judgement, source)),
         None => String::new(),
     };
     let word = if document.passes { "passes" } else { "does not pass" };
@@ -64,10 +64,10 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
 }
 
 /// Returns the verdict on a level, in one line.
-fn headline(level: &LevelDocument<'_>) -> String {
+fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
     let Some(report) = level.report else { return "is not a level of this game".to_owned() };
     if let Some(judgement) = report.first_obstacle() {
-        return obstacle(judgement);
+        return obstacle(judgement, source);
     }
     let won =
         report.witness.as_ref().map_or(String::new(), |won| format!(": won in {} ticks", won.actions.len()));
@@ -78,10 +78,17 @@ fn headline(level: &LevelDocument<'_>) -> String {
     format!("passes{won}{hard}")
 }
 
-/// Returns the reason why a criterion is not passed, in one line.
-fn obstacle(Judgement { criterion, finding }: &Judgement) -> String {
+/// Returns the reason why a criterion is not passed, in one line, with the place of the rule that it quotes.
+fn obstacle(Judgement { criterion, finding }: &Judgement, source: &Named) -> String {
     match &finding.verdict {
-        Verdict::Fail { reason, .. } => format!("FAILS {criterion}: {}", reason.0),
+        Verdict::Fail { reason, .. } => {
+            let rules = finding.evidence.iter().filter_map(|seen| seen.rule.as_ref());
+            let line = rules
+                .filter(|rule| reason.0.contains(&format!("`{}`", rule.text)))
+                .find_map(|rule| rule.line);
+            let place = line.map_or(String::new(), |line| format!(" ({}:{line})", source.name));
+            format!("FAILS {criterion}: {}{place}", reason.0)
+        }
         _ => format!("not shown to pass {criterion}: {}", answer(criterion, finding)),
     }
 }
