@@ -8,6 +8,7 @@ use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::gates;
 use crate::recording::{Recorded, Usage, explore};
 use crate::too_soon;
+use crate::well_formed::is_over_at_once;
 use crate::{
     Case, Criteria, CriteriaError, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom,
     Reachable, Readable, RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
@@ -59,6 +60,9 @@ enum Subject {
 const UNWINNABLE: &str = "skipped: the level cannot be won";
 /// The message for criteria that are skipped because the game stops in its first tick.
 const STOPPED: &str = "skipped: the game stops in its first tick";
+/// The message for criteria that are skipped because the game is won or lost in its first tick, whatever the player
+/// does.
+const OVER: &str = "skipped: the game is over in its first tick";
 
 /// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -112,6 +116,12 @@ impl Report {
         let verdict = self.finding("well-formed").map(|finding| &finding.verdict);
         matches!(verdict, Some(Verdict::Fail { witness: Some(episode), .. })
             if matches!(episode.outcome, Outcome::Stopped(_)))
+    }
+
+    /// Returns `true` if criteria were skipped because the game is over in its first tick.
+    fn is_over(&self) -> bool {
+        let mut first = self.judgements.iter().filter_map(|judgement| judgement.finding.evidence.first());
+        first.any(|seen| seen.text == OVER)
     }
 
     /// Takes the witness of a judgement. If the search found none, a win by another player serves as well.
@@ -336,10 +346,12 @@ impl Panel {
             }
             Judgement { criterion, finding }
         };
+        let mut is_over = false;
         for (stage, validator) in &self.validators {
             let why = match stage {
                 Stage::Start => None,
                 _ if report.is_stopped() => Some(STOPPED),
+                _ if is_over => Some(OVER),
                 Stage::Win | Stage::Ladder if report.is_unwinnable() => Some(UNWINNABLE),
                 _ => None,
             };
@@ -352,10 +364,13 @@ impl Panel {
                 report.accept(&mut judgement);
             }
             let passed = judgement.finding.verdict.is_pass();
+            let is_decided = matches!(judgement.finding.verdict, Verdict::Fail { witness: Some(_), .. });
+            let is_start = judgement.criterion == "well-formed" && is_decided;
             report.judgements.push(judgement);
             if screen && !passed {
                 return report;
             }
+            is_over |= is_start && is_over_at_once(game, level, seed);
         }
         // A player of the ladder may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
@@ -380,21 +395,28 @@ fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Returns the reason why a verdict on the rules is only a consequence of levels that cannot be won, or says nothing
-/// since none can.
+/// Returns the reason why a verdict on the rules is only a consequence of levels that cannot be won or are over in
+/// their first tick, or says nothing since all are.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());
     }
-    let (lost, all) = (reports.iter().filter(|report| report.is_unwinnable()).count(), reports.len());
+    let count = |is: fn(&Report) -> bool| reports.iter().filter(|report| is(report)).count();
+    let (lost, over, all) = (count(Report::is_unwinnable), count(Report::is_over), reports.len());
+    if over == all {
+        return Some(OVER.to_owned());
+    }
     match verdict {
-        _ if lost == 0 => None,
+        _ if lost + over == 0 => None,
         _ if lost == all => {
             Some(if all == 1 { UNWINNABLE } else { "skipped: no level can be won" }.to_owned())
         }
         Verdict::Pass { .. } => None,
         // A proof over all levels holds even if some cannot be won.
         Verdict::Fail { .. } => None,
+        Verdict::Unknown { .. } if over > 0 => {
+            Some(format!("skipped: the game is over in its first tick on {over} of {all} levels"))
+        }
         Verdict::Unknown { .. } => Some(format!("skipped: {lost} of {all} levels cannot be won")),
     }
 }

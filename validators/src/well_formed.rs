@@ -81,3 +81,17 @@ fn path_finder(game: &Game) -> Option<Line> {
         names.find(|name| game.sprite_type(name).and_then(|stype| game.class(stype)).is_some_and(seeks))?;
     Line::sprite(game, name)
 }
+
+/// The number of seeds under which a game must be over in its first tick to count as over at once.
+const STARTS: u64 = 8;
+
+/// Returns `true` if every first action ends the game in its first tick, under several seeds: then nobody can play.
+pub(crate) fn is_over_at_once(game: &Game, level: &Level, seed: Seed) -> bool {
+    (0..STARTS).map(|start| seed.child("start", start)).all(|seed| {
+        let (_, state) = Episode::begin(game, level, seed);
+        game.actions(&state).iter().chain([&Action::Nil]).all(|&action| {
+            let (mut episode, mut state) = Episode::begin(game, level, seed);
+            episode.play(game, &mut state, action) != Outcome::Ongoing
+        })
+    })
+}

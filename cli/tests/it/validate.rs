@@ -473,6 +473,20 @@ fn consequences_of_other_faults_are_skipped() {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     assert!(!said.contains("remove it"), "{said}");
+    // Lost in its first tick, whatever the player does.
+    let over = folder(&GAME.replace("stype=avatar limit=0", "stype=avatar limit=1"), LEVEL);
+    let said = text(&run(over.path(), &["validate", ".", "--budget", "2000"], 1).stdout);
+    assert!(said.contains("FAILS well-formed: the game is lost in its first tick"), "{said}");
+    let criteria = ["not-idle", "not-random", "early-death", "winnable", "length", "skill", "rule-use"];
+    for criterion in criteria.into_iter().chain(["ablation"]) {
+        let line = format!("  -    {criterion:<13}skipped: the game is over in its first tick\n");
+        assert!(said.contains(&line), "`{line}` is not in\n{said}");
+    }
+    // Lost by waiting alone: there is play to judge.
+    let pricked = folder(&GAME.replace("A > floor avatar", "A > floor thorn avatar"), LEVEL);
+    let said = text(&run(pricked.path(), &["validate", ".", "--budget", "2000"], 1).stdout);
+    assert!(said.contains("FAILS well-formed: the game is lost in its first tick"), "{said}");
+    assert!(!said.contains("skipped: the game is over"), "{said}");
     let short = folder(&GAME.replace("limit=300", "limit=3"), LEVEL);
     let said = run(short.path(), &["validate", ".", "--budget", "20000"], 1);
     let said = text(&said.stdout);
