@@ -25,9 +25,10 @@ def game_file(folder):
     return next((path for name in ("game.vgdl", "game.txt") if (path := folder / name).exists()), None)
 
 
-def source(folder):
-    """The games of a folder that have five levels."""
-    return [game for game in sorted(folder.iterdir()) if game_file(game) and has_levels(game)]
+def source(arcade, folder):
+    """The games of a folder that can be loaded and have five levels."""
+    games = [game for game in sorted(folder.iterdir()) if game_file(game) and has_levels(game)]
+    return [game for game in games if run(arcade, "describe", str(game)).returncode == 0]
 
 
 def level(game, number):
@@ -74,7 +75,7 @@ def main():
     games = []
     for group, folder, number in zip(("generated", "public", "corpus"),
                                      (args.generated, args.public, args.corpus), args.numbers):
-        there = source(folder)
+        there = source(args.arcade, folder)
         games += [(group, game) for game in draw.sample(there, min(number, len(there)))]
     draw.shuffle(games)
     key = {}

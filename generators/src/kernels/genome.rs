@@ -53,7 +53,9 @@ impl KernelGenome {
     /// Draws a game of the kernel whose turn it is, after some passes; `None` if there are no kernels.
     pub fn in_turn(turns: &Turns, place: u32, passes: u32, seed: Seed) -> Option<KernelGenome> {
         let kernel = turns.kernel(place, passes)?;
-        Some(KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler()))
+        let drawn = KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler());
+        let scene = turns.scene(kernel, place).unwrap_or(drawn.scene);
+        Some(KernelGenome { scene, ..drawn })
     }
 
     /// Draws a game of a kernel that has scenes.

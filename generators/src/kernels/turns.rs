@@ -8,6 +8,9 @@ use engine::Seed;
 /// The most turns of a kind in a round, however many kernels it has.
 const MOST: usize = 3;
 
+/// The scenes between those of neighbouring places: most kernels fit one of so many.
+const STRIDE: usize = 7;
+
 /// The kinds that have kernels, in the order of [`Kind::ALL`].
 pub fn kinds() -> impl Iterator<Item = Kind> {
     let has_kernel = |kind: &Kind| Kernel::all().iter().any(|kernel| kernel.kind == *kind);
@@ -21,6 +24,7 @@ pub struct Turns {
     kinds: Vec<Vec<&'static Kernel>>,
     /// Indices of kinds, for one round.
     round: Vec<usize>,
+    scenes: Vec<&'static Scene>,
     seed: Seed,
 }
 
@@ -43,7 +47,16 @@ impl Turns {
             sampler.shuffle(&mut again);
             round.extend(again);
         }
-        Turns { kinds, round, seed }
+        let mut scenes: Vec<&'static Scene> = Scene::all().iter().collect();
+        seed.child("scenes", 0).sampler().shuffle(&mut scenes);
+        Turns { kinds, round, scenes, seed }
+    }
+
+    /// The scene of a place in the set, of those that a kernel can be set in: far from those of the places before it.
+    pub(crate) fn scene(&self, kernel: &Kernel, place: u32) -> Option<&'static Scene> {
+        let from = STRIDE * place as usize % self.scenes.len().max(1);
+        let (before, after) = self.scenes.split_at(from);
+        after.iter().chain(before).copied().find(|scene| scene.fits(kernel))
     }
 
     /// The kernel of a place in the set, or the next one after some passes; `None` if there are no kernels.
@@ -70,7 +83,7 @@ impl Turns {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
+    use std::collections::{BTreeMap, BTreeSet};
 
     #[test]
     fn fifty_places_have_many_kernels_and_no_crowd() {
@@ -84,6 +97,9 @@ mod tests {
         assert!(kernels.len() >= 30 && kinds.values().all(|&there| there <= 7), "{kernels:?} {kinds:?}");
         let passed: Vec<_> = (0..10).map(|pass| &turns.kernel(3, pass).unwrap().name).collect();
         assert!((1..10).all(|at| !passed[..at].contains(&passed[at])), "{passed:?}");
+        let scene = |place: u32| turns.scene(turns.kernel(place, 0)?, place).map(|scene| &scene.name);
+        let scenes: BTreeSet<_> = (0..12).map(scene).collect();
+        assert!(scenes.len() >= 10 && !scenes.contains(&None), "{scenes:?}");
         assert!(Turns::draw(&[], Seed::from_text("none")).kernel(0, 0).is_none());
     }
 }
