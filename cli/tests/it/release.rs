@@ -296,7 +296,7 @@ fn unreadable_files_are_reported_before_minting() {
     use std::os::unix::fs::PermissionsExt;
     let (folder, root) = copy();
     let file = root.join("CARD.json");
-    fs::set_permissions(&file, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o0)).unwrap();
     if fs::File::open(&file).is_ok() {
         return;
     }
