@@ -6,7 +6,10 @@ use std::collections::BTreeSet;
 /// The share of its names that a game may have in common with another.
 const SHARED: f64 = 0.5;
 
-/// The names of the types of a game, except those that the engine knows.
+/// The names that many games have in common.
+const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
+
+/// The names of the types of a game, except common ones.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cast(BTreeSet<String>);
 
@@ -14,7 +17,7 @@ impl Cast {
     /// The cast of a game.
     pub fn of(game: &Game) -> Cast {
         let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
-        Cast(names.filter(|name| !["wall", "avatar"].contains(&name.as_str())).collect())
+        Cast(names.filter(|name| !COMMON.contains(&name.as_str())).collect())
     }
 
     /// Tests whether most names of the smaller cast are in the other one, too.
