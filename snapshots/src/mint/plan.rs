@@ -57,9 +57,9 @@ const ISLAND: u32 = 4;
 
 /// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
 /// `starter`, with both as in `medium`. Those of archives and searches without `skill` are guesses.
-const ARCHIVE: [f64; 3] = [0.1, 4.7, 16.0];
-const SEARCH: [f64; 3] = [0.1, 4.7, 16.0];
-const CONSTRUCTIVE: [f64; 3] = [0.03, 4.7, 16.0];
+const ARCHIVE: [f64; 3] = [0.1, 6.7, 16.0];
+const SEARCH: [f64; 3] = [0.1, 6.7, 16.0];
+const CONSTRUCTIVE: [f64; 3] = [0.03, 6.7, 16.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
 
 impl<'a> Plan<'a> {
