@@ -155,7 +155,6 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         Glyph::Neutral if blocks() => "solid".to_owned(),
         Glyph::Neutral => harm.to_owned(),
         Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),
-        Glyph::Gate => "in the way until opened or removed".to_owned(),
         Glyph::Wall if !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
         Glyph::Ward if analysis.facts(stype).fleeting => "soon gone".to_owned(),
         _ => glyph.meaning().to_owned(),

@@ -8,6 +8,7 @@ mod export;
 mod generate;
 mod generate_games;
 mod pictures;
+mod regenerate;
 mod release;
 mod report;
 mod sealed;

@@ -1,18 +1,9 @@
-//! Minting, verifying and minting again: the guarantees of a release.
+//! Minting and verifying: the guarantees of a release.
 
-use crate::arcade::{TINY, arcade, copy_tree, files, run, sweeping, text};
+use crate::arcade::{TINY, arcade, copy_of_tiny, copy_tree, files, run, sweeping, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
-use tempfile::TempDir;
-
-/// Returns a copy of the shared mint, to tamper with.
-fn copy() -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
-    let root = folder.path().join("tiny");
-    copy_tree(&TINY.path().join("tiny"), &root);
-    (folder, root)
-}
 
 /// Returns a folder with a name that is not Unicode, on systems that allow one.
 fn unusual() -> PathBuf {
@@ -77,17 +68,6 @@ fn the_version_names_generation_and_semantics() {
     assert!(manifest.contains(&expect), "{manifest}");
 }
 
-/// The answer for a release of another generation names the version that mints it, and the commands to install it.
-#[test]
-fn an_old_release_names_the_version_that_regenerates_it() {
-    let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/suite/snapshots/format-1");
-    let output = run(TINY.path(), &["regenerate", stored], 2);
-    let stderr = text(&output.stderr);
-    assert!(stderr.contains("minted by arcade 0.6.0 (GENERATION 6, SEMANTICS 2)"), "{stderr}");
-    let command = "git checkout ea25e6ab8ad7 && cargo install --locked --path cli";
-    assert!(stderr.contains(command), "{stderr}");
-}
-
 /// The first command of the README, in an empty folder: estimated here, minted in a sweep.
 #[test]
 fn the_starter_is_minted_and_verifies() {
@@ -123,7 +103,7 @@ fn content_of_earlier_releases_is_not_minted_again() {
 
 #[test]
 fn any_flipped_byte_is_named() {
-    let (folder, root) = copy();
+    let (folder, root) = copy_of_tiny();
     for (name, content) in files(&root).into_iter().filter(|(name, _)| !name.starts_with("papers/")) {
         for place in [0, content.len() / 3, content.len() / 2, content.len() - 1] {
             let mut altered = content.clone();
@@ -141,7 +121,7 @@ fn any_flipped_byte_is_named() {
 
 #[test]
 fn a_file_removed_added_or_linked_is_named() {
-    let (folder, root) = copy();
+    let (folder, root) = copy_of_tiny();
     let level = files(&root).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();
     let content = fs::read(root.join(&level)).unwrap();
 
@@ -170,7 +150,7 @@ fn a_file_removed_added_or_linked_is_named() {
 /// Papers of a release may be changed and added; nothing else may.
 #[test]
 fn papers_accompany_a_release() {
-    let (folder, root) = copy();
+    let (folder, root) = copy_of_tiny();
     let papers: Vec<String> =
         files(&root).into_keys().filter_map(|name| Some(name.strip_prefix("papers/")?.to_owned())).collect();
     assert_eq!(papers, ["CHANGELOG.md", "CITATION.cff", "DATASHEET.md", "LICENSE"]);
@@ -222,7 +202,7 @@ fn occupied_outputs_are_refused_before_minting() {
 /// A repeated job of a job array has nothing to do, and succeeds.
 #[test]
 fn a_finished_mint_is_complete() {
-    let (folder, _) = copy();
+    let (folder, _) = copy_of_tiny();
     let resumed = ["release", "tiny", "--out", "tiny", "--resume"];
     for arguments in [&resumed[..], &[&resumed[..], &["--dry-run"]].concat()] {
         let said = text(&run(folder.path(), arguments, 0).stdout);
@@ -237,7 +217,7 @@ fn a_finished_mint_is_complete() {
 /// Any file written into a release breaks its verification, except papers.
 #[test]
 fn nothing_is_written_into_a_release() {
-    let (folder, root) = copy();
+    let (folder, root) = copy_of_tiny();
     for arguments in [
         &["verify", "tiny", "--item", "MANIFEST.json", "--write-proof", "tiny/p.json"][..],
         &["release", "tiny", "--out", "tiny/sub"],
@@ -266,115 +246,13 @@ fn nothing_is_written_into_a_release() {
 /// No version minted it, so none can be installed to mint it again.
 #[test]
 fn a_changed_version_is_damage() {
-    let (folder, root) = copy();
+    let (folder, root) = copy_of_tiny();
     let manifest = fs::read_to_string(root.join("MANIFEST.json")).unwrap();
     let stated = format!("\"semantics\": {}", engine::SEMANTICS);
     assert!(manifest.contains(&stated), "{manifest}");
     fs::write(root.join("MANIFEST.json"), manifest.replace(&stated, "\"semantics\": 1")).unwrap();
     let said = text(&run(folder.path(), &["regenerate", "tiny"], 2).stderr);
     assert!(said.contains("is damaged or was changed") && !said.contains("install"), "{said}");
-}
-
-/// A changed seed would mint another release, so it is reported before minting.
-#[test]
-fn a_changed_seed_is_damage() {
-    let (folder, root) = copy();
-    let manifest = fs::read_to_string(root.join("MANIFEST.json")).unwrap();
-    assert!(manifest.contains("a coin"), "{manifest}");
-    fs::write(root.join("MANIFEST.json"), manifest.replacen("a coin", "a corn", 1)).unwrap();
-    let output = run(folder.path(), &["regenerate", "tiny", "--out", "again"], 2);
-    let said = text(&output.stderr);
-    assert!(said.contains("its root is not that of its content"), "{said}");
-    assert_eq!(text(&output.stdout), "");
-    assert!(!folder.path().join("again").exists() && !folder.path().join("again.partial").exists());
-}
-
-/// Root may read any file, so there is nothing to test under it.
-#[cfg(unix)]
-#[test]
-fn unreadable_files_are_reported_before_minting() {
-    use std::os::unix::fs::PermissionsExt;
-    let (folder, root) = copy();
-    let file = root.join("CARD.json");
-    fs::set_permissions(&file, fs::Permissions::from_mode(0o0)).unwrap();
-    if fs::File::open(&file).is_ok() {
-        return;
-    }
-    let said = text(&run(folder.path(), &["regenerate", "tiny", "--out", "again"], 3).stderr);
-    assert!(said.contains("CARD.json") && said.contains("Permission denied"), "{said}");
-    assert!(!said.contains("jobs"), "{said}");
-}
-
-#[test]
-fn a_manifest_alone_is_regenerated() {
-    let (home, root) = copy();
-    let folder = home.path();
-    let manifest = fs::read(root.join("MANIFEST.json")).unwrap();
-    let alone = |name: &str| {
-        fs::create_dir(folder.join(name)).unwrap();
-        fs::write(folder.join(name).join("MANIFEST.json"), &manifest).unwrap();
-    };
-    alone("bare");
-    let said = text(&run(folder, &["regenerate", "bare", "--out", "full"], 0).stdout);
-    let root_of = snapshots::Manifest::parse(&manifest).unwrap().root;
-    let expect = format!(
-        "bare has no files to compare with; the root of the regenerated release is {root_of}, the same as the manifest's\n\
-         the regenerated release is in full\n"
-    );
-    assert_eq!(said, expect);
-    assert_eq!(files(&folder.join("full")), files(&root));
-    let output = run(folder, &["--json", "regenerate", "bare"], 0);
-    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!((&document["identical"], &document["files_compared"]), (&true.into(), &false.into()));
-    // With any of its files, the others are missing.
-    fs::write(folder.join("bare/README.md"), fs::read(root.join("README.md")).unwrap()).unwrap();
-    let said = text(&run(folder, &["regenerate", "bare"], 1).stdout);
-    assert!(said.contains("CARD.json: missing") && said.contains("NOT identical"), "{said}");
-}
-
-/// A finished folder is not minted again, and still compared.
-#[test]
-fn a_finished_regeneration_is_complete() {
-    let (home, root) = copy();
-    let folder = home.path();
-    copy_tree(&root, &folder.join("again"));
-    let regenerate = ["regenerate", "tiny", "--out", "again"];
-    let resumed = [&regenerate[..], &["--resume"]].concat();
-    let said = text(&run(folder, &resumed, 0).stdout);
-    assert!(said.starts_with("already complete: again; nothing was minted\nidentical: "), "{said}");
-    let document: serde_json::Value =
-        serde_json::from_slice(&run(folder, &[&resumed[..], &["--json"]].concat(), 0).stdout).unwrap();
-    assert_eq!((&document["out"], &document["complete"]), (&"again".into(), &true.into()));
-    let said = text(&run(folder, &regenerate, 2).stderr);
-    assert!(said.contains("is not an empty folder"), "{said}");
-    fs::write(root.join("README.md"), "x").unwrap();
-    let said = text(&run(folder, &resumed, 1).stdout);
-    assert!(said.contains("README.md: differs"), "{said}");
-    fs::write(folder.join("again/README.md"), "x").unwrap();
-    run(folder, &resumed, 2);
-}
-
-/// Without --out, an interruption loses the work: long runs say so at the start, and at the end.
-#[cfg(unix)]
-#[test]
-fn an_interrupted_regeneration_ends_with_its_status() {
-    use std::io::{BufRead, BufReader};
-    let (home, root) = copy();
-    let path = root.join("MANIFEST.json");
-    let mut manifest = snapshots::Manifest::parse(&fs::read(&path).unwrap()).unwrap();
-    let recipe = snapshots::Recipe::from_toml(include_str!("../../../seeds/starter.toml")).unwrap();
-    manifest.recipe = serde_json::to_value(recipe).unwrap();
-    manifest.seal_root().unwrap();
-    fs::write(&path, manifest.to_bytes().unwrap()).unwrap();
-    let mut command = arcade(home.path());
-    command.args(["regenerate", "tiny", "--jobs", "1"]).stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut child = command.spawn().unwrap();
-    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
-    let first = lines.next().unwrap();
-    assert_eq!(first, "if interrupted, this starts over: only with --out does --resume go on");
-    std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert_eq!(lines.last().as_deref(), Some("interrupted; nothing is kept without --out"));
 }
 
 #[test]
@@ -443,7 +321,7 @@ fn a_killed_mint_leaves_nothing_that_verifies() {
 /// A folder that is complete but was never published is not a release.
 #[test]
 fn an_unpublished_tree_does_not_verify() {
-    let (folder, root) = copy();
+    let (folder, root) = copy_of_tiny();
     fs::create_dir(folder.path().join("new.partial")).unwrap();
     fs::rename(&root, folder.path().join("new.partial/tree")).unwrap();
     let resumed = "`arcade release RECIPE --out new --resume`";

@@ -98,8 +98,8 @@ pub fn make_one(
     (made.map(|(game, _)| game), tally)
 }
 
-/// The least number of finalists that are judged in a round of an archive, on all threads, and of games that are looked at.
-const BATCH: usize = 4;
+/// The least number of games that are looked at in a round of an archive, and of finalists that are judged on all threads.
+const LEAST_OF_ROUND: usize = 4;
 
 struct Maker<'a> {
     order: &'a GameOrder,
@@ -226,8 +226,11 @@ impl<'a> Maker<'a> {
         for round in 0..self.order.effort.attempts {
             // The first round fills the archive, the others mend it where the judges said no.
             let missing = wanted - set.games.len();
-            let looks =
-                if round == 0 { looks } else { (self.order.effort.looks as usize * missing / 4).max(BATCH) };
+            let looks = if round == 0 {
+                looks
+            } else {
+                (self.order.effort.looks as usize * missing / 4).max(LEAST_OF_ROUND)
+            };
             let look = |genome: &KernelGenome| {
                 self.progress.looked();
                 looker.look(genome)
@@ -239,7 +242,7 @@ impl<'a> Maker<'a> {
             });
             let is_welcome = |genome: &KernelGenome| company.has_room(genome.kernel(), genome.kind().name());
             let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
-            let wanted_now = missing.max(BATCH);
+            let wanted_now = missing.max(LEAST_OF_ROUND);
             let key = KernelGenome::key;
             let picked = spread(search.archive(), wanted_now, &[], is_near, is_welcome, &mut shown, key);
             let judge = |(cell, genome): &(usize, KernelGenome)| {

@@ -33,15 +33,15 @@ pub(crate) fn names<'a>(
     let taken = declared.into_iter().filter(without_noun).chain(["wall".to_owned()]).collect();
     let mut names = Names { nouns, given: BTreeMap::new(), taken };
     let habit = sampler.below(3);
-    names.give("floor", [["floor", "floor", "ground"][habit].to_owned()]);
+    names.give("floor", &[["floor", "floor", "ground"][habit]]);
     // Authors call the player by its part in the story, or `avatar`.
     if sampler.below(2) == 0 && !names.taken.contains("avatar") {
-        names.give("hero", ["avatar".to_owned()]);
+        names.give("hero", &["avatar"]);
     }
     for (stype, casting) in &castings {
         if matches!(casting, Casting::Role(_)) {
             let noun = &nouns[stype.as_str()];
-            names.give(stype, [short(noun), joined(noun), format!("{}{}", joined(noun), 2)]);
+            names.give(stype, &[&short(noun), &joined(noun)]);
         }
     }
     for (stype, casting) in &castings {
@@ -59,13 +59,15 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Gives a type the first of the names that is free, if it has none.
-    fn give<const N: usize>(&mut self, stype: &str, candidates: [String; N]) {
+    /// Gives a type the first of some names that is free, or the last one with a number, if it has none.
+    fn give(&mut self, stype: &str, candidates: &[&str]) {
         if self.given.contains_key(stype) {
             return;
         }
-        let free = candidates.iter().find(|name| !self.taken.contains(*name));
-        let name = free.unwrap_or_else(|| panic!("{candidates:?} are taken")).clone();
+        let last = candidates.last().expect("a type has a name");
+        let numbered = (2..).map(|number| format!("{last}{number}"));
+        let mut names = candidates.iter().map(|&name| name.to_owned()).chain(numbered);
+        let name = names.find(|name| !self.taken.contains(name)).expect("numbers do not end");
         self.taken.insert(name.clone());
         self.given.insert(stype.to_owned(), name);
     }
@@ -87,7 +89,7 @@ impl Names<'_> {
             _ if both.len() <= LONGEST => &both,
             _ => adjective,
         };
-        self.give(stype, [first.to_owned(), both.clone(), format!("{both}2")]);
+        self.give(stype, &[first, &both]);
     }
 }
 
@@ -119,6 +121,7 @@ mod tests {
             ("exit", role("exit"), "boathouse"),
             ("fuel", role("fuel"), "oilCan"),
             ("hunter", role("hunter"), "polarBear"),
+            ("other", role("beast"), "polarbear"),
             ("litLamp", state("lamp", "lit"), "litFairLamp"),
             ("openExit", state("exit", "open"), "openBoathouse"),
             ("wokenBear", state("bear", "woken"), "wokenIceBear"),
@@ -134,6 +137,7 @@ mod tests {
             ("exit", "boathouse"),
             ("fuel", "oilcan"),
             ("hunter", "polarbear"),
+            ("other", "polarbear2"),
             ("litLamp", "litlamp"),
             ("openExit", "exit"),
             ("wokenBear", "wokenbear"),

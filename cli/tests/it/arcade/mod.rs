@@ -14,6 +14,14 @@ pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
+/// Returns a copy of the shared mint, to tamper with.
+pub(crate) fn copy_of_tiny() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("tiny");
+    copy_tree(&TINY.path().join("tiny"), &root);
+    (folder, root)
+}
+
 /// Returns whether the tests run at full size (`cargo xtask sweep`).
 pub(crate) fn sweeping() -> bool {
     std::env::var_os("ARCADE_SWEEP").is_some()
