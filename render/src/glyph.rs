@@ -72,7 +72,7 @@ glyphs! {
     Switch, "a button", "touch it to open", ORANGE, "⊙ ", "o ", things::switch;
     Token, "a coin", "a resource to hold", YELLOW, "○ ", "$ ", things::token;
     Gem, "a gem", "can be taken", ORANGE, "◆ ", "' ", things::gem;
-    Gate, "bars with a lock", "in the way until opened or removed", WOOD, "╫╫", "##", passages::gate;
+    Gate, "bars with a lock", "bars the way for now", WOOD, "╫╫", "##", passages::gate;
     Portal, "a swirl", "takes you elsewhere", PURPLE, "@@", "@@", passages::portal;
     PortalExit, "an empty ring with an arrow", "where a portal leads", PURPLE, "◌ ", "<>", passages::portal_exit;
     Blade, "a slash", "what you strike with", SKY, "⁄ ", "/ ", shots::blade;

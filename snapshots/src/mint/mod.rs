@@ -196,6 +196,7 @@ mod tests {
     use forge::card::Origin;
     use forge::games::{GameEffort, GameOrder, make_games};
     use forge::levels::Method;
+    use generators::games::Kind;
 
     /// A game of fetching the gem and leaving before time is up.
     pub(super) const FETCH: &str = "BasicGame
@@ -296,6 +297,7 @@ mod tests {
         for method in [Method::Search, Method::Evolutionary] {
             let order = GameOrder::new(method, 1);
             let order = GameOrder {
+                kinds: vec![Kind::KeyAndDoor],
                 levels: 1,
                 least_interactions: 3,
                 least_mechanics: 1,
