@@ -1,5 +1,5 @@
 //! Writes the game of a kernel file, in a scene or under the names of its types, and levels of its course:
-//! `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants] [--scene=NAME]`.
+//! `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants] [--form=NAME] [--scene=NAME]`.
 
 use engine::{Game, Seed};
 use infinite_arcade_generators::kernels::{Slot, preview};
@@ -12,14 +12,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let (flags, words): (Vec<&String>, Vec<&String>) = args.iter().partition(|word| word.starts_with("--"));
     let [file, folder, rest @ ..] = &words[..] else {
-        return Err("usage: kernel FILE.toml FOLDER [SEED] [--variants] [--scene=NAME]".into());
+        return Err("usage: kernel FILE.toml FOLDER [SEED] [--variants] [--form=NAME] [--scene=NAME]".into());
     };
+    let form = flags.iter().find_map(|flag| flag.strip_prefix("--form="));
     let scene = flags.iter().find_map(|flag| flag.strip_prefix("--scene="));
     let variants = flags.iter().any(|flag| *flag == "--variants");
     let text = fs::read_to_string(file)?;
     let name = Path::new(file).file_stem().and_then(|name| name.to_str()).unwrap_or("kernel");
     let seed = Seed::from_text(rest.first().map_or("preview", |seed| seed.as_str()));
-    let (source, course) = preview(name, &text, scene, variants, seed)?;
+    let (source, course) = preview(name, &text, form, scene, variants, seed)?;
     let game = Game::from_source(&source).map_err(|problems| problems.to_string())?;
     let folder = Path::new(folder.as_str());
     fs::create_dir_all(folder)?;

@@ -127,7 +127,9 @@ impl Choices<'_> {
         let description = description.renamed(&names);
         let fill = |text: &str| phrase::fill(text, &nouns).map_err(GenerateError::Unsuitable);
         let sentence = |text: &str| Ok::<String, GenerateError>(phrase::sentence(&fill(text)?));
-        let titles: Vec<&String> = self.kernel.titles.iter().chain(&self.scene.titles).collect();
+        let can_be_said = |title: &&String| phrase::title(&self.fill_numbers(title), &nouns).is_ok();
+        let titles = self.kernel.titles.iter().chain(&self.scene.titles);
+        let titles: Vec<&String> = titles.filter(can_be_said).collect();
         let title = self.fill_numbers(titles[sampler.below(titles.len())]);
         let title = phrase::title(&title, &nouns).map_err(GenerateError::Unsuitable)?;
         let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].fact);

@@ -54,12 +54,19 @@ impl KernelGenome {
     pub fn in_turn(turns: &Turns, place: u32, passes: u32, seed: Seed) -> Option<KernelGenome> {
         let kernel = turns.kernel(place, passes)?;
         let drawn = KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler());
-        let scene = turns.scene(kernel, place).unwrap_or(drawn.scene);
+        let scene = turns.scene(drawn.kernel, place).unwrap_or(drawn.scene);
         Some(KernelGenome { scene, ..drawn })
     }
 
-    /// Draws a game of a kernel that has scenes.
+    /// Draws a game of a kernel that has scenes, in one of its forms.
     pub(crate) fn of(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
+        let forms: Vec<&'static Kernel> = kernel.in_all_forms().collect();
+        let form = *sampler.choose(&forms);
+        KernelGenome::in_form(form, sampler)
+    }
+
+    /// Draws a game of a form that has scenes.
+    pub(crate) fn in_form(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let scenes: Vec<&'static Scene> = Scene::of(kernel).collect();
         KernelGenome {
             kernel,
@@ -121,7 +128,9 @@ impl KernelGenome {
         }
         let variants = self.variants.iter().map(|&at| format!("variant/{}", self.kernel.variants[at].name));
         let grafts = self.grafts.iter().map(|graft| format!("graft/{}", graft.name));
-        let patterns = [format!("kernel/{}", self.kernel.name)].into_iter().chain(variants).chain(grafts);
+        let form = self.kernel.form.iter().map(|form| format!("form/{form}"));
+        let kernel = [format!("kernel/{}", self.kernel.name)].into_iter().chain(form);
+        let patterns = kernel.chain(variants).chain(grafts);
         let game = GeneratedGame {
             real_time: has_movers(&composed.description),
             description: composed.description,
@@ -153,20 +162,27 @@ impl KernelGenome {
     }
 }
 
-/// Builds the game of a kernel file in a scene, or under the names of its types, for authors of kernels, with all or none
-/// of its variants.
+/// Builds the game of a kernel file in a scene, or under the names of its types, for authors of kernels, in one of its
+/// forms, with all or none of its variants.
 ///
 /// # Errors
 /// The faults of the file, or of its rules.
 pub fn preview(
     name: &str,
     text: &str,
+    form: Option<&str>,
     scene: Option<&str>,
     variants: bool,
     seed: Seed,
 ) -> Result<(String, Course), GenerateError> {
     let kernel = Kernel::read(name, text).map_err(|fault| GenerateError::Unsuitable(fault.to_string()))?;
     let kernel: &'static Kernel = Box::leak(Box::new(kernel));
+    let kernel = kernel.in_all_forms().find(|kernel| kernel.form.as_deref() == form).ok_or_else(|| {
+        let forms: Vec<&str> = kernel.in_all_forms().filter_map(|kernel| kernel.form.as_deref()).collect();
+        let message =
+            format!("kernel {name} has no form {}: try {}", form.unwrap_or_default(), forms.join(", "));
+        GenerateError::Unsuitable(message)
+    })?;
     let scene: &'static Scene = match scene {
         None => Box::leak(Box::new(Scene::plain(kernel))),
         Some(wanted) => Scene::of(kernel).find(|scene| scene.name == wanted).ok_or_else(|| {

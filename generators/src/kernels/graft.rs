@@ -161,7 +161,9 @@ impl<'a> Guest<'a> {
             interactions: graft.interactions,
             roles: types.iter().map(role).collect(),
             facts: facts
-                .filter(|fact| tells_of(fact, stype) && super::phrase::fill(fact, &names).is_ok())
+                .filter(|fact| {
+                    super::phrase::tells_of(fact, stype) && super::phrase::fill(fact, &names).is_ok()
+                })
                 .collect(),
             names,
             items,
@@ -203,14 +205,4 @@ impl<'a> Guest<'a> {
         let item = items.find(|item| item.stype == stype)?;
         Some(vec![item])
     }
-}
-
-/// Tests whether a sentence names a type, in any form.
-fn tells_of(sentence: &str, stype: &str) -> bool {
-    let only = BTreeMap::from([(stype.to_owned(), stype.to_owned())]);
-    sentence
-        .split('<')
-        .skip(1)
-        .filter_map(|rest| rest.split_once('>'))
-        .any(|(inside, _)| super::phrase::fill(&format!("<{inside}>"), &only).is_ok())
 }

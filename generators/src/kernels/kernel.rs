@@ -3,17 +3,21 @@
 //! It is a file of `generators/kernels/`: rules in VGDL without names of any scene, the role of every type, and for
 //! each of five slots the maps that argue the dilemma. `docs/kernels.md` is the manual.
 
+use super::form::Form;
 use super::map::Map;
 use super::template::{Numbers, Template};
 use crate::games::Kind;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::iter;
 use std::sync::OnceLock;
 
 /// A kernel, ready for drawing numbers and nouns.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub(crate) name: String,
+    /// The name of the form that this is; `None` for the kernel as such.
+    pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
     /// The one sentence that says the whole game, with nouns as `<type>`.
     pub(crate) dilemma: String,
@@ -29,6 +33,10 @@ pub(crate) struct Kernel {
     pub(crate) levels: Vec<LevelPlan>,
     pub(crate) variants: Vec<Variant>,
     pub(crate) numbers: Numbers,
+    /// The types that maps may name although this form lacks them.
+    absent: Vec<String>,
+    /// The other forms, each a kernel of its own.
+    forms: Vec<Kernel>,
 }
 
 /// The lines of the sections of a game, without LevelMapping; indented as in their file.
@@ -52,6 +60,15 @@ pub(crate) enum Casting {
         /// The word before its noun.
         adjective: String,
     },
+}
+
+impl Casting {
+    /// The role, or the type of which this is a state.
+    pub(crate) fn role(&self) -> &str {
+        match self {
+            Casting::Role(role) | Casting::State { of: role, .. } => role,
+        }
+    }
 }
 
 /// The intent of a level in a course of five.
@@ -103,40 +120,44 @@ pub(crate) struct KernelError {
 }
 
 /// The file as written.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
-    kind: Kind,
-    dilemma: String,
-    goal: String,
+pub(super) struct File {
+    pub(super) kind: Kind,
+    pub(super) dilemma: String,
+    pub(super) goal: String,
     #[serde(default)]
-    facts: Vec<String>,
-    titles: Vec<String>,
-    divider: Option<String>,
-    rules: String,
-    roles: BTreeMap<String, Casting>,
+    pub(super) facts: Vec<String>,
+    pub(super) titles: Vec<String>,
+    pub(super) divider: Option<String>,
+    pub(super) rules: String,
+    pub(super) roles: BTreeMap<String, Casting>,
     #[serde(default)]
-    pieces: BTreeMap<String, String>,
+    pub(super) pieces: BTreeMap<String, String>,
     #[serde(default)]
-    legend: BTreeMap<char, String>,
-    level: Vec<LevelFile>,
+    pub(super) legend: BTreeMap<char, String>,
+    pub(super) level: Vec<LevelFile>,
     #[serde(default)]
-    variant: Vec<VariantFile>,
+    pub(super) variant: Vec<VariantFile>,
+    #[serde(default)]
+    pub(super) form: Vec<Form>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct LevelFile {
+pub(super) struct LevelFile {
     slot: Slot,
-    asks: String,
+    pub(super) asks: String,
+    /// The only form that has the level.
+    pub(super) form: Option<String>,
     map: String,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct VariantFile {
+pub(super) struct VariantFile {
     name: String,
-    fact: String,
+    pub(super) fact: String,
     #[serde(default)]
     sprites: String,
     #[serde(default)]
@@ -146,7 +167,14 @@ struct VariantFile {
     #[serde(default)]
     terminations: String,
     #[serde(default)]
-    roles: BTreeMap<String, Casting>,
+    pub(super) roles: BTreeMap<String, Casting>,
+}
+
+impl VariantFile {
+    /// The texts of its rules.
+    pub(super) fn parts(&self) -> [&str; 4] {
+        [&self.sprites, &self.first, &self.interactions, &self.terminations]
+    }
 }
 
 impl Kernel {
@@ -166,8 +194,32 @@ impl Kernel {
     /// # Errors
     /// The first fault: of the format, of a number, of a map, or a slot without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
-        let fail = |message: String| KernelError { kernel: name.to_owned(), message };
-        let file: File = toml::from_str(text).map_err(|error| fail(error.to_string()))?;
+        let file: File = toml::from_str(text)
+            .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
+        let forms = file.form.iter().map(|form| Kernel::of_file(name, form.applied(&file), Some(form)));
+        let forms = forms.collect::<Result<_, _>>()?;
+        let of_no_form = |level: &LevelFile| level.form.is_none();
+        if let Some(stray) = file
+            .level
+            .iter()
+            .filter_map(|level| level.form.as_ref())
+            .find(|name| file.form.iter().all(|form| form.name != **name))
+        {
+            return Err(KernelError {
+                kernel: name.to_owned(),
+                message: format!("a level is for form `{stray}`, which is none"),
+            });
+        }
+        let mut own = file;
+        own.level.retain(of_no_form);
+        Ok(Kernel { forms, ..Kernel::of_file(name, own, None)? })
+    }
+
+    /// Reads the texts of a file, or of one of its forms.
+    fn of_file(name: &str, file: File, form: Option<&Form>) -> Result<Kernel, KernelError> {
+        let form_name = form.map(|form| form.name.clone());
+        let shown = form_name.as_ref().map_or_else(|| name.to_owned(), |form| format!("{name}, form {form}"));
+        let fail = |message: String| KernelError { kernel: shown.clone(), message };
         let mut numbers = Numbers::default();
         let mut template = |text: &str| Template::read(text, &mut numbers).map_err(fail);
         let [sprites, interactions, terminations] = split(&file.rules).map_err(fail)?;
@@ -205,6 +257,7 @@ impl Kernel {
         };
         let kernel = Kernel {
             name: name.to_owned(),
+            form: form_name,
             kind: file.kind,
             dilemma: file.dilemma,
             goal: file.goal,
@@ -218,6 +271,8 @@ impl Kernel {
             levels,
             variants,
             numbers,
+            absent: form.map_or_else(Vec::new, |form| form.absent().to_vec()),
+            forms: Vec::new(),
         };
         kernel.check().map_err(fail)?;
         Ok(kernel)
@@ -263,6 +318,16 @@ impl Kernel {
         Ok(())
     }
 
+    /// The kernel as such and its other forms.
+    pub(crate) fn in_all_forms(&self) -> impl Iterator<Item = &Kernel> {
+        iter::once(self).chain(&self.forms)
+    }
+
+    /// Tests whether two have the same numbers and variants.
+    pub(crate) fn is_same(&self, other: &Kernel) -> bool {
+        self.name == other.name && self.form == other.form
+    }
+
     /// The rules with some of the variants as VGDL, under the kernel's names of types.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
@@ -287,6 +352,7 @@ impl Kernel {
     /// Tests whether the kernel or one of its variants has a type.
     pub(crate) fn knows(&self, stype: &str) -> bool {
         stype == "wall"
+            || self.absent.iter().any(|absent| absent == stype)
             || self.roles.contains_key(stype)
             || self.variants.iter().any(|variant| variant.roles.contains_key(stype))
     }

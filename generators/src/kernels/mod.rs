@@ -7,6 +7,7 @@
 mod compose;
 mod content;
 mod course;
+mod form;
 mod genome;
 mod graft;
 mod kernel;

@@ -64,6 +64,16 @@ fn phrase(inside: &str, nouns: &Nouns, headline: fn(&str) -> String) -> Option<S
     })
 }
 
+/// Tests whether a sentence names a type, in any form.
+pub(crate) fn tells_of(sentence: &str, stype: &str) -> bool {
+    let only = Nouns::from([(stype.to_owned(), stype.to_owned())]);
+    sentence
+        .split('<')
+        .skip(1)
+        .filter_map(|rest| rest.split_once('>'))
+        .any(|(inside, _)| fill(&format!("<{inside}>"), &only).is_ok())
+}
+
 /// Capitalises a sentence and ends it with a full stop, if it has no end yet.
 pub(crate) fn sentence(text: &str) -> String {
     let text = english::capital(text.trim());

@@ -16,7 +16,7 @@ const KERNELS: usize = 4;
 fn there_are_enough_kernels_and_scenes() {
     let kernels = Kernel::all();
     assert!(kernels.len() >= 30 && Scene::all().len() >= 40, "{} and {}", kernels.len(), Scene::all().len());
-    for kernel in kernels {
+    for kernel in kernels.iter().flat_map(Kernel::in_all_forms) {
         let scenes = Scene::of(kernel).count();
         assert!(scenes >= SCENES, "{}: {scenes} scenes", kernel.name);
     }
@@ -43,10 +43,10 @@ fn no_title_of_a_scene_is_taken_twice() {
 /// In every scene, with every noun: the rules compile without warnings, and the words name types only.
 #[test]
 fn every_kernel_builds_in_every_scene() {
-    for kernel in Kernel::all() {
+    for kernel in Kernel::all().iter().flat_map(Kernel::in_all_forms) {
         for (number, scene) in (0..).zip(Scene::of(kernel)) {
             let seed = Seed::from_text(&kernel.name).child("scene", number);
-            let genome = KernelGenome { scene, ..KernelGenome::of(kernel, &mut seed.sampler()) };
+            let genome = KernelGenome { scene, ..KernelGenome::in_form(kernel, &mut seed.sampler()) };
             let game = genome
                 .build()
                 .unwrap_or_else(|error| panic!("{} in {}: {error}", kernel.name, scene.name))
@@ -63,9 +63,9 @@ fn every_kernel_builds_in_every_scene() {
 /// Each map of each slot can be laid out with its own game.
 #[test]
 fn every_map_becomes_levels() {
-    for kernel in Kernel::all() {
+    for kernel in Kernel::all().iter().flat_map(Kernel::in_all_forms) {
         let seed = Seed::from_text(&kernel.name);
-        let genome = KernelGenome::of(kernel, &mut seed.sampler());
+        let genome = KernelGenome::in_form(kernel, &mut seed.sampler());
         let built = genome.build().unwrap();
         let game = Game::compile(&built.game.description).unwrap();
         for slot in Slot::ALL {
@@ -98,11 +98,11 @@ fn the_same_seed_gives_the_same_game_and_levels() {
 fn a_faulty_kernel_is_refused_with_its_fault() {
     let file = include_str!("../../kernels/weight-on-the-plate.toml");
     let seed = Seed::from_text("faults");
-    assert!(preview("sound", file, None, false, seed).is_ok());
+    assert!(preview("sound", file, None, None, false, seed).is_ok());
     let check = |from: &str, to: &str, said: &str| {
         let altered = file.replacen(from, to, 1);
         assert_ne!(altered, file, "{from}");
-        let error = preview("faulty", &altered, None, false, seed).unwrap_err().to_string();
+        let error = preview("faulty", &altered, None, None, false, seed).unwrap_err().to_string();
         assert!(error.contains("kernel faulty") && error.contains(said), "{error}");
     };
     check("kind =", "sort =", "unknown field `sort`");

@@ -101,7 +101,7 @@ impl Variation for KernelVariation {
     /// Takes the kernel of one, with numbers and variants of both if both have the same; grafts come from both.
     fn cross(&self, one: &KernelGenome, two: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
         let mut child = one.clone();
-        if one.kernel.name == two.kernel.name {
+        if one.kernel.is_same(two.kernel) {
             for (own, other) in child.values.iter_mut().zip(&two.values) {
                 if sampler.ratio(1, 2) {
                     *own = *other;
@@ -131,11 +131,11 @@ mod tests {
     fn all_results_build_and_bring_new_types() {
         let variation = KernelVariation::new(Kind::ALL);
         let mut sampler = Seed::from_text("variation").sampler();
-        let mut parents: Vec<KernelGenome> = (0..12)
+        let mut parents: Vec<KernelGenome> = (0..24)
             .filter_map(|number| variation.create(Seed::from_text("variation").child("start", number)))
             .collect();
         let mut grafts = BTreeSet::new();
-        for _ in 0..150 {
+        for _ in 0..200 {
             let (one, two) = (sampler.below(parents.len()), sampler.below(parents.len()));
             let mut child = variation.mutate(&parents[one], &mut sampler);
             if sampler.ratio(1, 4) {

@@ -1,0 +1,139 @@
+//! The forms of a kernel: the same dilemma with another ending, another cast, or other movers.
+
+use super::kernel::{Casting, File, LevelFile, VariantFile};
+use super::phrase;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A form as written in the file of its kernel.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Form {
+    pub(super) name: String,
+    /// The sentence that replaces the kernel's, where that one names what the form lacks.
+    dilemma: Option<String>,
+    goal: String,
+    /// The types that the form lacks. Sentences, levels and variants that name them are left out with their rules.
+    #[serde(default)]
+    without: Vec<String>,
+    #[serde(default)]
+    facts: Vec<String>,
+    #[serde(default)]
+    titles: Vec<String>,
+    /// Lines of the SpriteSet; one with the name of a type of the kernel replaces it.
+    #[serde(default)]
+    sprites: String,
+    /// Interactions before those of the kernel.
+    #[serde(default)]
+    first: String,
+    #[serde(default)]
+    interactions: String,
+    /// The TerminationSet, instead of the kernel's.
+    terminations: String,
+    #[serde(default)]
+    roles: BTreeMap<String, Casting>,
+}
+
+impl Form {
+    /// The file of a kernel that has this form alone.
+    pub(super) fn applied(&self, file: &File) -> File {
+        let tells = |text: &str| self.without.iter().any(|stype| phrase::tells_of(text, stype));
+        let said = |texts: &[String]| texts.iter().filter(|text| !tells(text)).cloned().collect::<Vec<_>>();
+        let is_for = |level: &&LevelFile| level.form.as_ref().is_none_or(|form| *form == self.name);
+        let names = |rules: &str| rules.split([' ', '\n', '=', ',']).any(|word| self.lacks(word));
+        let fits = |variant: &&VariantFile| {
+            !tells(&variant.fact)
+                && !variant.parts().into_iter().any(names)
+                && !variant.roles.values().any(|casting| self.lacks(casting.role()))
+        };
+        let mut roles = file.roles.clone();
+        roles.retain(|stype, _| !self.lacks(stype));
+        roles.extend(self.roles.clone());
+        File {
+            dilemma: self.dilemma.clone().unwrap_or_else(|| file.dilemma.clone()),
+            goal: self.goal.clone(),
+            facts: said(&file.facts).into_iter().chain(self.facts.clone()).collect(),
+            titles: said(&file.titles).into_iter().chain(self.titles.clone()).collect(),
+            rules: self.rules(&file.rules),
+            roles,
+            level: file.level.iter().filter(is_for).filter(|level| !tells(&level.asks)).cloned().collect(),
+            variant: file.variant.iter().filter(fits).cloned().collect(),
+            form: Vec::new(),
+            ..file.clone()
+        }
+    }
+
+    /// The types that its levels may name although it lacks them: they are left out there.
+    pub(super) fn absent(&self) -> &[String] {
+        &self.without
+    }
+
+    fn lacks(&self, word: &str) -> bool {
+        self.without.iter().any(|stype| stype == word)
+    }
+
+    /// The rules of the kernel with those of the form.
+    fn rules(&self, rules: &str) -> String {
+        let mut section = "";
+        let mut own: Vec<&str> = self.sprites.lines().filter(|line| !line.trim().is_empty()).collect();
+        let mut text = String::new();
+        for line in rules.lines() {
+            let mut add = |line: &str| text.extend([line, "\n"]);
+            match line.trim_end() {
+                "SpriteSet" => {
+                    section = "SpriteSet";
+                    add(line);
+                }
+                "InteractionSet" => {
+                    section = "InteractionSet";
+                    // What no line of the kernel made room for.
+                    own.drain(..).for_each(&mut add);
+                    add(line);
+                    add(&self.first);
+                }
+                "TerminationSet" => {
+                    section = "TerminationSet";
+                    add(&self.interactions);
+                    add(line);
+                    add(&self.terminations);
+                }
+                _ if section == "SpriteSet" => {
+                    let name = name(line);
+                    // New types come before the hero, which is drawn over them.
+                    if name == "hero" {
+                        let (heroes, others): (Vec<&str>, Vec<&str>) =
+                            own.iter().partition(|line| self::name(line) == "hero");
+                        own = heroes;
+                        others.into_iter().for_each(&mut add);
+                    }
+                    match own.iter().position(|line| self::name(line) == name) {
+                        Some(at) => add(own.remove(at)),
+                        None if self.lacks(name) => {}
+                        None => add(line),
+                    }
+                }
+                _ if section == "InteractionSet" => self.interaction(line).iter().for_each(|line| add(line)),
+                _ => {}
+            }
+        }
+        text
+    }
+
+    /// A line of the InteractionSet without the types that the form lacks; `None` if nothing is left of it.
+    fn interaction(&self, line: &str) -> Option<String> {
+        let (sides, effect) = line.split_once('>')?;
+        let param = |word: &str| {
+            word.split_once('=').is_some_and(|(_, value)| value.split(',').any(|name| self.lacks(name)))
+        };
+        let mut sides = sides.split_whitespace();
+        let first = sides.next()?;
+        let partners: Vec<&str> = sides.filter(|name| !self.lacks(name)).collect();
+        let stays = !self.lacks(first) && !partners.is_empty() && !effect.split_whitespace().any(param);
+        stays.then(|| format!("    {first} {} >{effect}", partners.join(" ")))
+    }
+}
+
+/// The name at the head of a line of the SpriteSet.
+fn name(line: &str) -> &str {
+    line.split_whitespace().next().unwrap_or_default()
+}
