@@ -16,6 +16,9 @@ pub(super) struct Form {
     /// The types that the form lacks. Sentences, levels and variants that name them are left out with their rules.
     #[serde(default)]
     without: Vec<String>,
+    /// Has only the levels that name it.
+    #[serde(default)]
+    own_levels: bool,
     #[serde(default)]
     facts: Vec<String>,
     #[serde(default)]
@@ -39,7 +42,10 @@ impl Form {
     pub(super) fn applied(&self, file: &File) -> File {
         let tells = |text: &str| self.without.iter().any(|stype| phrase::tells_of(text, stype));
         let said = |texts: &[String]| texts.iter().filter(|text| !tells(text)).cloned().collect::<Vec<_>>();
-        let is_for = |level: &&LevelFile| level.form.as_ref().is_none_or(|form| *form == self.name);
+        let is_for = |level: &&LevelFile| match &level.form {
+            Some(form) => *form == self.name,
+            None => !self.own_levels,
+        };
         let names = |rules: &str| rules.split([' ', '\n', '=', ',']).any(|word| self.lacks(word));
         let fits = |variant: &&VariantFile| {
             !tells(&variant.fact)
