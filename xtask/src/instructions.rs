@@ -1,8 +1,9 @@
 //! `cargo xtask instructions`: tests whether a step has become slower. It counts instructions instead of time: the
 //! counts are the same on a busy machine, so a change of a few per cent is visible.
 
-use crate::episode_run::subjects;
+use crate::episode_run::{Subject, subjects};
 use anyhow::{Context, bail};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -36,14 +37,14 @@ pub(crate) struct Args {
 const TICKS: u64 = 2000;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let mut counts = BTreeMap::new();
-    for subject in subjects(&args.games, &[])? {
-        let Some(count) = per_tick(&args.games, &subject.name)? else {
-            println!("SKIPPED: valgrind is not installed, no instructions are counted");
-            return Ok(());
-        };
-        counts.insert(subject.name, count);
-    }
+    let count =
+        |subject: Subject| Ok(per_tick(&args.games, &subject.name)?.map(|count| (subject.name, count)));
+    let counts: anyhow::Result<Option<BTreeMap<String, u64>>> =
+        subjects(&args.games, &[])?.into_par_iter().map(count).collect();
+    let Some(counts) = counts? else {
+        println!("SKIPPED: valgrind is not installed, no instructions are counted");
+        return Ok(());
+    };
     let path = args.expected.display();
     let compiler = compiler()?;
     if args.bless {
