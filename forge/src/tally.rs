@@ -45,6 +45,12 @@ impl Tally {
         }
     }
 
+    /// Counts an accepted level as rejected.
+    pub(crate) fn level_taken_back(&mut self, why: &str) {
+        self.levels_accepted -= 1;
+        *self.rejections.entry(why.to_owned()).or_default() += 1;
+    }
+
     pub(crate) fn calls(&mut self, calls: u64) {
         self.calls += calls;
     }

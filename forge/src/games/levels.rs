@@ -128,8 +128,7 @@ impl Levels<'_> {
         // The easiest may be too easy, and the hardest too hard: what is to fail should fail soon.
         let ends = [0, self.count - 1].into_iter().take(self.count as usize);
         for number in ends.chain(1..self.count.max(1) - 1) {
-            let taken: Vec<Digest> = levels.iter().map(|(_, found)| found.level.digest()).collect();
-            match self.level(game, number, &taken, tally) {
+            match self.level(game, number, &levels, tally) {
                 Some(level) => {
                     levels.push((number, level));
                     if self.is_hopeless(game, &levels) {
@@ -227,7 +226,15 @@ impl Levels<'_> {
         Some(found)
     }
 
-    fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<FoundLevel> {
+    /// A level for a place, beside those of other places.
+    fn level(
+        &self,
+        game: &Game,
+        number: u32,
+        others: &[(u32, FoundLevel)],
+        tally: &mut Tally,
+    ) -> Option<FoundLevel> {
+        let taken: Vec<Digest> = others.iter().map(|(_, found)| found.level.digest()).collect();
         let difficulty = f64::from(number) / f64::from((self.count - 1).max(1));
         let generator = match self.source {
             LevelSource::Rules(config) => {
@@ -260,9 +267,18 @@ impl Levels<'_> {
                     continue;
                 }
             };
-            if let Some(found) = self.judged(self.panel, game, level, (difficulty, candidate), seed, tally) {
+            let Some(found) = self.judged(self.panel, game, level, (difficulty, candidate), seed, tally)
+            else {
+                continue;
+            };
+            let in_order = |(place, other): &(u32, FoundLevel)| match *place < number {
+                true => found.asks_as_much_as(other),
+                false => other.asks_as_much_as(&found),
+            };
+            if matches!(self.source, LevelSource::Rules(_)) || others.iter().all(in_order) {
                 return Some(FoundLevel { asks, ..found });
             }
+            tally.level_taken_back("less than an earlier level");
         }
         None
     }
@@ -292,6 +308,9 @@ impl Levels<'_> {
     }
 }
 
+/// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
+const LATER_SHARE: f64 = 0.7;
+
 /// The criteria whose answer does not depend on dice once there is a witness.
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
 
@@ -308,6 +327,12 @@ fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
 }
 
 impl FoundLevel {
+    /// Tests whether winning takes about as long as winning an earlier level of a course, or longer.
+    fn asks_as_much_as(&self, earlier: &FoundLevel) -> bool {
+        let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
+        ticks(self) as f64 >= LATER_SHARE * ticks(earlier) as f64
+    }
+
     /// Its ease for the ladder, from 0 to 1; the same for all levels if none played.
     fn ease(&self) -> f64 {
         self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
