@@ -1,6 +1,6 @@
 //! Games put through the gates, so that their thresholds rest on something.
 
-use engine::{Game, Level, Seed};
+use engine::{Episode, Game, Level, Seed};
 use rayon::prelude::*;
 use report::{Table, TableCell};
 use serde::{Deserialize, Serialize};
@@ -10,6 +10,8 @@ use validators::{Criteria, CriteriaError, GATES, GameReport, Panel, Verdict};
 /// Puts games through the gates, one after the other, all alike.
 pub struct GateSurvey {
     panel: Panel,
+    /// The judges of levels whose win is known.
+    panel_of_won: Panel,
     seed: Seed,
 }
 
@@ -45,8 +47,11 @@ impl GateSurvey {
     /// # Errors
     /// The criteria are not sensible.
     pub fn new(criteria: &Criteria, seed: Seed) -> Result<GateSurvey, CriteriaError> {
-        let ask = ["winnable"].iter().chain(GATES).map(|&name| name.to_owned()).collect();
-        Ok(GateSurvey { panel: Panel::new(&Criteria { ask, ..criteria.clone() })?, seed })
+        let panel = |asked: &[&str]| {
+            let ask = asked.iter().chain(GATES).map(|&name| name.to_owned()).collect();
+            Panel::new(&Criteria { ask, ..criteria.clone() })
+        };
+        Ok(GateSurvey { panel: panel(&["winnable"])?, panel_of_won: panel(&[])?, seed })
     }
 
     /// Criteria whose budget lets a hundred games be judged in half an hour on two cores.
@@ -54,12 +59,20 @@ impl GateSurvey {
         Criteria { budget: 300_000, foresight: 0.4, ..Criteria::default() }
     }
 
-    /// The row of a game: the same alone and among others, on any number of threads.
-    pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GateRow {
+    /// The row of a game: the same alone and among others, on any number of threads. A level with a known win is judged by
+    /// that one, another by the win that a search finds.
+    pub fn row(&self, name: &str, game: &Game, levels: &[(Level, Option<Episode>)]) -> GateRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
-        let judge = |level: &Level| self.panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
+        let judge = |(level, win): &(Level, Option<Episode>)| {
+            let seed = seed.child(&level.digest().to_string(), 0);
+            match win {
+                Some(win) => self.panel_of_won.screen_won(game, level, win.clone(), seed),
+                None => self.panel.judge(game, level, seed),
+            }
+        };
         let reports: Vec<_> = levels.par_iter().map(judge).collect();
-        let judgements = self.panel.judge_together(game, levels, &reports, seed);
+        let boards: Vec<Level> = levels.iter().map(|(level, _)| level.clone()).collect();
+        let judgements = self.panel.judge_together(game, &boards, &reports, seed);
         let report = GameReport { levels: reports, judgements };
         let won = report.levels.iter().filter(|level| level.witness.is_some()).count();
         let answer = |judged: &validators::Judgement| {
@@ -120,6 +133,7 @@ impl GateRow {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use engine::Action;
     use report::canonical::to_canonical_json;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n  InteractionSet\n    avatar wall > stepBack\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=60 win=False\n";
@@ -130,13 +144,31 @@ mod tests {
         let level = game.level("wwwwww\nwA  pw\nwwwwww\n").unwrap();
         let seed = Seed::from_text("gates");
         let criteria = Criteria { budget: 1000, ..GateSurvey::criteria() };
-        let row = GateSurvey::new(&criteria, seed).unwrap().row("plums", &game, &[level]);
+        let row = GateSurvey::new(&criteria, seed).unwrap().row("plums", &game, &[(level, None)]);
         assert_eq!((row.levels, row.won), (1, 1));
         assert_eq!(row.gates["drama"].passes, Some(false));
         assert_eq!(row.gates["progression"].passes, None);
         assert!(row.line().starts_with("plums: won 1 of 1, progression?, drama! 0.00,"), "{}", row.line());
         let table = GateRow::table(&[("ours", &[row])]).to_markdown();
         assert!(table.contains("| drama | 0 of 1 | 0.00 |"), "{table}");
+    }
+
+    #[test]
+    fn a_known_win_is_the_one_that_is_judged() {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("wwwwww\nwA  pw\nwwwwww\n").unwrap();
+        let (mut win, mut state) = Episode::begin(&game, &level, Seed::from_text("win"));
+        // There and back again: a search would find three steps.
+        for action in [Action::Right, Action::Left, Action::Right, Action::Right, Action::Right] {
+            win.play(&game, &mut state, action);
+        }
+        let survey = GateSurvey::new(&GateSurvey::criteria(), Seed::from_text("gates")).unwrap();
+        let ticks = |win: Option<Episode>| {
+            let row = survey.row("plums", &game, &[(level.clone(), win)]);
+            row.gates["no-dead-time"].seen.last().cloned().unwrap_or_default()
+        };
+        assert!(ticks(Some(win)).contains("a win of 5"), "{}", ticks(None));
+        assert!(ticks(None).contains("a win of 3"), "{}", ticks(None));
     }
 
     #[test]

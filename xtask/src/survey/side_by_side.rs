@@ -3,8 +3,9 @@
 use super::folders;
 use crate::levels::{load, name_of};
 use anyhow::Context;
-use engine::{Digest, Level, Seed};
+use engine::{Digest, Episode, Game, Level, Outcome, Seed};
 use forge::survey::{Comparison, GameRow, GameSurvey, GateRow, GateSurvey};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
 use std::io::Write;
@@ -48,8 +49,9 @@ pub(crate) struct Args {
     /// Print the names of the games that the seed draws, without judging any
     #[arg(long)]
     sample: bool,
-    /// Put the games through the gates of docs/gates.md instead, all their levels, and print how many pass each. --rows takes
-    /// a line for each game; --budget is 300000 unless given
+    /// Put the games through the gates of docs/gates.md instead, all their levels, and print how many pass each. Levels with a
+    /// win in the folder `witness`, as generated games have it, are judged by that one. --rows takes a line for each game;
+    /// --budget is 300000 unless given
     #[arg(long)]
     gates: bool,
     /// Threads; all cores if not given. Changes no result
@@ -111,6 +113,8 @@ fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Re
         let mut of_group = Vec::new();
         for folder in folders {
             let (game, levels) = load(folder)?;
+            let levels: Vec<_> =
+                (0..).zip(levels).map(|(number, level)| won(folder, number, &game, level)).collect();
             let row = pool.install(|| survey.row(&name_of(folder), &game, &levels));
             println!("{}", row.line());
             if let Some(path) = &args.rows {
@@ -123,6 +127,22 @@ fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Re
     let rows: Vec<(&str, &[GateRow])> = rows.iter().map(|(group, rows)| (*group, &rows[..])).collect();
     println!("\n{}", GateRow::table(&rows).to_markdown());
     Ok(())
+}
+
+/// A level with the episode that wins it, if the folder has one.
+fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Option<Episode>) {
+    /// The part of a witness file that counts.
+    #[derive(Deserialize)]
+    struct Witness {
+        episode: Episode,
+    }
+    let read = || {
+        let text = fs::read_to_string(folder.join(format!("witness/lvl{number}.json"))).ok()?;
+        let Witness { episode } = serde_json::from_str(&text).ok()?;
+        (episode.outcome == Outcome::Won && episode.replay(game, &level).is_ok()).then_some(episode)
+    };
+    let win = read();
+    (level, win)
 }
 
 /// The game folders in a folder, by name: at most `most` of them, drawn by the seed and the folder's own names.
@@ -199,7 +219,6 @@ fn append(path: &Path, row: &impl serde::Serialize) -> anyhow::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Game;
 
     #[test]
     fn levels_are_spread_over_all() {
