@@ -1,9 +1,12 @@
 //! `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear errors.
 
-use crate::arcade::{files, run, sweeping, text};
+use crate::arcade::{arcade, files, run, sweeping, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 /// Generates games; returns the answer as JSON.
 #[track_caller]
@@ -63,6 +66,24 @@ fn a_report_shows_the_games() {
     assert_eq!(report.keys().collect::<Vec<_>>(), ["report.html", "report.json", "sheet.png"]);
     let report: Value = serde_json::from_slice(&report["report.json"]).unwrap();
     assert_eq!(report["games"].as_array().unwrap().len(), 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_is_told() {
+    let home = tempfile::tempdir().unwrap();
+    let mut command = arcade(home.path());
+    command.args(["generate", "games", "--count", "500", "--jobs", "1", "--out", "new"]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    // Signals are caught once there is a folder to write to.
+    while !home.path().join("new.partial").exists() {
+        thread::sleep(Duration::from_millis(10));
+    }
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(text(&output.stderr), "interrupted; nothing is kept: the same command starts over\n");
+    assert!(!home.path().join("new").exists());
 }
 
 #[test]

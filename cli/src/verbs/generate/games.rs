@@ -4,6 +4,7 @@ use super::pretty;
 use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::interrupt;
 use crate::protected;
 use crate::set_report::game_report;
 use crate::verbs::release::in_pool;
@@ -33,7 +34,8 @@ use validators::{Criteria, GameForm, Panel};
 /// so on, card.json, witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or
 /// absent.
 ///
-/// Exit status 0: all requested games. 1: fewer, or none. 2: a flag is malformed.
+/// Exit status 0: all requested games. 1: fewer, or none. 2: a flag is malformed. 128 + signal, such as 130 for Ctrl-C:
+/// interrupted; nothing is kept.
 ///
 /// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
 #[derive(clap::Args)]
@@ -82,6 +84,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
+    interrupt::watch(|| (), "interrupted; nothing is kept: the same command starts over".to_owned());
     // Check the place to write to before minutes of work.
     let draft = protected::draft(&args.out)?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
@@ -104,6 +107,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         write(&draft, game)?;
     }
     draft.write("games.json", &pretty(&document(args, &set))?)?;
+    interrupt::defer();
     draft.commit()?;
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
