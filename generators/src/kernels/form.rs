@@ -81,7 +81,8 @@ impl Form {
     /// The rules of the kernel with those of the form.
     fn rules(&self, rules: &str) -> String {
         let mut section = "";
-        let mut own: Vec<&str> = self.sprites.lines().filter(|line| !line.trim().is_empty()).collect();
+        let own: Vec<&str> = self.sprites.lines().filter(|line| !line.trim().is_empty()).collect();
+        let is_new = |line: &&&str| !rules.lines().any(|of_kernel| name(of_kernel) == name(line));
         let mut text = String::new();
         for line in rules.lines() {
             let mut add = |line: &str| text.extend([line, "\n"]);
@@ -92,8 +93,6 @@ impl Form {
                 }
                 "InteractionSet" => {
                     section = "InteractionSet";
-                    // What no line of the kernel made room for.
-                    own.drain(..).for_each(&mut add);
                     add(line);
                     add(&self.first);
                 }
@@ -104,17 +103,17 @@ impl Form {
                     add(&self.terminations);
                 }
                 _ if section == "SpriteSet" => {
-                    let name = name(line);
+                    let margin = &line[..line.len() - line.trim_start().len()];
                     // New types come before the hero, which is drawn over them.
-                    if name == "hero" {
-                        let (heroes, others): (Vec<&str>, Vec<&str>) =
-                            own.iter().partition(|line| self::name(line) == "hero");
-                        own = heroes;
-                        others.into_iter().for_each(&mut add);
+                    if name(line) == "hero" {
+                        own.iter()
+                            .filter(is_new)
+                            .for_each(|new| add(&format!("{margin}{}", new.trim_start())));
                     }
-                    match own.iter().position(|line| self::name(line) == name) {
-                        Some(at) => add(own.remove(at)),
-                        None if self.lacks(name) => {}
+                    match own.iter().find(|own| name(own) == name(line)) {
+                        // A type in a group stays there.
+                        Some(own) => add(&format!("{margin}{}", own.trim_start())),
+                        None if self.lacks(name(line)) => {}
                         None => add(line),
                     }
                 }

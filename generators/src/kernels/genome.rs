@@ -12,6 +12,9 @@ use engine::{Description, Digest, Game, Sampler, Seed, syntax};
 /// The ticks of a game whose levels nobody has played yet.
 const LONG: u32 = 400;
 
+/// Games of another form for one of a kernel as such: forms were written because kernels end alike.
+const OTHER_FORM: u32 = 2;
+
 /// A game, and the maps of its levels.
 #[derive(Clone, Debug)]
 pub struct KernelGame {
@@ -61,7 +64,9 @@ impl KernelGenome {
     /// Draws a game of a kernel that has scenes, in one of its forms.
     pub(crate) fn of(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let forms: Vec<&'static Kernel> = kernel.in_all_forms().collect();
-        let form = *sampler.choose(&forms);
+        let weights: Vec<u32> =
+            forms.iter().map(|form| if form.form.is_some() { OTHER_FORM } else { 1 }).collect();
+        let form = forms[sampler.weighted(&weights).unwrap_or(0)];
         KernelGenome::in_form(form, sampler)
     }
 
