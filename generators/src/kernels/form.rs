@@ -26,6 +26,9 @@ pub(super) struct Form {
     /// Lines of the SpriteSet; one with the name of a type of the kernel replaces it.
     #[serde(default)]
     sprites: String,
+    /// Interactions that replace those of the kernel between the same types.
+    #[serde(default)]
+    instead: String,
     /// Interactions before those of the kernel.
     #[serde(default)]
     first: String,
@@ -61,6 +64,7 @@ impl Form {
             facts: said(&file.facts).into_iter().chain(self.facts.clone()).collect(),
             titles: said(&file.titles).into_iter().chain(self.titles.clone()).collect(),
             rules: self.rules(&file.rules),
+            whole_rules: file.rules.clone(),
             roles,
             level: file.level.iter().filter(is_for).filter(|level| !tells(&level.asks)).cloned().collect(),
             variant: file.variant.iter().filter(fits).cloned().collect(),
@@ -95,6 +99,7 @@ impl Form {
                     section = "InteractionSet";
                     add(line);
                     add(&self.first);
+                    add(&self.instead);
                 }
                 "TerminationSet" => {
                     section = "TerminationSet";
@@ -124,12 +129,19 @@ impl Form {
         text
     }
 
-    /// A line of the InteractionSet without the types that the form lacks; `None` if nothing is left of it.
+    /// A line of the InteractionSet without the types that the form lacks; `None` if nothing is left of it, or if the form
+    /// replaces it.
     fn interaction(&self, line: &str) -> Option<String> {
         let (sides, effect) = line.split_once('>')?;
         let param = |word: &str| {
             word.split_once('=').is_some_and(|(_, value)| value.split(',').any(|name| self.lacks(name)))
         };
+        let same = |own: &str| {
+            own.split_once('>').is_some_and(|(own, _)| own.split_whitespace().eq(sides.split_whitespace()))
+        };
+        if self.instead.lines().any(same) {
+            return None;
+        }
         let mut sides = sides.split_whitespace();
         let first = sides.next()?;
         let partners: Vec<&str> = sides.filter(|name| !self.lacks(name)).collect();

@@ -131,6 +131,9 @@ pub(super) struct File {
     pub(super) titles: Vec<String>,
     pub(super) divider: Option<String>,
     pub(super) rules: String,
+    /// The rules of the kernel as such, in the file of a form: maps use their numbers.
+    #[serde(skip)]
+    pub(super) whole_rules: String,
     pub(super) roles: BTreeMap<String, Casting>,
     #[serde(default)]
     pub(super) pieces: BTreeMap<String, String>,
@@ -228,6 +231,8 @@ impl Kernel {
             interactions: template(&interactions)?,
             terminations: template(&terminations)?,
         };
+        numbers.complete(&file.whole_rules);
+        let mut template = |text: &str| Template::read(text, &mut numbers).map_err(fail);
         let variants = file.variant.into_iter().map(|variant| {
             Ok(Variant {
                 name: variant.name,

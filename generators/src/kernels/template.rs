@@ -10,6 +10,18 @@ impl Numbers {
         let mut draw = |number: &Number| sampler.between(number.least as usize, number.most as usize) as u32;
         self.0.iter().map(&mut draw).collect()
     }
+
+    /// Adds the numbers that a text introduces by a name that is not among them.
+    pub(crate) fn complete(&mut self, text: &str) {
+        for inside in text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0)) {
+            let mut own = Numbers::default();
+            let introduced = number(inside, &mut own).is_ok();
+            let is_known = |new: &Number| self.0.iter().any(|number| number.name == new.name);
+            let missing = own.0.into_iter().filter(|new| introduced && new.name.is_some());
+            let missing: Vec<Number> = missing.filter(|new| !is_known(new)).collect();
+            self.0.extend(missing);
+        }
+    }
 }
 
 /// A number and its range.
@@ -105,6 +117,9 @@ mod tests {
         let text = "limit={price:2..4} cooldown={3..3} coin*{price+1} {price-2}";
         let template = Template::read(text, &mut numbers).unwrap();
         assert_eq!(numbers.0.len(), 2);
+        let mut more = numbers.clone();
+        more.complete("{1..9} {price} {price:1..9} {need:2..3} {");
+        assert!(more.0[..2] == numbers.0 && more.0.len() == 3, "{more:?}");
         assert_eq!(template.fill(&[4, 3]), "limit=4 cooldown=3 coin*5 2");
         for wrong in ["{", "{x}", "{4..2}", "{price:1..2}", "{price+x}"] {
             assert!(Template::read(wrong, &mut numbers.clone()).is_err(), "{wrong}");
