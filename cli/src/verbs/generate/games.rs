@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     // Check the place to write to before minutes of work.
     let draft = protected::draft(&args.out)?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
-    let bar = Bar(console.progress(u64::from(args.count), "games"));
+    let bar = Bar(console.progress(u64::from(args.count), "games"), console);
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
     let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
@@ -171,9 +171,10 @@ fn report(
     game_report(draft, &report, &games, (&title, args.method.name(), Some(seconds)))
 }
 
-struct Bar(ProgressBar);
+/// The progress of the making: a bar, or a line for each game where no bar can be drawn.
+struct Bar<'a>(ProgressBar, &'a Console);
 
-impl Progress for Bar {
+impl Progress for Bar<'_> {
     fn looked(&self) {
         self.0.tick();
     }
@@ -181,6 +182,9 @@ impl Progress for Bar {
     fn made(&self, title: &str) {
         self.0.set_message(title.to_owned());
         self.0.inc(1);
+        if self.0.is_hidden() {
+            self.1.remark(format_args!("made: {title}"));
+        }
     }
 }
 
