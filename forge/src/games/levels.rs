@@ -309,7 +309,7 @@ impl Levels<'_> {
 }
 
 /// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
-const LATER_SHARE: f64 = 0.7;
+const LATER_SHARE: f64 = 0.6;
 
 /// The criteria whose answer does not depend on dice once there is a witness.
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
