@@ -4,7 +4,6 @@
 //! the two games is therefore the same up to the first consequence: the random stream does not shift.
 
 use crate::Digest;
-use crate::deferred_move::barriers;
 use crate::game::{Game, Rules};
 use crate::ontology::effects::Effect;
 use crate::sleep::shortcuts;
@@ -35,9 +34,6 @@ impl Game {
         rules.shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
         rules.any_sleep = rules.shortcuts.iter().any(|of_type| of_type.sleeps);
         rules.any_fly = rules.shortcuts.iter().any(|of_type| of_type.flies);
-        rules.barriers =
-            barriers(&rules.types, &rules.passes, &rules.effects, &mut rules.contacts, &rules.movers);
-        rules.any_barriers = rules.contacts.kinds.iter().any(|kind| kind.barriers != 0);
         rules.digest = Digest::of(format!("{} without interaction {line}", rules.digest).as_bytes());
         Game(Arc::new(rules))
     }

@@ -22,8 +22,6 @@ pub(crate) struct TypeMask {
     pub(crate) own: u64,
     /// The bits of the types that a rule pairs it with.
     partners: u64,
-    /// The bits of the types that put it back (`deferred_move.rs`).
-    pub(crate) barriers: u64,
 }
 
 impl TypeMask {
@@ -132,11 +130,6 @@ impl Contacts {
     /// The bit of a type if no other type has it.
     pub(crate) fn sole_bit(&self, stype: usize) -> u64 {
         self.kinds[stype].own & !(1 << (BITS - 1))
-    }
-
-    /// The passes that involve a type, in order.
-    pub(crate) fn passes_of(&self, stype: SpriteType) -> &[u16] {
-        &self.of_type[stype.index()]
     }
 
     /// The number of pairs.

@@ -1,6 +1,5 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
-use crate::deferred_move::NEVER;
 use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
@@ -12,8 +11,6 @@ use smallvec::SmallVec;
 
 impl Step<'_> {
     pub(crate) fn events(&mut self, watch: &mut impl Watch) {
-        // From here on, effects move sprites.
-        self.defers = false;
         if !self.state.timers.is_empty() {
             self.timers(watch);
             if self.stopped.is_some() {
@@ -30,24 +27,17 @@ impl Step<'_> {
         }
         let rules = self.rules;
         let (mut from, mut is_tidy) = (0, false);
-        loop {
-            let possible = self.state.next_possible(from);
-            if self.next_deferred != NEVER && possible.is_none_or(|number| self.next_deferred <= number) {
-                from = self.next_deferred;
-                self.settle_deferred(possible == Some(from), watch);
-            } else {
-                let Some(number) = possible else { break };
-                if !is_tidy {
-                    self.state.tidy_covered(rules);
-                    is_tidy = true;
-                }
-                self.pass = number as i32;
-                self.pair_pass(number, &rules.passes[number], watch);
-                from = number + 1;
+        while let Some(number) = self.state.next_possible(from) {
+            if !is_tidy {
+                self.state.tidy_covered(rules);
+                is_tidy = true;
             }
+            self.pass = number as i32;
+            self.pair_pass(number, &rules.passes[number], watch);
             if self.stopped.is_some() {
                 break;
             }
+            from = number + 1;
         }
     }
 
@@ -345,8 +335,6 @@ impl Step<'_> {
             self.prepare(&info.effect, one);
             let free = info.score_change == 0 && info.counting.is_none();
             self.note(&info.effect, free, one, two);
-        } else if self.next_deferred != NEVER && info.effect.affects_distant_sprites() {
-            self.carry_out_deferred();
         }
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
@@ -376,8 +364,6 @@ impl Step<'_> {
                 self.land_one(partner);
                 self.note(&info.effect, false, one, Some(partner));
             }
-        } else if self.next_deferred != NEVER && info.effect.affects_distant_sprites() {
-            self.carry_out_deferred();
         }
         let times = effects::execute_batch(self, &info.effect, one, partners);
         self.credit(info, self.state.memory[usize::from(effect)], times);

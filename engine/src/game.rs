@@ -1,7 +1,6 @@
 //! A compiled game: immutable, valid and cheap to clone.
 
 use crate::contacts::Contacts;
-use crate::deferred_move::Barriers;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::geometry::Direction;
 use crate::limits::MAX_TICKS;
@@ -353,10 +352,6 @@ pub(crate) struct Rules {
     /// `true` if sprites of some type may sleep, and if some may fly.
     pub(crate) any_sleep: bool,
     pub(crate) any_fly: bool,
-    /// By type.
-    pub(crate) barriers: Vec<Barriers>,
-    /// `true` if any type has barriers.
-    pub(crate) any_barriers: bool,
     pub(crate) timed: Vec<Timed>,
     /// `true` if the game has `obs=`, and thereby path finding.
     pub(crate) finds_paths: bool,

@@ -13,7 +13,6 @@ mod compile;
 mod contacts;
 mod contribution;
 mod defaults;
-mod deferred_move;
 pub mod describe;
 mod diagnostic;
 mod digest;
@@ -50,7 +49,6 @@ mod step;
 mod swept_cells;
 pub mod syntax;
 mod trigonometry;
-mod walk;
 
 pub use analysis::Analysis;
 pub use chance::Chance;

@@ -1,6 +1,5 @@
 //! The operations of the ontology that move sprites.
 
-use crate::deferred_move::NEVER;
 use crate::game::Limit;
 use crate::geometry::{Direction, Rect};
 use crate::occupancy::Located;
@@ -29,9 +28,6 @@ impl Step<'_> {
         }
         if self.state.sprite(slot).rect == rect {
             return;
-        }
-        if self.next_deferred != NEVER {
-            self.carry_out(slot);
         }
         if self.sleeps {
             let (from, to) = self.state.locate_move(slot, rect);
@@ -81,7 +77,7 @@ impl Step<'_> {
             return false;
         }
         let Some(aim) = self.shifted(slot, direction, amount) else { return false };
-        self.go_or_walk(slot, aim);
+        self.go(slot, aim);
         true
     }
 
@@ -95,7 +91,7 @@ impl Step<'_> {
         let by = if base < 2 { amount.saturating_neg() } else { amount };
         let (dx, dy) = if base.is_multiple_of(2) { (0, by) } else { (by, 0) };
         let aim = self.state.sprite(slot).rect.at(x.wrapping_add(dx), y.wrapping_add(dy));
-        self.go_or_walk(slot, aim);
+        self.go(slot, aim);
         true
     }
 
@@ -105,18 +101,11 @@ impl Step<'_> {
         self.rules.types[self.state.sprite(slot).stype.index()].traits.cooldown > self.age(slot)
     }
 
-    #[inline(always)]
-    fn go_or_walk(&mut self, slot: Slot, aim: Rect) {
-        if self.sleeps || !self.walk(slot, aim) {
-            self.go(slot, aim);
-        }
-    }
-
     /// Moves a sprite to any place, as part of its own movement.
     #[inline(never)]
     fn go(&mut self, slot: Slot, aim: Rect) {
         let sprite = self.state.sprite(slot);
-        let special = sprite.is(flag::FROZEN | flag::DEFERRED) || aim == sprite.rect || aim.h == 0;
+        let special = sprite.is(flag::FROZEN) || aim == sprite.rect || aim.h == 0;
         if special {
             self.place(slot, aim);
             self.set_age(slot, 0);
@@ -125,9 +114,6 @@ impl Step<'_> {
         // The common case, without separate calls.
         self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
         let (from, to) = self.state.locate_move(slot, aim);
-        if self.defers && self.defer_move(slot, aim, from, to) {
-            return;
-        }
         if self.sleeps {
             self.place_noisily(slot, aim, from, to);
         } else {

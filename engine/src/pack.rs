@@ -73,7 +73,7 @@ macro_rules! state_fields {
 state_fields! {
     scalars tick score chance avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_dirty big off multi_cell_bits big_bits next_due census_changed jumps vast left_behind;
     buffers sprites contributions hash_classes groups cells masks crowds covered together meets reasons possible moved resized dirty killed held memory templates shields pulled overrides extras sleepers watched stamps flights timers replaced counters;
-    scratch touched deferred paths scenery
+    scratch touched paths scenery
 }
 
 fn put_scalar<T: Bytes>(value: &T, base: &T, to: &mut Vec<u8>) {

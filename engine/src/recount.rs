@@ -79,7 +79,7 @@ impl State {
         if bits(&fresh).iter().zip(bits(self)).any(|(&fresh, kept)| fresh & !kept != 0) {
             return Err("contacts: a sprite in several cells is not known as one".to_owned());
         }
-        if !self.touched.is_empty() || !self.deferred.is_empty() {
+        if !self.touched.is_empty() {
             return Err("contacts: something is left over from the last event phase".to_owned());
         }
         Ok(())

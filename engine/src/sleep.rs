@@ -355,9 +355,8 @@ impl Step<'_> {
         self.updating < order || self.updating == order && id < self.updating_id
     }
 
-    /// Wakes and lands all sprites, and carries out all deferred moves, because anything may be about to change.
+    /// Wakes and lands all sprites, because anything may be about to change.
     pub(crate) fn wake_and_land_all(&mut self) {
-        self.carry_out_deferred();
         self.wake_sleepers();
         self.land_midway();
     }

@@ -7,7 +7,6 @@
 
 use crate::chance::Chance;
 use crate::contribution::{Contribution, HashClass, Sum};
-use crate::deferred_move::DeferredMove;
 use crate::flight::Flight;
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::Rect;
@@ -64,8 +63,6 @@ pub(crate) mod flag {
     pub(crate) const CHANGED: u32 = 65_536;
     /// The sprite is in `State::resized`: it had another size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
-    /// The sprite has stepped into a barrier in this tick, and is still entered at its old position (`deferred_move.rs`).
-    pub(crate) const DEFERRED: u32 = 131_072;
     /// The bits of how a sprite lies in its cell.
     pub(crate) const PLACEMENT: u32 = MULTI_CELL | OFF;
     /// Spawner: it has been updated, and `Overrides::start` is the tick of the first update.
@@ -279,8 +276,6 @@ pub struct State {
     pub(crate) next_due: i32,
     /// Watched cells that a sprite has entered or left, within a step.
     pub(crate) touched: Vec<u32>,
-    /// Unsettled deferred moves, within a step.
-    pub(crate) deferred: Vec<DeferredMove>,
     /// Scheduled timed effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
     /// The path finding tables (`paths.rs`); `None` without `obs=`. All states of a level share them.
@@ -331,7 +326,7 @@ macro_rules! clone_fields {
 clone_fields! { to, from;
     copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_dirty big off multi_cell_bits big_bits next_due census_changed jumps vast left_behind;
     buffers sprites contributions hash_classes groups cells masks crowds covered together meets reasons possible moved resized dirty killed held memory templates shields pulled overrides extras sleepers watched stamps flights timers replaced counters;
-    empty touched deferred;
+    empty touched;
     shared paths scenery
 }
 

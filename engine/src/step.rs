@@ -3,7 +3,6 @@
 
 use crate::Seed;
 use crate::chance::Chance;
-use crate::deferred_move::NEVER;
 use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::level::Level;
@@ -74,10 +73,6 @@ pub(crate) struct Step<'a> {
     pub(crate) flies: bool,
     /// `true` if a sprite that may sleep or fly has moved by itself.
     pub(crate) any_moved: bool,
-    /// `true` if moves into barriers may be deferred.
-    pub(crate) defers: bool,
-    /// The pass that settles deferred moves next.
-    pub(crate) next_deferred: usize,
 }
 
 impl Game {
@@ -145,7 +140,6 @@ impl Game {
             next_due: i32::MAX,
             census_changed: true,
             touched: Vec::new(),
-            deferred: Vec::new(),
             timers: Vec::new(),
             paths: None,
             scenery: None,
@@ -210,7 +204,6 @@ impl Game {
         let action = if self.allows(state, action) { action } else { Action::Nil };
         let mut step = Step::new(&self.0, state);
         step.prepare_shortcuts(unoptimised);
-        step.defers = step.rules.any_barriers && !unoptimised && !watch.wants_meetings();
         step.cycle(action, watch);
         watch.worked(step.work);
         state.outcome
@@ -231,8 +224,6 @@ impl<'a> Step<'a> {
             sleeps: false,
             flies: false,
             any_moved: false,
-            defers: false,
-            next_deferred: NEVER,
         }
     }
 

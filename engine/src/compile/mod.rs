@@ -16,7 +16,6 @@ pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
 use crate::contacts::Contacts;
-use crate::deferred_move::barriers;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
@@ -130,8 +129,7 @@ fn compile_with(
     };
     let movers: Vec<Mover> = order.iter().rev().filter_map(mover).collect();
     let referenced = referenced(description, &types);
-    let mut contacts = Contacts::of(&types, &program.passes);
-    let barriers = barriers(&types, &program.passes, &program.effects, &mut contacts, &movers);
+    let contacts = Contacts::of(&types, &program.passes);
     // The reference makes one sprite of each resource to learn its limit, and logs messages about its parameters then,
     // too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
@@ -172,8 +170,6 @@ fn compile_with(
         any_sleep: shortcuts.iter().any(|of_type| of_type.sleeps),
         any_fly: shortcuts.iter().any(|of_type| of_type.flies),
         shortcuts,
-        any_barriers: contacts.kinds.iter().any(|kind| kind.barriers != 0),
-        barriers,
         contacts,
         passes: program.passes,
         timed: program.timed,

@@ -171,7 +171,7 @@ fn shortcuts_change_nothing_for_walks_into_walls() {
 
 /// An effect moves the avatar against a wall after the rule that puts it back has run: no rule runs again.
 #[test]
-fn only_own_steps_are_deferred() {
+fn a_move_against_a_wall_is_not_put_back_later() {
     let source = "\
 BasicGame square_size=10
     SpriteSet
