@@ -6,8 +6,7 @@
 use crate::Digest;
 use crate::game::{Game, Rules};
 use crate::ontology::effects::Effect;
-use crate::sleep::shortcuts;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 impl Game {
     /// The game in which interaction `line` (index into [`Description::interactions`](crate::Description)) has no
@@ -18,7 +17,7 @@ impl Game {
     /// If there is no such line.
     pub fn without(&self, line: usize) -> Game {
         assert!(line < self.description().interactions.len(), "interaction {line} is one of the game's");
-        let mut rules = Rules { all_warnings: OnceLock::new(), ..(*self.0).clone() };
+        let mut rules = Rules { all_warnings: OnceLock::new(), ..self.0.rules.clone() };
         for info in rules.effects.iter_mut().filter(|info| info.line == line) {
             let effect = std::mem::replace(&mut info.effect, Effect::KillBoth);
             info.effect = Effect::Disabled(Box::new(effect));
@@ -30,12 +29,8 @@ impl Game {
             timed.score_change = 0;
             timed.apply_score = false;
         }
-        // Sprites sleep only if a rule puts them back.
-        rules.shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
-        rules.any_sleep = rules.shortcuts.iter().any(|of_type| of_type.sleeps);
-        rules.any_fly = rules.shortcuts.iter().any(|of_type| of_type.flies);
         rules.digest = Digest::of(format!("{} without interaction {line}", rules.digest).as_bytes());
-        Game(Arc::new(rules))
+        Game::of(rules)
     }
 }
 

@@ -4,7 +4,8 @@ use crate::game::{Game, SpriteType};
 use crate::geometry::Direction;
 use crate::level::Level;
 use crate::seed::Seed;
-use crate::state::{NONE, State};
+use crate::state::State;
+use crate::world::NONE;
 
 impl Game {
     /// [`Game::start`] with the avatar facing `facing` and holding some resources: for players that reconstruct a
@@ -17,15 +18,16 @@ impl Game {
         held: &[(SpriteType, i32)],
     ) -> State {
         let mut state = self.start(level, seed);
-        if state.avatar != NONE {
+        let world = &mut state.world;
+        if world.avatar != NONE {
             for &(resource, amount) in held {
-                state.add_amount(state.avatar, resource, amount);
+                world.add_amount(world.avatar, resource, amount);
             }
             if let Some(facing) = facing {
-                state.edit_overrides(state.avatar).orientation = facing;
+                world.edit_overrides(world.avatar).orientation = facing;
             }
-            state.memory_is_dirty = true;
-            state.settle_hash();
+            world.memory_is_dirty = true;
+            world.settle_hash();
         }
         state
     }

@@ -1,6 +1,7 @@
 //! The random number generator of a game: the 48-bit linear congruential generator of the reference's VGDL games
 //! (`spec/01` §7.1; the algorithm is the published one of `java.util.Random`).
 
+use crate::flat::bytes_of_wrapper;
 const MULTIPLIER: u64 = 0x5_DEEC_E66D;
 const MASK: u64 = (1 << 48) - 1;
 /// Bits of a draw of [`Chance::float`].
@@ -9,6 +10,8 @@ pub(crate) const DRAW: u32 = 24;
 /// The generator: eight bytes of state, part of every [`State`](crate::State).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chance(pub(crate) u64);
+
+bytes_of_wrapper! { Chance }
 
 impl Chance {
     /// The generator that the reference makes from a seed, as traces record it.

@@ -1,5 +1,6 @@
 //! Integer rectangles in pixels and directions of two doubles (`spec/01` §5, §6.1).
 
+use crate::flat::bytes_of_fields;
 /// An integer rectangle: the top-left corner and the size, in pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Rect {
@@ -12,6 +13,8 @@ pub struct Rect {
     /// Height.
     pub h: i32,
 }
+
+bytes_of_fields! { Rect { x y w h } }
 
 impl Rect {
     /// Tests whether the two share positive area; empty rectangles never do.
@@ -55,6 +58,8 @@ pub struct Direction {
     /// The vertical component; positive is down.
     pub y: f64,
 }
+
+bytes_of_fields! { Direction { x y } }
 
 impl Direction {
     /// No direction.

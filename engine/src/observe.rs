@@ -4,7 +4,8 @@ use crate::game::{Game, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SEEN;
 use crate::ontology::class::SpriteClass;
-use crate::state::{Sprite, State, flag};
+use crate::state::State;
+use crate::world::{Sprite, flag};
 
 /// An observation: the part of a state that a player is shown, never the state itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,7 +128,7 @@ impl Game {
     /// The observation of a state. Cost: O(sprites + cells). It is limited to the first [`MAX_SEEN`] names, which matters
     /// for a board full of giants.
     pub fn observe(&self, state: &State) -> Observation {
-        let (columns, rows) = (state.columns as usize, state.rows as usize);
+        let (columns, rows) = (state.world.columns as usize, state.world.rows as usize);
         let mut cells = vec![Vec::new(); columns * rows];
         let mut room = MAX_SEEN;
         for &stype in &self.0.order {
@@ -135,17 +136,17 @@ impl Game {
             if info.traits.hidden {
                 continue;
             }
-            for sprite in state.sprites_of(stype) {
+            for sprite in state.world.sprites_of(stype) {
                 let span = |from: i32, size: i32, limit: i32| {
-                    let first = from.div_euclid(state.block).clamp(0, limit);
+                    let first = from.div_euclid(state.world.block).clamp(0, limit);
                     let last = from
                         .saturating_add(size.saturating_sub(1))
-                        .div_euclid(state.block)
+                        .div_euclid(state.world.block)
                         .clamp(-1, limit - 1);
                     first as usize..(last + 1) as usize
                 };
-                for row in span(sprite.rect.y, sprite.rect.h, state.rows) {
-                    let seen = span(sprite.rect.x, sprite.rect.w, state.columns).take(room);
+                for row in span(sprite.rect.y, sprite.rect.h, state.world.rows) {
+                    let seen = span(sprite.rect.x, sprite.rect.w, state.world.columns).take(room);
                     for column in seen {
                         room -= 1;
                         cells[row * columns + column].push(info.name.clone());
@@ -154,7 +155,7 @@ impl Game {
             }
         }
         let resources = self.held_by_avatar(state);
-        let (ticks, score, outcome) = ((state.tick + 1) as u32, state.score(), state.outcome);
+        let (ticks, score, outcome) = ((state.world.tick + 1) as u32, state.score(), state.world.outcome);
         let avatar = self.seen_avatar(state);
         Observation { ticks, score, outcome, columns, rows, cells, resources, avatar }
     }
@@ -162,8 +163,9 @@ impl Game {
     /// The place and type of the avatar; `None` if there is no living one. Cost: O(1).
     pub fn seen_avatar(&self, state: &State) -> Option<AvatarView> {
         let stype = state.avatar_type()?;
-        let (sprite, overrides) = (state.sprite(state.avatar), state.overrides(state.avatar));
-        let cell = |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.block.max(1));
+        let (sprite, overrides) =
+            (state.world.sprite(state.world.avatar), state.world.overrides(state.world.avatar));
+        let cell = |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block.max(1));
         Some(AvatarView {
             name: self.name(stype).to_owned(),
             column: cell(sprite.rect.x, sprite.rect.w),
@@ -175,7 +177,7 @@ impl Game {
 
     /// The resources that the avatar holds: names, sorted, with amounts.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
-        let held = state.held_by(state.avatar).iter();
+        let held = state.world.held_by(state.world.avatar).iter();
         let mut resources: Vec<_> =
             held.map(|held| (self.name(held.resource).to_owned(), held.amount)).collect();
         resources.sort();
@@ -185,7 +187,7 @@ impl Game {
     /// The record of every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
     pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
         let record = |sprite: &Sprite, resources: Vec<(u16, i32)>| {
-            let overrides = state.overrides_of(sprite);
+            let overrides = state.world.overrides_of(sprite);
             SpriteRecord {
                 id: sprite.id,
                 stype: sprite.stype.0,
@@ -195,15 +197,15 @@ impl Game {
                 health: overrides.health,
                 flags: (sprite.flags & flag::RECORDED) as u16,
                 resources,
-                rotation: state.rotation(&self.0, sprite),
+                rotation: state.world.rotation(&self.0, sprite),
             }
         };
-        let slots = self.sprite_types().flat_map(|stype| state.slots(stype)).map(|slot| {
-            let held = state.held_by(slot).iter();
+        let slots = self.sprite_types().flat_map(|stype| state.world.slots(stype)).map(|slot| {
+            let held = state.world.held_by(slot).iter();
             let resources = held.map(|held| (held.resource.0, held.amount)).collect();
-            record(&state.present(slot), resources)
+            record(&state.world.present(slot), resources)
         });
-        let scenery = self.sprite_types().flat_map(|stype| state.scenery_of(stype));
+        let scenery = self.sprite_types().flat_map(|stype| state.world.scenery_of(stype));
         let scenery = scenery.map(|sprite| record(sprite, Vec::new()));
         let mut records: Vec<SpriteRecord> = slots.chain(scenery).collect();
         records.sort_unstable_by_key(|record| record.id);
@@ -215,7 +217,7 @@ impl Game {
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
-        let next = state.tick.saturating_add(1);
+        let next = state.world.tick.saturating_add(1);
         let countdown = |sprite: Sprite| {
             let traits = &self.0.types[sprite.stype.index()].traits;
             if !is_a(sprite.stype, C::SpawnPoint) {
@@ -223,7 +225,7 @@ impl Game {
                 return Countdown { stype: sprite.stype, event: Event::Ends, ticks: Some(ticks), left: None };
             }
             // The first update of a producer sets its start.
-            let start = if sprite.is(flag::STARTED) { state.overrides_of(&sprite).start } else { next };
+            let start = if sprite.is(flag::STARTED) { state.world.overrides_of(&sprite).start } else { next };
             let gone = start.wrapping_add(next).rem_euclid(traits.cooldown.max(1));
             let ticks = if gone == 0 { 1 } else { traits.cooldown - gone + 1 };
             let left = (traits.total > 0).then(|| traits.total.saturating_sub(sprite.count));
@@ -235,7 +237,7 @@ impl Game {
             !self.is_hidden(*stype) && (is_a(*stype, C::SpawnPoint) || ends())
         };
         let counting = self.sprite_types().filter(counts);
-        counting.flat_map(|stype| state.sprites_of(stype).map(countdown)).collect()
+        counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown)).collect()
     }
 
     /// The colour that the SpriteSet gives a type or one of its parents: red, green and blue; `None` if it gives none.
@@ -245,21 +247,21 @@ impl Game {
 
     /// The types that have sprites, in registry order. Cost: O(types).
     pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
-        self.sprite_types().filter(|&stype| state.group(stype).count > 0)
+        self.sprite_types().filter(|&stype| state.world.group(stype).count > 0)
     }
 
     /// The types that some sprite holds as resources; a type appears once for each holder.
     pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
-        let held = state.held.iter().filter(|held| held.amount != 0).map(|held| held.resource);
+        let held = state.world.held.iter().filter(|held| held.amount != 0).map(|held| held.resource);
         held.filter(|&stype| stype != SpriteType::NONE)
     }
 
     /// The termination that has ended an episode, as an index into [`Description::terminations`](crate::Description);
     /// `None` if the episode is not over, or ended otherwise.
     pub fn ended_by(&self, state: &State) -> Option<usize> {
-        let ended = matches!(state.outcome, Outcome::Won | Outcome::Lost);
+        let ended = matches!(state.world.outcome, Outcome::Won | Outcome::Lost);
         let mut terminations = self.0.terminations.iter();
-        terminations.position(|termination| termination.holds(&self.0, state)).filter(|_| ended)
+        terminations.position(|termination| termination.holds(&self.0, &state.world)).filter(|_| ended)
     }
 
     /// The drawing order of the types, as indices into the registry.
@@ -272,28 +274,28 @@ impl State {
     /// The rectangles of the sprites of a type, in pixels, in order of creation, including those of disabled avatars.
     /// Cost: O(1) each.
     pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
-        self.sprites_of(stype).map(|sprite| sprite.rect)
+        self.world.sprites_of(stype).map(|sprite| sprite.rect)
     }
 
     /// The rectangles and orientations of the sprites of a type.
     pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
-        self.sprites_of(stype).map(|sprite| (sprite.rect, self.overrides_of(&sprite).orientation))
+        self.world.sprites_of(stype).map(|sprite| (sprite.rect, self.world.overrides_of(&sprite).orientation))
     }
 
     /// The number of sprites of a type, without disabled avatars. Cost: O(1).
     pub fn alive(&self, stype: SpriteType) -> usize {
-        let group = self.group(stype);
+        let group = self.world.group(stype);
         usize::from(group.count - group.disabled)
     }
 
     /// The amount of a resource that the avatar holds. Cost: O(log holdings).
     pub fn amount_held(&self, resource: SpriteType) -> i32 {
-        self.amount(self.avatar, resource)
+        self.world.amount(self.world.avatar, resource)
     }
 
     /// The number of messages that the reference engine would have logged so far; more than 25 end a game.
     pub fn messages(&self) -> u32 {
-        self.messages
+        self.world.messages
     }
 
     /// The top-left corners of a type's sprites in pixels, in order of creation. Cost: O(such sprites).
@@ -303,16 +305,16 @@ impl State {
 
     /// The top-left corner of the player's avatar in pixels, disabled or not; `None` once the episode is over.
     pub fn avatar_place(&self) -> Option<(i32, i32)> {
-        let there = !self.is_over() && usize::from(self.avatar) < self.sprites.len();
+        let there = !self.is_over() && usize::from(self.world.avatar) < self.world.sprites.len();
         there.then(|| {
-            let rect = self.present(self.avatar).rect;
+            let rect = self.world.present(self.world.avatar).rect;
             (rect.x, rect.y)
         })
     }
 
     /// The creation number of the player's avatar, disabled or not.
     pub fn avatar_id(&self) -> Option<u32> {
-        self.sprites.get(usize::from(self.avatar)).map(|sprite| sprite.id)
+        self.world.avatar_id()
     }
 }
 

@@ -3,12 +3,11 @@
 use crate::SpriteClass;
 use crate::analysis::StateAbstraction;
 use crate::game::{Game, Rules, SpriteType, TypeInfo};
-use crate::hash::{Mixer, SearchKey, bits, two};
 use crate::limits::MAX_TICKS;
 use crate::ontology::avatars::BLOCK_PAUSE;
-use crate::overrides::{Extra, Target};
-use crate::side_tables::Replaced;
-use crate::state::{Slot, Sprite, State, flag, memory};
+use crate::rules::memory;
+use crate::state::State;
+use crate::world::{Extra, Mixer, Replaced, SearchKey, Slot, Sprite, Target, World, bits, flag, two};
 
 /// The flags that a later step can read; the others follow from the type, or tell where the sprite came from.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
@@ -69,24 +68,26 @@ impl State {
     /// ids. Cost: O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
-        self.live_state(&game.0, None, &mut mixer);
+        self.world.live_state(&game.0, None, &mut mixer);
         SearchKey(mixer.finish())
     }
 
     /// The key of [`StateAbstraction::key`].
     pub(crate) fn key_left_out(&self, rules: &Rules, abstraction: &StateAbstraction) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
-        self.live_state(rules, Some(abstraction), &mut mixer);
+        self.world.live_state(rules, Some(abstraction), &mut mixer);
         SearchKey(mixer.finish())
     }
 
     /// The words that are hashed for that key.
     pub(crate) fn words_left_out(&self, rules: &Rules, abstraction: &StateAbstraction) -> Vec<u64> {
         let mut words = Vec::new();
-        self.live_state(rules, Some(abstraction), &mut words);
+        self.world.live_state(rules, Some(abstraction), &mut words);
         words
     }
+}
 
+impl World {
     fn live_state(&self, rules: &Rules, abstraction: Option<&StateAbstraction>, to: &mut impl Absorb) {
         to.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
         if self.is_over() {

@@ -336,7 +336,7 @@ impl<'g> Walk<'g> {
 
     /// Incrementally maintained values equal recomputed ones.
     fn check(&mut self, state: &State) {
-        assert_eq!(state.state_hash(), state.state_hash_from_scratch(self.game), "tick {}", state.tick());
+        assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {}", state.tick());
         let counts =
             state.recount(self.game).unwrap_or_else(|found| panic!("tick {}: {found}", state.tick()));
         self.cost += CHECK * (1 + counts.iter().sum::<usize>());

@@ -139,7 +139,7 @@ pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
                 actions[((drawn * actions.len() as u64) >> 32) as usize],
                 &mut (),
             );
-            digest = chain(digest, state.state_hash_from_scratch(&subject.game).0);
+            digest = chain(digest, state.state_hash_from_scratch().0);
             ticks += 1;
         }
     }

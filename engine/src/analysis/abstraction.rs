@@ -5,11 +5,11 @@ use super::encounter::{EffectSummary, Encounter, Side, timed_effects};
 use super::facts::Motion;
 use super::futures::PossibleFutures;
 use crate::game::{SpriteType, TypeInfo};
-use crate::hash::SearchKey;
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::{Condition, Decision, Termination};
 use crate::state::State;
+use crate::world::SearchKey;
 
 /// The state abstraction for a search among the successors of one state, the root state.
 ///

@@ -160,13 +160,13 @@ impl Analysis {
     /// Returns the termination that would end the game if this state were the end of a tick. Cost: O(goals × types).
     pub fn goal_met(&self, state: &State) -> Option<&Goal> {
         let rules = &*self.game.0;
-        self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, state))
+        self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, &state.world))
     }
 
     /// Returns the distance of a goal from being met in this state: see [`Condition::missing`]. Cost: O(types).
     pub fn missing(&self, goal: &Goal, state: &State) -> u32 {
         let live = |stype: SpriteType| {
-            let group = state.group(stype);
+            let group = state.world.group(stype);
             i32::from(group.count - group.disabled)
         };
         goal.condition.missing(live, state.tick())

@@ -46,17 +46,19 @@ impl Analysis {
     pub(super) fn futures(&self, state: &State) -> PossibleFutures<'_> {
         let rules = &*self.game.0;
         let existing: Vec<SpriteType> =
-            self.game.sprite_types().filter(|&stype| state.group(stype).count > 0).collect();
+            self.game.sprite_types().filter(|&stype| state.world.group(stype).count > 0).collect();
         // Spawn points may have been given another type to make.
         let spawning = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let spawners = existing.iter().filter(|stype| rules.types[stype.index()].class.is_some_and(spawning));
-        let making = spawners.flat_map(|&stype| state.slots(stype)).map(|slot| state.overrides(slot).spawns);
+        let making = spawners
+            .flat_map(|&stype| state.world.slots(stype))
+            .map(|slot| state.world.overrides(slot).spawns);
         let making = making.filter(|&stype| stype != SpriteType::NONE).collect();
         let mut held = vec![false; rules.types.len()];
-        for holding in state.held.iter().filter(|holding| holding.amount > 0) {
+        for holding in state.world.held.iter().filter(|holding| holding.amount > 0) {
             held[holding.resource.index()] = true;
         }
-        let scheduled = state.timers.iter().map(|timer| timer.timed).collect();
+        let scheduled = state.world.timers.iter().map(|timer| timer.timed).collect();
         let start = Start { existing, making, scheduled, held: Some(held) };
         PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }
@@ -97,7 +99,7 @@ fn update_draws(
     match class {
         C::RandomMissile => {
             let unset = |state: &State| {
-                state.slots(stype).any(|slot| state.overrides(slot).orientation == Direction::NIL)
+                state.world.slots(stype).any(|slot| state.world.overrides(slot).orientation == Direction::NIL)
             };
             let new = traits.orientation == Direction::NIL && futures.made[stype.index()];
             new || state.map_or(traits.orientation == Direction::NIL, unset)
@@ -133,7 +135,7 @@ fn effect_draws(
         Effect::TeleportToExit => {
             // A single exit leaves no choice.
             let single = |exit: SpriteType| {
-                let few = state.is_some_and(|state| state.group(exit).count <= 1);
+                let few = state.is_some_and(|state| state.world.group(exit).count <= 1);
                 few && !futures.made[exit.index()]
             };
             let portals = second.map_or(&[][..], |second| &*rules.types[second.index()].tree);

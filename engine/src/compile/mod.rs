@@ -7,6 +7,7 @@ mod interactions;
 mod outline;
 mod params;
 mod references;
+mod scenery;
 mod space;
 mod sprites;
 mod terminations;
@@ -15,21 +16,18 @@ pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Te
 pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
-use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::sprites::{self as behaviour, Mover};
+use crate::ontology::sprites as behaviour;
 use crate::ontology::terminations::{Condition, Decision, Termination};
-use crate::population::{base_overrides, prototype};
-use crate::scenery::{referenced, scenery};
-use crate::sleep::shortcuts;
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
 pub(crate) use outline::{Outline, outline};
+use scenery::{referenced, scenery};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -113,23 +111,7 @@ fn compile_with(
     }
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
-    let shortcuts = shortcuts(&types, &program.passes, &program.effects);
-    let mover = |&stype: &SpriteType| {
-        let info = &types[stype.index()];
-        let idle = |&class: &SpriteClass| behaviour::is_idle(class, info);
-        let class = info.class.filter(|class| !idle(class))?;
-        Some(Mover {
-            stype,
-            class,
-            order: i32::from(info.order?),
-            update_kind: behaviour::update_kind(class, &info.traits),
-            may_fly: shortcuts[stype.index()].flies,
-            threshold: behaviour::producers::threshold(info.traits.prob),
-        })
-    };
-    let movers: Vec<Mover> = order.iter().rev().filter_map(mover).collect();
     let referenced = referenced(description, &types);
-    let contacts = Contacts::of(&types, &program.passes);
     // The reference makes one sprite of each resource to learn its limit, and logs messages about its parameters then,
     // too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
@@ -153,11 +135,8 @@ fn compile_with(
         square_size: header.square_size,
         counters: header.counters,
         can_end,
-        scenery: scenery(&types, &referenced, &movers),
+        scenery: scenery(&types, &referenced),
         referenced,
-        movers,
-        base_overrides: types.iter().map(base_overrides).collect(),
-        prototypes: (0..).zip(&types).map(|(at, info)| prototype(SpriteType(at), info)).collect(),
         order,
         mapping,
         unusable,
@@ -167,10 +146,6 @@ fn compile_with(
         effects: program.effects,
         undeclared_at_edge: program.edge.iter().any(|&(stype, _)| stype == SpriteType::NONE),
         edge: program.edge,
-        any_sleep: shortcuts.iter().any(|of_type| of_type.sleeps),
-        any_fly: shortcuts.iter().any(|of_type| of_type.flies),
-        shortcuts,
-        contacts,
         passes: program.passes,
         timed: program.timed,
         finds_paths: header.obstacles.is_some(),

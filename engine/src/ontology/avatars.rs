@@ -2,17 +2,17 @@
 
 use super::class::SpriteClass;
 use super::sprites::walkers::jump;
-use crate::game::{Action, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics::{self, Movement};
-use crate::state::{Slot, flag};
-use crate::step::Step;
+use crate::rules::{Action, SpriteType};
+use crate::tick::Step;
 use crate::trigonometry::{cos, sin};
+use crate::world::{Slot, flag};
 
 /// Updates the player's avatar, before all other sprites.
 pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
     use SpriteClass as C;
-    let stype = step.state.sprite(slot).stype;
+    let stype = step.world.sprite(slot).stype;
     let class = step.rules.types[stype.index()].class.expect("an avatar has a class");
     let direction = base(action).map_or(Direction::NONE, |base| Direction::BASE[base]);
     match class {
@@ -44,7 +44,7 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
         C::BirdAvatar => bird(step, slot, action),
         C::PlatformerAvatar => {
             platformer(step, slot, direction, action);
-            step.state.edit_motion(slot).set(flag::ON_GROUND, false);
+            step.world.edit_motion(slot).set(flag::ON_GROUND, false);
         }
         C::WizardAvatar => wizard(step, slot, direction, action),
         _ => {
@@ -65,7 +65,7 @@ fn base(action: Action) -> Option<usize> {
 }
 
 fn is_off_grid(step: &Step<'_>, slot: Slot) -> bool {
-    step.rules.types[step.state.sprite(slot).stype.index()].traits.off_grid
+    step.rules.types[step.world.sprite(slot).stype.index()].traits.off_grid
 }
 
 /// The passive movement, which avatars with grid physics do not have.
@@ -78,7 +78,7 @@ fn glide(step: &mut Step<'_>, slot: Slot) {
 #[inline(always)]
 fn moving(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
     glide(step, slot);
-    let speed = step.state.overrides(slot).speed;
+    let speed = step.world.overrides(slot).speed;
     match base(action) {
         Some(base) => physics::active_along(step, slot, base, speed),
         None => physics::active(step, slot, Direction::NONE, speed),
@@ -91,7 +91,7 @@ fn oriented(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
     let movement = moving(step, slot, action);
     if movement == Movement::Move && !is_off_grid(step, slot) {
         let facing = step.last_direction(slot).normalised();
-        step.state.face(slot, facing);
+        step.world.face(slot, facing);
     }
     movement
 }
@@ -104,11 +104,11 @@ fn shooting(step: &mut Step<'_>, slot: Slot, action: Action) {
 
 /// Shoots from its own corner if it has ammunition; the shot keeps its own orientation.
 fn flak(step: &mut Step<'_>, slot: Slot) {
-    let sprite = *step.state.sprite(slot);
+    let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let ammo = traits.ammo.first().copied();
     if let Some(ammo) = ammo {
-        let amount = step.state.amount(slot, ammo);
+        let amount = step.world.amount(slot, ammo);
         let least = if traits.min_ammo > -1 { traits.min_ammo } else { 0 };
         if amount <= least {
             return;
@@ -119,20 +119,20 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
     {
         if let Some(ammo) = ammo {
             // The reference does not clamp the difference: ammunition may go below 0.
-            step.state.overdraw(slot, ammo, traits.ammo_cost);
+            step.world.overdraw(slot, ammo, traits.ammo_cost);
         }
-        step.state.edit(shot).set(flag::FROM_AVATAR, true);
+        step.world.edit(shot).set(flag::FROM_AVATAR, true);
     }
 }
 
 /// Shoots the first kind of shot for which it has ammunition, one body length ahead.
 fn shoot(step: &mut Step<'_>, slot: Slot) {
-    let facing = step.state.overrides(slot).orientation.normalised();
+    let facing = step.world.overrides(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
 }
 
 fn shoot_towards(step: &mut Step<'_>, slot: Slot, facing: Direction) {
-    let kinds = step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes.len();
+    let kinds = step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes.len();
     let ready = (0..kinds).find(|&kind| is_loaded(step, slot, kind));
     if let Some(kind) = ready {
         shoot_kind(step, slot, kind, facing);
@@ -140,26 +140,26 @@ fn shoot_towards(step: &mut Step<'_>, slot: Slot, facing: Direction) {
 }
 
 fn is_loaded(step: &Step<'_>, slot: Slot, kind: usize) -> bool {
-    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
-    traits.ammo.get(kind).is_none_or(|&ammo| step.state.amount(slot, ammo) > 0)
+    let traits = &step.rules.types[step.world.sprite(slot).stype.index()].traits;
+    traits.ammo.get(kind).is_none_or(|&ammo| step.world.amount(slot, ammo) > 0)
 }
 
 fn shoot_kind(step: &mut Step<'_>, slot: Slot, kind: usize, facing: Direction) {
-    let sprite = *step.state.sprite(slot);
+    let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let ahead =
         |corner: i32, component: f64, size: i32| (f64::from(corner) + component * f64::from(size)) as i32;
-    let last = step.state.last(slot);
+    let last = step.world.last(slot);
     let x = ahead(sprite.rect.x, facing.x, last.w);
     let y = ahead(sprite.rect.y, facing.y, last.h);
     if let Some(shot) = step.add(traits.stypes[kind], x, y) {
         if let Some(&ammo) = traits.ammo.get(kind) {
             step.add_amount(slot, ammo, -1);
         }
-        let new = step.state.edit(shot);
+        let new = step.world.edit(shot);
         new.set(flag::FROM_AVATAR, true);
         if new.is(flag::ORIENTED) {
-            step.state.face(shot, facing);
+            step.world.face(shot, facing);
         }
     }
 }
@@ -175,23 +175,23 @@ fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
         Action::Use => 4,
         Action::Nil => return,
     };
-    let sprite = *step.state.sprite(slot);
+    let sprite = *step.world.sprite(slot);
     let kinds = step.rules.types[sprite.stype.index()].traits.stypes.len();
     if kind < kinds && is_loaded(step, slot, kind) {
-        shoot_kind(step, slot, kind, step.state.overrides(slot).orientation.normalised());
+        shoot_kind(step, slot, kind, step.world.overrides(slot).orientation.normalised());
     }
 }
 
 /// Turns only at right angles, and leaves sprites behind.
 fn ongoing_turning(step: &mut Step<'_>, slot: Slot, direction: Direction) {
-    let facing = step.state.overrides(slot).orientation;
+    let facing = step.world.overrides(slot).orientation;
     if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
         physics::turn(step, slot, direction);
     }
     physics::passive(step, slot);
-    let (rect, last) = (step.state.sprite(slot).rect, step.state.last(slot));
+    let (rect, last) = (step.world.sprite(slot).rect, step.world.last(slot));
     if !rect.intersects(last) {
-        step.add(step.state.overrides(slot).spawns, last.x, last.y);
+        step.add(step.world.overrides(slot).spawns, last.x, last.y);
     }
 }
 
@@ -205,24 +205,24 @@ fn aimed(step: &mut Step<'_>, slot: Slot, action: Action) {
     if action == Action::Use {
         shoot(step, slot);
     }
-    let diff = step.rules.types[step.state.sprite(slot).stype.index()].traits.angle_diff;
+    let diff = step.rules.types[step.world.sprite(slot).stype.index()].traits.angle_diff;
     let angle = match action {
         Action::Up => -diff,
         Action::Down => diff,
         _ => 0.0,
     };
-    let Direction { x, y } = step.state.overrides(slot).orientation;
+    let Direction { x, y } = step.world.overrides(slot).orientation;
     let turned = Direction { x: x * cos(angle) - y * sin(angle), y: x * sin(angle) + y * cos(angle) };
     let rotation = libm::atan2(turned.y, turned.x);
-    step.state.face(slot, turned);
-    step.state.extra(step.rules, slot).rotation = rotation;
+    step.world.face(slot, turned);
+    step.world.extra(step.rules, slot).rotation = rotation;
     thrust(step, slot, action);
 }
 
 /// Moves along the rotation, or against it.
 fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
-    let rotation = step.state.rotation(step.rules, step.state.sprite(slot));
-    let speed = step.state.overrides(slot).speed;
+    let rotation = step.world.rotation(step.rules, step.world.sprite(slot));
+    let speed = step.world.overrides(slot).speed;
     match action {
         Action::Up => physics::active(step, slot, heading(rotation), speed),
         Action::Down => physics::active(step, slot, heading(rotation + std::f64::consts::PI), speed),
@@ -232,8 +232,8 @@ fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
 
 /// Turns the rotation with the left and right keys.
 fn steer(step: &mut Step<'_>, slot: Slot, action: Action) {
-    let diff = step.rules.types[step.state.sprite(slot).stype.index()].traits.angle_diff;
-    let extra = step.state.extra(step.rules, slot);
+    let diff = step.rules.types[step.world.sprite(slot).stype.index()].traits.angle_diff;
+    let extra = step.world.extra(step.rules, slot);
     match action {
         Action::Left => extra.rotation -= diff,
         Action::Right => extra.rotation += diff,
@@ -244,7 +244,7 @@ fn steer(step: &mut Step<'_>, slot: Slot, action: Action) {
 fn spaceship(step: &mut Step<'_>, slot: Slot, action: Action) {
     glide(step, slot);
     if action == Action::Use {
-        let facing = heading(step.state.rotation(step.rules, step.state.sprite(slot)));
+        let facing = heading(step.world.rotation(step.rules, step.world.sprite(slot)));
         shoot_towards(step, slot, facing);
         shoot_towards(step, slot, facing);
     }
@@ -256,7 +256,7 @@ fn spaceship(step: &mut Step<'_>, slot: Slot, action: Action) {
 fn car(step: &mut Step<'_>, slot: Slot, action: Action) {
     glide(step, slot);
     steer(step, slot, action);
-    let extra = step.state.extra(step.rules, slot);
+    let extra = step.world.extra(step.rules, slot);
     match action {
         Action::Up => extra.facing.x = 0.0,
         Action::Down => extra.facing.x = 1.0,
@@ -276,29 +276,29 @@ fn lander(step: &mut Step<'_>, slot: Slot, action: Action) {
 
 fn bird(step: &mut Step<'_>, slot: Slot, action: Action) {
     oriented(step, slot, action);
-    let overrides = *step.state.overrides(slot);
-    let strength = step.rules.types[step.state.sprite(slot).stype.index()].traits.jump_strength;
+    let overrides = *step.world.overrides(slot);
+    let strength = step.rules.types[step.world.sprite(slot).stype.index()].traits.jump_strength;
     let push = if overrides.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };
     if action == Action::Use {
-        step.state.edit_overrides(slot).orientation.y = 0.0;
+        step.world.edit_overrides(slot).orientation.y = 0.0;
         physics::active(step, slot, Direction { x: 0.0, y: -strength }, overrides.speed);
     }
-    let speed = step.state.overrides(slot).speed;
+    let speed = step.world.overrides(slot).speed;
     physics::active(step, slot, push, speed);
-    let facing = step.state.overrides(slot).orientation;
-    step.state.extra(step.rules, slot).rotation = libm::atan2(facing.y, facing.x);
+    let facing = step.world.overrides(slot).orientation;
+    step.world.extra(step.rules, slot).rotation = libm::atan2(facing.y, facing.x);
 }
 
 /// Runs, and jumps if the last event phase found ground.
 fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
     glide(step, slot);
-    let sprite = *step.state.sprite(slot);
+    let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let grounded = sprite.is(flag::ON_GROUND);
     if direction != Direction::NONE {
         let x =
             if grounded { direction.x * traits.ground_speedup } else { direction.x / traits.air_slowdown };
-        let speed = step.state.overrides(slot).speed;
+        let speed = step.world.overrides(slot).speed;
         physics::active(step, slot, Direction { x, y: direction.y }, speed);
     }
     if action == Action::Use && grounded {
@@ -313,23 +313,23 @@ pub(crate) const BLOCK_PAUSE: i32 = 5;
 fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
     platformer(step, slot, direction, action);
     let rules = step.rules;
-    let tick = step.state.tick;
-    let ready = step.state.extra(rules, slot).block_time.wrapping_add(BLOCK_PAUSE) <= tick;
+    let tick = step.world.tick;
+    let ready = step.world.extra(rules, slot).block_time.wrapping_add(BLOCK_PAUSE) <= tick;
     if action == Action::Up && ready {
         physics::active(step, slot, Direction::DOWN, -1.0);
-        let (sprite, last) = (*step.state.sprite(slot), step.state.last(slot));
-        let facing = step.state.extra(rules, slot).facing;
+        let (sprite, last) = (*step.world.sprite(slot), step.world.last(slot));
+        let facing = step.world.extra(rules, slot).facing;
         for &stype in &rules.types[sprite.stype.index()].traits.stypes {
             let x = f64::from(sprite.rect.x) + facing.x * f64::from(last.w) * 1.2;
             let y = f64::from(sprite.rect.y) + facing.y * f64::from(last.h);
             step.add(stype, x as i32, y as i32);
         }
-        step.state.extra(rules, slot).block_time = tick;
+        step.world.extra(rules, slot).block_time = tick;
     }
     match action {
-        Action::Left => step.state.extra(rules, slot).facing = Direction::LEFT,
-        Action::Right => step.state.extra(rules, slot).facing = Direction::RIGHT,
+        Action::Left => step.world.extra(rules, slot).facing = Direction::LEFT,
+        Action::Right => step.world.extra(rules, slot).facing = Direction::RIGHT,
         _ => {}
     }
-    step.state.edit_motion(slot).set(flag::ON_GROUND, false);
+    step.world.edit_motion(slot).set(flag::ON_GROUND, false);
 }

@@ -1,6 +1,6 @@
 //! The sprite classes of VGDL (`spec/02` §6–§9, §12): names, hierarchy and additional parameters.
 
-use crate::game::Action;
+use crate::rules::Action;
 
 /// Declares the classes once: the variant, which is also the VGDL name, and the class that it extends.
 macro_rules! classes {

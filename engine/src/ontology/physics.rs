@@ -1,10 +1,10 @@
 //! Grid and continuous physics (`spec/02` §3).
 
-use crate::game::Rules;
 use crate::geometry::{Direction, Rect};
-use crate::overrides::Overrides;
-use crate::state::{Slot, flag};
-use crate::step::Step;
+use crate::rules::Rules;
+use crate::tick::Step;
+use crate::world::Overrides;
+use crate::world::{Slot, flag};
 
 /// The result of an active movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,78 +16,78 @@ pub(crate) enum Movement {
 
 /// The size of a grid cell in pixels as physics uses it: continuous physics has a constant of its own.
 pub(crate) fn grid_size(step: &Step<'_>, slot: Slot) -> f64 {
-    if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.state.block) }
+    if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block) }
 }
 
 fn is_continuous(rules: &Rules, step: &Step<'_>, slot: Slot) -> bool {
-    rules.types[step.state.sprite(slot).stype.index()].traits.continuous
+    rules.types[step.world.sprite(slot).stype.index()].traits.continuous
 }
 
 /// Moves a sprite along its own orientation, unless it is static. The first call only clears the sprite's first-tick
 /// flag.
 #[inline]
 pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
-    let sprite = step.state.sprite(slot);
+    let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.is_static || traits.only_active {
         return;
     }
     if sprite.is(flag::FIRST_TICK) {
-        step.state.edit_motion(slot).set(flag::FIRST_TICK, false);
+        step.world.edit_motion(slot).set(flag::FIRST_TICK, false);
         return;
     }
     if traits.continuous {
-        let &Overrides { orientation, speed, .. } = step.state.overrides_of(sprite);
+        let &Overrides { orientation, speed, .. } = step.world.overrides_of(sprite);
         if speed == 0.0 {
             return;
         }
         step.displace(slot, orientation, speed as i32);
-        let gravity = step.state.gravity(step.rules, slot);
-        if gravity > 0.0 && traits.mass > 0.0 && !step.state.sprite(slot).is(flag::ON_GROUND) {
+        let gravity = step.world.gravity(step.rules, slot);
+        if gravity > 0.0 && traits.mass > 0.0 && !step.world.sprite(slot).is(flag::ON_GROUND) {
             active(step, slot, Direction { x: 0.0, y: gravity * traits.mass }, 0.0);
         }
         if traits.friction != 0.0 {
-            step.state.edit_overrides(slot).speed *= 1.0 - traits.friction;
+            step.world.edit_overrides(slot).speed *= 1.0 - traits.friction;
         }
         return;
     }
     if !sprite.is(flag::ORIENTED) {
         return;
     }
-    let &Overrides { orientation, speed, .. } = step.state.overrides_of(sprite);
+    let &Overrides { orientation, speed, .. } = step.world.overrides_of(sprite);
     let speed = if speed == -1.0 { 1.0 } else { speed };
     if speed != 0.0 {
-        let block = f64::from(step.state.block);
+        let block = f64::from(step.world.block);
         step.displace(slot, orientation, (speed * block) as i32);
     }
 }
 
 /// The rectangle after passive movement with grid physics; `None` if the sprite does not move.
 pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
-    let sprite = step.state.sprite(slot);
-    let &Overrides { orientation, speed, .. } = step.state.overrides_of(sprite);
+    let sprite = step.world.sprite(slot);
+    let &Overrides { orientation, speed, .. } = step.world.overrides_of(sprite);
     let speed = if speed == -1.0 { 1.0 } else { speed };
     if speed == 0.0 || !sprite.is(flag::ORIENTED) {
         return None;
     }
-    let block = f64::from(step.state.block);
+    let block = f64::from(step.world.block);
     step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
 /// Moves a sprite in the direction that it, or its player, chooses. A speed of 0 stands for the sprite's own.
 #[inline]
 pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, speed: f64) -> Movement {
-    let sprite = step.state.sprite(slot);
+    let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.continuous {
         return accelerate(step, slot, direction, speed);
     }
-    let block = f64::from(step.state.block);
+    let block = f64::from(step.world.block);
     if traits.stationary || direction == Direction::NONE {
         return Movement::Still;
     }
     let speed = match speed {
-        0.0 => match step.state.overrides_of(sprite).speed {
+        0.0 => match step.world.overrides_of(sprite).speed {
             own if own <= 0.0 => 1.0,
             own => own,
         },
@@ -102,9 +102,9 @@ pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, spee
 /// [`active`] along one of [`Direction::BASE`].
 #[inline(always)]
 pub(crate) fn active_along(step: &mut Step<'_>, slot: Slot, base: usize, speed: f64) -> Movement {
-    let sprite = step.state.sprite(slot);
+    let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    let pixels = (speed * f64::from(step.state.block)) as i32;
+    let pixels = (speed * f64::from(step.world.block)) as i32;
     if traits.continuous || traits.stationary || traits.rotate_in_place || pixels == 0 {
         return active(step, slot, Direction::BASE[base], speed);
     }
@@ -113,8 +113,8 @@ pub(crate) fn active_along(step: &mut Step<'_>, slot: Slot, base: usize, speed: 
 
 /// Applies a force in continuous physics: it changes orientation and speed; the next passive movement moves the sprite.
 fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> Movement {
-    let &Overrides { orientation, speed: own, .. } = step.state.overrides(slot);
-    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
+    let &Overrides { orientation, speed: own, .. } = step.world.overrides(slot);
+    let traits = &step.rules.types[step.world.sprite(slot).stype.index()].traits;
     let speed = if speed == 0.0 || speed == -1.0 { own } else { speed };
     // The reference rounds the mass to 32 bits on the way.
     let mass = f64::from(traits.mass as f32);
@@ -126,7 +126,7 @@ fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> 
     } else {
         traits.max_speed
     };
-    let overrides = step.state.edit_overrides(slot);
+    let overrides = step.world.edit_overrides(slot);
     overrides.orientation = velocity.normalised();
     overrides.speed = limited;
     if force == Direction::NONE { Movement::Still } else { Movement::Move }
@@ -135,11 +135,11 @@ fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> 
 /// Changes the orientation if the sprite has one and it differs.
 #[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> bool {
-    let sprite = step.state.sprite(slot);
-    if !sprite.is(flag::ORIENTED) || step.state.overrides_of(sprite).orientation == direction {
+    let sprite = step.world.sprite(slot);
+    if !sprite.is(flag::ORIENTED) || step.world.overrides_of(sprite).orientation == direction {
         return false;
     }
-    step.state.turn_to(slot, direction);
+    step.world.turn_to(slot, direction);
     true
 }
 

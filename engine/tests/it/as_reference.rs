@@ -106,7 +106,7 @@ fn surplus_avatars_are_removed_with_a_message() {
     assert_eq!((state.messages(), state.avatar_id()), (1, Some(0)));
     assert_eq!(game.records(&state).len(), 2);
     game.step(&mut state, Action::Right);
-    assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
+    assert_eq!(state.state_hash(), state.state_hash_from_scratch());
 }
 
 #[test]

@@ -54,7 +54,7 @@ impl Vector {
 
     pub(crate) fn step(&mut self, action: Action) {
         self.game.step(&mut self.state, action);
-        assert_eq!(self.state.state_hash(), self.state.state_hash_from_scratch(&self.game));
+        assert_eq!(self.state.state_hash(), self.state.state_hash_from_scratch());
     }
 
     /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` to use, `.` for nothing.

@@ -1,7 +1,7 @@
 //! Construction of an [`Effect`] from an interaction line: keywords, required and optional parameters (`spec/03` §2).
 
 use super::{Effect, SpeedChange, TransformIfCount};
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 
 /// The parameters of a line, typed on demand. Getters report problems and continue with a default, so that all problems
 /// of a line are found.

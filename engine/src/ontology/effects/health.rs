@@ -1,8 +1,9 @@
 //! Effects on health points (`spec/03` §7.2).
 
-use crate::game::{Limit, SpriteType};
-use crate::state::{NONE, Slot, memory};
-use crate::step::Step;
+use crate::rules::memory;
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::{NONE, Slot};
 
 /// addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
 pub(super) fn add(
@@ -13,14 +14,14 @@ pub(super) fn add(
     value: i32,
     to_max: bool,
 ) {
-    let sprite = step.state.sprite(one);
+    let sprite = step.world.sprite(one);
     let limit = step.rules.types[sprite.stype.index()].traits.limit_health;
-    let health = step.state.overrides_of(sprite).health.wrapping_add(value);
+    let health = step.world.overrides_of(sprite).health.wrapping_add(value);
     if !to_max && health >= limit {
         return step.apply_score(index, false);
     }
     step.apply_score(index, true);
-    let overrides = step.state.edit_overrides(one);
+    let overrides = step.world.edit_overrides(one);
     overrides.health = health.min(limit);
     overrides.max_health = overrides.max_health.max(overrides.health);
     if let Some(two) = victim {
@@ -42,7 +43,7 @@ pub(super) fn subtract(
         return step.stop(Limit::NoType);
     }
     let target = stype.and_then(|stype| last_of(step, stype)).unwrap_or(one);
-    let overrides = step.state.edit_overrides(target);
+    let overrides = step.world.edit_overrides(target);
     overrides.health = overrides.health.wrapping_sub(value);
     let killed = overrides.health <= limit;
     step.remember(index, memory::KILLED, killed);
@@ -54,6 +55,6 @@ pub(super) fn subtract(
 /// The first sprite of the last non-empty group of a tree.
 pub(super) fn last_of(step: &Step<'_>, stype: SpriteType) -> Option<Slot> {
     let tree = step.rules.types.get(stype.index()).map_or(&[][..], |info| &info.tree);
-    let groups = tree.iter().map(|&stype| step.state.group(stype).head);
+    let groups = tree.iter().map(|&stype| step.world.group(stype).head);
     groups.rev().find(|&head| head != NONE)
 }

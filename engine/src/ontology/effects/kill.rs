@@ -1,9 +1,9 @@
 //! Effects that kill (`spec/03` §7.1, §8.1).
 
-use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
-use crate::state::{NONE, Slot, flag};
-use crate::step::Step;
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::{NONE, Slot, flag};
 
 /// Kills if `hit`; the score applies only then.
 pub(super) fn when(step: &mut Step<'_>, index: u16, one: Slot, hit: bool) {
@@ -15,17 +15,17 @@ pub(super) fn when(step: &mut Step<'_>, index: u16, one: Slot, hit: bool) {
 
 /// Kills every sprite of exactly that type.
 pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
-    step.work(usize::from(step.state.group(stype).count));
-    let mut slot = step.state.group(stype).head;
+    step.work(usize::from(step.world.group(stype).count));
+    let mut slot = step.world.group(stype).head;
     while slot != NONE {
         step.kill(slot);
-        slot = step.state.sprite(slot).next;
+        slot = step.world.sprite(slot).next;
     }
 }
 
 pub(super) fn if_from_above(step: &mut Step<'_>, index: u16, one: Slot, two: Slot) {
-    let (second, last) = (step.state.sprite(two), step.state.last(two));
-    let above = step.state.last(one).y > last.y.wrapping_add(second.rect.h / 2);
+    let (second, last) = (step.world.sprite(two), step.world.last(two));
+    let above = step.world.last(one).y > last.y.wrapping_add(second.rect.h / 2);
     let falling = second.rect.y > last.y;
     when(step, index, one, above && falling);
 }
@@ -41,8 +41,8 @@ pub(super) fn if_frontal(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, 
 /// killIfFast and killIfSlow: they compare the speed of the one that moves, or the difference of orientations if both
 /// move.
 pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fast: bool) {
-    let (first, second) = (step.state.overrides(one), step.state.overrides(two));
-    let is_static = |slot: Slot| step.rules.types[step.state.sprite(slot).stype.index()].traits.is_static;
+    let (first, second) = (step.world.overrides(one), step.world.overrides(two));
+    let is_static = |slot: Slot| step.rules.types[step.world.sprite(slot).stype.index()].traits.is_static;
     let speed = if is_static(one) {
         second.speed
     } else if is_static(two) {
@@ -60,7 +60,7 @@ pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fa
 /// killIfNotUpright: upright is a rotation of about 3π/2, nose up.
 pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
     let full = 2.0 * std::f64::consts::PI;
-    let rotation = (step.state.rotation(step.rules, step.state.sprite(one)) + full) % full;
+    let rotation = (step.world.rotation(step.rules, step.world.sprite(one)) + full) % full;
     if !(rotation > 4.4 && rotation < 5.0) {
         step.kill(one);
     }
@@ -71,18 +71,18 @@ pub(super) fn remove_score(step: &mut Step<'_>, one: Slot, victim: Option<Slot>,
     if stype == Some(SpriteType::NONE) {
         return step.stop(Limit::NoType);
     }
-    let mut slot = stype.map_or(one, |stype| step.state.group(stype).head);
+    let mut slot = stype.map_or(one, |stype| step.world.group(stype).head);
     while slot != NONE {
         step.work(1);
-        if step.state.sprite(slot).is(flag::AVATAR) {
+        if step.world.sprite(slot).is(flag::AVATAR) {
             // Each avatar has a score of its own; the player's is the game's.
-            if slot == step.state.avatar {
-                step.state.score = 0;
+            if slot == step.world.avatar {
+                step.world.score = 0;
             }
             if let Some(victim) = victim {
                 step.remove(victim);
             }
         }
-        slot = if stype.is_some() { step.state.sprite(slot).next } else { NONE };
+        slot = if stype.is_some() { step.world.sprite(slot).next } else { NONE };
     }
 }

@@ -10,11 +10,12 @@ mod spawn;
 mod transform;
 mod walls;
 
-use crate::game::{EffectInfo, Limit, Pass, SpriteType};
 use crate::limits::MAX_TIMERS;
-use crate::overlap::Partners;
-use crate::state::{Slot, Timer, flag, memory};
-use crate::step::Step;
+use crate::rules::memory;
+use crate::rules::{EffectInfo, Limit, Pass, SpriteType};
+use crate::tick::Step;
+use crate::world::Partners;
+use crate::world::{Slot, Timer, flag};
 pub use build::NAMES;
 pub(crate) use build::{Arguments, Undeclared, build};
 pub use parameters::{ParameterKind, effect_parameters};
@@ -318,11 +319,11 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::KillSprite, _) => step.kill(one),
         (Effect::KillAll { stype }, _) => kill::all(step, *stype),
         (Effect::KillIfHasLess { resource, limit }, _) => {
-            let hit = step.state.amount(one, *resource) <= *limit;
+            let hit = step.world.amount(one, *resource) <= *limit;
             kill::when(step, index, one, hit);
         }
         (Effect::KillIfHasMore { resource, limit }, _) => {
-            let hit = step.state.amount(one, *resource) >= *limit;
+            let hit = step.world.amount(one, *resource) >= *limit;
             kill::when(step, index, one, hit);
         }
         (Effect::AddHealthPoints { value, kill_second, to_max }, _) => {
@@ -338,7 +339,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::TurnAround, _) => motion::turn_around(step, one),
         (Effect::ReverseDirection, _) => motion::reverse(step, one),
         (Effect::FlipDirection, _) => motion::flip(step, one),
-        (Effect::HalfSpeed, _) => step.state.edit_overrides(one).speed *= 0.5,
+        (Effect::HalfSpeed, _) => step.world.edit_overrides(one).speed *= 0.5,
         (Effect::WrapAround { offset }, _) => motion::wrap_around(step, one, *offset),
         (Effect::ChangeSpeed { stype, value, how }, _) => motion::change_speed(step, *stype, *value, *how),
         (Effect::Spawn { stype, prob }, _) => spawn::here(step, one, *stype, *prob),
@@ -354,9 +355,9 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             transform::random_child(step, one, two.filter(|_| *kill_second), options, *force_orientation);
         }
         (Effect::ShieldFrom { stype, keyword }, _) => {
-            let shield = (step.state.sprite(one).stype, *stype, *keyword);
-            if let Err(at) = step.state.shields.binary_search(&shield) {
-                step.state.shields.insert(at, shield);
+            let shield = (step.world.sprite(one).stype, *stype, *keyword);
+            if let Err(at) = step.world.shields.binary_search(&shield) {
+                step.world.shields.insert(at, shield);
             }
         }
         (Effect::KillIfNotUpright, _) => kill::if_not_upright(step, one),
@@ -367,7 +368,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             spawn::update_type(step, two, *stype, *spawn_point);
         }
         (Effect::SpawnIfCounterSubTypes { .. }, _) => spawn::if_counter_subtypes(step, index, one, effect),
-        (Effect::WaterPhysics, _) => step.state.extra(step.rules, one).gravity = 0.2,
+        (Effect::WaterPhysics, _) => step.world.extra(step.rules, one).gravity = 0.2,
         (Effect::AddTimer { timed }, _) => add_timer(step, *timed),
         (Effect::Disabled(effect), _) => draw_only(step, effect, one, two),
         (_, None) => step.message(),
@@ -376,7 +377,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             step.kill(two);
         }
         (Effect::KillIfAlive, Some(two)) => {
-            if !step.state.sprite(two).is(flag::KILLED) {
+            if !step.world.sprite(two).is(flag::KILLED) {
                 step.kill(one);
             }
         }
@@ -392,7 +393,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::WallBounce, Some(two)) => walls::bounce(step, one, two),
         (Effect::WallReverse, Some(two)) => walls::reverse(step, one, two),
         (Effect::KillIfOtherHasMore { resource, limit, subtract }, Some(two)) => {
-            let hit = step.state.amount(two, *resource) >= *limit;
+            let hit = step.world.amount(two, *resource) >= *limit;
             kill::when(step, index, one, hit);
             if hit && *subtract {
                 step.add_amount(two, *resource, limit.wrapping_neg());
@@ -463,14 +464,14 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
 fn draw_only(step: &mut Step<'_>, effect: &Effect, one: Slot, two: Option<Slot>) {
     match (effect, two) {
         (Effect::FlipDirection, _) => {
-            step.state.chance.below(4);
+            step.world.chance.below(4);
         }
         (Effect::Spawn { .. } | Effect::SpawnIf { .. }, _)
         | (Effect::SpawnBeside { .. } | Effect::SpawnBehind { .. }, Some(_)) => {
-            step.state.chance.double();
+            step.world.chance.double();
         }
         (Effect::TransformToRandomChild { options, .. }, _) if !options.is_empty() => {
-            step.state.chance.below(options.len() as i32);
+            step.world.chance.below(options.len() as i32);
         }
         (Effect::AttractGaze { .. }, Some(two)) => motion::draw_gaze(step, one, two),
         (Effect::TeleportToExit, Some(two)) => motion::draw_exit(step, two),
@@ -479,10 +480,10 @@ fn draw_only(step: &mut Step<'_>, effect: &Effect, one: Slot, two: Option<Slot>)
 }
 
 fn add_timer(step: &mut Step<'_>, timed: u16) {
-    if step.state.timers.len() >= MAX_TIMERS {
+    if step.world.timers.len() >= MAX_TIMERS {
         return step.stop(Limit::Timers);
     }
-    let due = step.state.tick.saturating_add(step.rules.timed[usize::from(timed)].timer);
+    let due = step.world.tick.saturating_add(step.rules.timed[usize::from(timed)].timer);
     step.plan(Timer { due, timed });
 }
 
@@ -498,7 +499,7 @@ pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
 
 /// Tests whether a shield of this tick covers the pass (`spec/03` §5.7): exact types and keyword.
 pub(crate) fn is_shielded(step: &Step<'_>, pass: &Pass) -> bool {
-    step.state.shields.binary_search(&(pass.first, pass.second, pass.keyword)).is_ok()
+    step.world.shields.binary_search(&(pass.first, pass.second, pass.keyword)).is_ok()
 }
 
 impl Step<'_> {
@@ -526,8 +527,8 @@ impl Step<'_> {
     }
 
     fn remember(&mut self, index: u16, bit: u8, on: bool) {
-        let byte = &mut self.state.memory[usize::from(index)];
+        let byte = &mut self.world.memory[usize::from(index)];
         let before = std::mem::replace(byte, if on { *byte | bit } else { *byte & !bit });
-        self.state.memory_is_dirty |= before != *byte;
+        self.world.memory_is_dirty |= before != *byte;
     }
 }

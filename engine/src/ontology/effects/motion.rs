@@ -1,18 +1,18 @@
 //! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
 
 use super::SpeedChange;
-use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
-use crate::overrides::Overrides;
-use crate::state::{NONE, Slot, flag};
-use crate::step::Step;
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::Overrides;
+use crate::world::{NONE, Slot, flag};
 
 pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>) {
     let rect = match flush_with {
         Some(two) => pixel_perfect(step, one, two),
-        None => step.state.last(one),
+        None => step.world.last(one),
     };
     step.place(one, rect);
 }
@@ -20,8 +20,8 @@ pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>
 /// The place flush with the partner on the side that the sprite came from; its last rectangle if it did not come
 /// straight.
 pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
-    let (sprite, other) = (step.state.sprite(one), step.state.sprite(two).rect);
-    let last = step.state.last(one);
+    let (sprite, other) = (step.world.sprite(one), step.world.sprite(two).rect);
+    let last = step.world.last(one);
     let (now, before) = (sprite.rect.centre(), last.centre());
     let came = Direction { x: now.0 - before.0, y: now.1 - before.1 }.normalised();
     let rect = sprite.rect;
@@ -41,16 +41,16 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
     let is_back = |stype: SpriteType| rules.types[stype.index()].order.is_some() && !spare.contains(&stype);
     if rules.first_differs {
         let mut types = (0..rules.types.len() as u16).map(SpriteType).filter(|&stype| is_back(stype));
-        if types.any(|stype| step.state.slots(stype).any(|slot| step.state.last(slot).h == 0)) {
+        if types.any(|stype| step.world.slots(stype).any(|slot| step.world.last(slot).h == 0)) {
             return step.stop(Limit::FlatSprite);
         }
     }
     // Only sprites that moved in this tick differ from their last rectangle.
-    step.work(step.state.moved.len());
-    for at in 0..step.state.moved.len() {
-        let slot = step.state.moved[at];
-        let last = step.state.last(slot);
-        if is_back(step.state.sprite(slot).stype) {
+    step.work(step.world.moved.len());
+    for at in 0..step.world.moved.len() {
+        let slot = step.world.moved[at];
+        let last = step.world.last(slot);
+        if is_back(step.world.sprite(slot).stype) {
             step.place(slot, last);
         }
     }
@@ -58,32 +58,32 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
 
 /// Steps back, moves two steps down, and reverses the direction.
 pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
-    let last = step.state.last(one);
-    let cooldown = step.rules.types[step.state.sprite(one).stype.index()].traits.cooldown;
+    let last = step.world.last(one);
+    let cooldown = step.rules.types[step.world.sprite(one).stype.index()].traits.cooldown;
     step.place(one, last);
     for _ in 0..2 {
         step.set_age(one, cooldown);
         // In continuous physics, the first of the two steps changes the speed of the second.
-        let speed = step.state.overrides(one).speed;
+        let speed = step.world.overrides(one).speed;
         physics::active(step, one, Direction::DOWN, speed);
     }
     reverse(step, one);
 }
 
 pub(super) fn reverse(step: &mut Step<'_>, one: Slot) {
-    let overrides = step.state.edit_overrides(one);
+    let overrides = step.world.edit_overrides(one);
     overrides.orientation = overrides.orientation.reversed();
 }
 
 pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
-    let drawn = Direction::BASE[step.state.chance.below(4) as usize];
-    step.state.face(one, drawn);
+    let drawn = Direction::BASE[step.world.chance.below(4) as usize];
+    step.world.face(one, drawn);
 }
 
 /// Moves to the opposite edge along the orientation, on one axis only.
 pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
-    let screen = step.state.screen();
-    let (facing, rect) = (step.state.overrides(one).orientation, step.state.sprite(one).rect);
+    let screen = step.world.screen();
+    let (facing, rect) = (step.world.overrides(one).orientation, step.world.sprite(one).rect);
     let near = |size: i32| (offset * f64::from(size)) as i32;
     let far = |edge: i32, size: i32| (f64::from(edge) - f64::from(size) * (1.0 + offset)) as i32;
     let to = if facing.x > 0.0 {
@@ -102,26 +102,26 @@ pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
 }
 
 pub(super) fn align(step: &mut Step<'_>, one: Slot, two: Slot, orient: bool) {
-    let other = *step.state.sprite(two);
+    let other = *step.world.sprite(two);
     if orient {
-        step.state.face(one, step.state.overrides(two).orientation);
+        step.world.face(one, step.world.overrides(two).orientation);
     }
-    let rect = step.state.sprite(one).rect.at(other.rect.x, other.rect.y);
+    let rect = step.world.sprite(one).rect.at(other.rect.x, other.rect.y);
     step.place(one, rect);
 }
 
 pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: bool, prob: f64) {
-    let other = *step.state.sprite(two);
-    if !step.state.sprite(one).is(flag::ORIENTED) || !other.is(flag::ORIENTED) {
+    let other = *step.world.sprite(two);
+    if !step.world.sprite(one).is(flag::ORIENTED) || !other.is(flag::ORIENTED) {
         return;
     }
-    if step.state.chance.double() >= prob {
+    if step.world.chance.double() >= prob {
         return;
     }
-    let facing = step.state.overrides(two).orientation;
-    step.state.face(one, facing);
+    let facing = step.world.overrides(two).orientation;
+    step.world.face(one, facing);
     if align {
-        let rect = step.state.sprite(one).rect;
+        let rect = step.world.sprite(one).rect;
         let sideways = facing == Direction::LEFT || facing == Direction::RIGHT;
         let to = if sideways { rect.at(rect.x, other.rect.y) } else { rect.at(other.rect.x, rect.y) };
         step.place(one, to);
@@ -130,15 +130,15 @@ pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: boo
 
 /// Makes the draw of attractGaze without the consequences.
 pub(super) fn draw_gaze(step: &mut Step<'_>, one: Slot, two: Slot) {
-    if step.state.sprite(one).is(flag::ORIENTED) && step.state.sprite(two).is(flag::ORIENTED) {
-        step.state.chance.double();
+    if step.world.sprite(one).is(flag::ORIENTED) && step.world.sprite(two).is(flag::ORIENTED) {
+        step.world.chance.double();
     }
 }
 
 /// Pushes the sprite: it moves in the direction in which the partner moved in this tick, and faces there.
 pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
-    let &Overrides { orientation: facing, speed, .. } = step.state.overrides(two);
+    let &Overrides { orientation: facing, speed, .. } = step.world.overrides(two);
     let mut push = moved.normalised();
     if moved.x * facing.x < 0.0 {
         push.x = -push.x;
@@ -147,24 +147,24 @@ pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
         push.y = -push.y;
     }
     physics::active(step, one, push, speed);
-    step.state.face(one, push);
+    step.world.face(one, push);
 }
 
 /// Carries the sprite along with the partner, once per tick.
 pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, onto: bool) {
-    let Err(at) = step.state.pulled.binary_search(&(index, one)) else { return };
-    step.work(step.state.pulled.len() / 64);
-    step.state.pulled.insert(at, (index, one));
+    let Err(at) = step.world.pulled.binary_search(&(index, one)) else { return };
+    step.work(step.world.pulled.len() / 64);
+    step.world.pulled.insert(at, (index, one));
     let direction = step.last_direction(two).normalised();
-    let amount = (step.state.overrides(two).speed * physics::grid_size(step, one)) as i32;
+    let amount = (step.world.overrides(two).speed * physics::grid_size(step, one)) as i32;
     step.displace(one, direction, amount);
-    if step.rules.types[step.state.sprite(one).stype.index()].traits.off_grid {
-        let (rect, carrier) = (step.state.sprite(one).rect, step.state.sprite(two).rect);
+    if step.rules.types[step.world.sprite(one).stype.index()].traits.off_grid {
+        let (rect, carrier) = (step.world.sprite(one).rect, step.world.sprite(two).rect);
         step.place(one, rect.at(rect.x, carrier.y.wrapping_sub(carrier.h)));
-        step.state.edit_overrides(one).orientation.y = 0.0;
+        step.world.edit_overrides(one).orientation.y = 0.0;
     }
     if onto {
-        let rect = step.state.sprite(two).rect;
+        let rect = step.world.sprite(two).rect;
         step.place(one, rect);
     }
 }
@@ -172,52 +172,52 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
 /// Moves the sprite to a random sprite of the type that the partner leads to; kills it if there is none.
 pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     let Some(exit_type) = exit_of(step, two) else { return step.message() };
-    let count = step.state.group(exit_type).count;
+    let count = step.world.group(exit_type).count;
     if count == 0 {
         return step.kill(one);
     }
     step.work(usize::from(count));
-    let drawn = step.state.chance.below(i32::from(count));
-    let exit = step.state.slots(exit_type).nth(drawn as usize).expect("one of the group");
-    let (exit, facing) = (*step.state.sprite(exit), step.state.overrides(exit).orientation);
+    let drawn = step.world.chance.below(i32::from(count));
+    let exit = step.world.slots(exit_type).nth(drawn as usize).expect("one of the group");
+    let (exit, facing) = (*step.world.sprite(exit), step.world.overrides(exit).orientation);
     step.place(one, exit.rect);
     step.set_age(one, 0);
     if exit.is(flag::ORIENTED) {
-        step.state.face(one, facing);
+        step.world.face(one, facing);
     }
 }
 
 /// Makes the draw of teleportToExit without the consequences.
 pub(super) fn draw_exit(step: &mut Step<'_>, two: Slot) {
-    let count = exit_of(step, two).map_or(0, |exit_type| step.state.group(exit_type).count);
+    let count = exit_of(step, two).map_or(0, |exit_type| step.world.group(exit_type).count);
     if count > 0 {
-        step.state.chance.below(i32::from(count));
+        step.world.chance.below(i32::from(count));
     }
 }
 
 /// The type to which touching a sprite leads.
 fn exit_of(step: &Step<'_>, two: Slot) -> Option<SpriteType> {
-    let info = &step.rules.types[step.state.sprite(two).stype.index()];
+    let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
     // A spawner leads to the type that it makes, which may change.
-    let leads_to = if spawns { Some(step.state.overrides(two).spawns) } else { info.leads_to() };
+    let leads_to = if spawns { Some(step.world.overrides(two).spawns) } else { info.leads_to() };
     leads_to.filter(|&stype| stype != SpriteType::NONE)
 }
 
 pub(super) fn change_speed(step: &mut Step<'_>, stype: SpriteType, value: f64, how: SpeedChange) {
     let rules = step.rules;
     for &stype in &rules.types[stype.index()].tree {
-        step.work(usize::from(step.state.group(stype).count));
-        let mut slot = step.state.group(stype).head;
+        step.work(usize::from(step.world.group(stype).count));
+        let mut slot = step.world.group(stype).head;
         while slot != NONE {
-            let overrides = step.state.edit_overrides(slot);
+            let overrides = step.world.edit_overrides(slot);
             overrides.speed = match how {
                 SpeedChange::Increase => overrides.speed + value,
                 SpeedChange::Decrease if overrides.speed - value < 0.0 => 0.0,
                 SpeedChange::Decrease => overrides.speed - value,
                 SpeedChange::Set => value,
             };
-            slot = step.state.sprite(slot).next;
+            slot = step.world.sprite(slot).next;
         }
     }
 }

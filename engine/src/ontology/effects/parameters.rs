@@ -2,7 +2,7 @@
 //! maintain.
 
 use super::build::{Arguments, Undeclared, build};
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 
 /// The kind of value of an effect's parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,13 +1,13 @@
 //! Effects on resources (`spec/03` §8.2).
 
-use crate::game::{Limit, SpriteType};
 use crate::ontology::class::SpriteClass;
-use crate::state::Slot;
-use crate::step::Step;
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::Slot;
 
 /// The type, value and limit of a resource sprite; `None` if it is not a resource.
 fn resource_of(step: &mut Step<'_>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
-    let info = &step.rules.types[step.state.sprite(slot).stype.index()];
+    let info = &step.rules.types[step.world.sprite(slot).stype.index()];
     let resource = info.traits.resource;
     if !info.traits.is_resource {
         return None;
@@ -23,7 +23,7 @@ fn resource_of(step: &mut Step<'_>, slot: Slot) -> Option<(SpriteType, i32, i32)
 /// of the effect.
 pub(super) fn collect(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, kill: bool) {
     let Some((resource, value, limit)) = resource_of(step, one) else { return };
-    let amount = step.state.amount(two, resource);
+    let amount = step.world.amount(two, resource);
     step.apply_score(index, amount < limit);
     if amount < limit {
         step.add_amount(two, resource, value.min(limit.wrapping_sub(amount)));
@@ -44,10 +44,10 @@ pub(super) fn collect_if_held(
 ) {
     let Some((resource, worth, limit)) = resource_of(step, one) else { return };
     step.apply_score(index, false);
-    if step.state.amount(two, held) < value {
+    if step.world.amount(two, held) < value {
         return;
     }
-    if step.state.amount(two, resource).wrapping_add(worth) <= limit {
+    if step.world.amount(two, resource).wrapping_add(worth) <= limit {
         step.add_amount(two, resource, worth);
         step.apply_score(index, true);
     }
@@ -66,7 +66,7 @@ pub(super) fn change(
     kill: bool,
 ) {
     let Some(info) = step.rules.types.get(resource.index()) else { return step.stop(Limit::NoType) };
-    let fits = step.state.amount(one, resource).wrapping_add(value) <= info.resource_limit;
+    let fits = step.world.amount(one, resource).wrapping_add(value) <= info.resource_limit;
     step.apply_score(index, fits);
     if fits {
         step.add_amount(one, resource, value);

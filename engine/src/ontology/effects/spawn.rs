@@ -1,17 +1,17 @@
 //! Effects that make sprites (`spec/03` §7.4). The draw comes first, even if the outcome is certain.
 
 use super::Effect;
-use crate::game::{Limit, SpriteType};
 use crate::ontology::class::SpriteClass;
-use crate::state::{NONE, Slot};
-use crate::step::Step;
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::{NONE, Slot};
 
 pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64) {
     // A `prob` of NaN always spawns.
-    if step.state.chance.double() >= prob {
+    if step.world.chance.double() >= prob {
         return;
     }
-    let rect = step.state.sprite(one).rect;
+    let rect = step.world.sprite(one).rect;
     step.add(stype, rect.x, rect.y);
 }
 
@@ -19,12 +19,12 @@ pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64)
 pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, effect: &Effect) {
     let Effect::SpawnIf { resource, limit, stype, spend, prob, more } = *effect else { return };
     step.apply_score(index, false);
-    if step.state.chance.double() >= prob {
+    if step.world.chance.double() >= prob {
         return;
     }
-    let amount = step.state.amount(one, resource);
+    let amount = step.world.amount(one, resource);
     if if more { amount >= limit } else { amount <= limit } {
-        let rect = step.state.sprite(one).rect;
+        let rect = step.world.sprite(one).rect;
         step.add(stype, rect.x, rect.y);
         step.apply_score(index, true);
         if more {
@@ -42,32 +42,32 @@ pub(super) fn beside(
     step_back: bool,
     prob: f64,
 ) {
-    if step.state.chance.double() >= prob {
+    if step.world.chance.double() >= prob {
         return;
     }
-    let (rect, last) = (step.state.sprite(two).rect, step.state.last(two));
+    let (rect, last) = (step.world.sprite(two).rect, step.world.last(two));
     if step_back && last.intersects(rect) {
         return;
     }
     let from = if step_back { last } else { rect };
-    let block = step.state.block;
+    let block = step.world.block;
     let (x, y) = (from.x.wrapping_add(shift.0 * block), from.y.wrapping_add(shift.1 * block));
     step.add(stype, x, y);
 }
 
 /// Spawns at the partner's last place, if the partner has left it.
 pub(super) fn behind(step: &mut Step<'_>, two: Slot, stype: SpriteType, prob: f64) {
-    if step.state.chance.double() >= prob {
+    if step.world.chance.double() >= prob {
         return;
     }
-    let (rect, last) = (step.state.sprite(two).rect, step.state.last(two));
+    let (rect, last) = (step.world.sprite(two).rect, step.world.last(two));
     if !last.intersects(rect) {
         step.add(stype, last.x, last.y);
     }
 }
 
 pub(super) fn clone(step: &mut Step<'_>, one: Slot) {
-    let sprite = step.state.sprite(one);
+    let sprite = step.world.sprite(one);
     step.add(sprite.stype, sprite.rect.x, sprite.rect.y);
 }
 
@@ -75,13 +75,13 @@ pub(super) fn clone(step: &mut Step<'_>, one: Slot) {
 pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, effect: &Effect) {
     let Effect::SpawnIfCounterSubTypes { stype, otherwise, counted, limit, kinds } = *effect else { return };
     let rules = step.rules;
-    let rect = step.state.sprite(one).rect;
+    let rect = step.world.sprite(one).rect;
     let mut met = false;
     let tree = &rules.types[counted.index()].tree;
     step.work(tree.len());
-    if step.state.count_live(rules, counted) == limit {
+    if step.world.count_live(rules, counted) == limit {
         step.work(tree.len() * tree.len());
-        let alive = tree.iter().filter(|&&stype| step.state.count_live(rules, stype) > 0).count();
+        let alive = tree.iter().filter(|&&stype| step.world.count_live(rules, stype) > 0).count();
         met = (alive / 2) as i32 == kinds;
     }
     step.apply_score(index, met);
@@ -101,16 +101,16 @@ pub(super) fn update_type(
     for &family in &rules.types[spawn_point.index()].tree {
         let class = rules.types[family.index()].class;
         let is_spawner = class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
-        step.work(usize::from(step.state.group(family).count));
-        let mut slot = step.state.group(family).head;
+        step.work(usize::from(step.world.group(family).count));
+        let mut slot = step.world.group(family).head;
         while slot != NONE && is_spawner {
             let Some(partner) = partner else { return step.stop(Limit::NoSprite) };
-            step.state.edit_overrides(slot).spawns = stype;
+            step.world.edit_overrides(slot).spawns = stype;
             if class == Some(SpriteClass::BomberRandomMissile) {
-                let before = step.state.sprite(partner).stype;
-                step.state.replace_missile(rules, slot, before, stype);
+                let before = step.world.sprite(partner).stype;
+                step.world.replace_missile(rules, slot, before, stype);
             }
-            slot = step.state.sprite(slot).next;
+            slot = step.world.sprite(slot).next;
         }
     }
 }

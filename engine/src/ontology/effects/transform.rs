@@ -1,19 +1,19 @@
 //! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
 
 use super::TransformIfCount;
-use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::limits::EFFECT_WORK;
-use crate::side_tables::Held;
-use crate::state::{NONE, Slot, flag};
-use crate::step::Step;
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::Held;
+use crate::world::{NONE, Slot, flag};
 use smallvec::SmallVec;
 
 pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: SpriteType, force: bool) {
-    if step.state.sprite(one).is(flag::DISABLED) {
+    if step.world.sprite(one).is(flag::DISABLED) {
         return;
     }
-    let rect = step.state.sprite(one).rect;
+    let rect = step.world.sprite(one).rect;
     if let Some(new) = step.add(stype, rect.x, rect.y) {
         hand_over(step, one, new, victim, force);
     }
@@ -21,17 +21,17 @@ pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: Sp
 
 /// Transforms every sprite of exactly that type, even into singletons.
 pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, to: SpriteType, force: bool) {
-    if stype == to && step.state.group(stype).head != NONE {
+    if stype == to && step.world.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
     }
-    step.work(EFFECT_WORK * usize::from(step.state.group(stype).count));
-    let mut slot = step.state.group(stype).head;
+    step.work(EFFECT_WORK * usize::from(step.world.group(stype).count));
+    let mut slot = step.world.group(stype).head;
     while slot != NONE {
-        let rect = step.state.sprite(slot).rect;
+        let rect = step.world.sprite(slot).rect;
         if let Some(new) = step.add_forced(to, rect.x, rect.y) {
             hand_over(step, slot, new, victim, force);
         }
-        slot = step.state.sprite(slot).next;
+        slot = step.world.sprite(slot).next;
     }
 }
 
@@ -46,11 +46,11 @@ pub(super) fn random_child(
     if options.is_empty() {
         return;
     }
-    let drawn = options[step.state.chance.below(options.len() as i32) as usize];
+    let drawn = options[step.world.chance.below(options.len() as i32) as usize];
     if step.rules.types[drawn.index()].class.is_none() {
         return step.message();
     }
-    let rect = step.state.sprite(one).rect;
+    let rect = step.world.sprite(one).rect;
     if let Some(new) = step.add(drawn, rect.x, rect.y) {
         hand_over(step, one, new, victim, force);
     }
@@ -62,13 +62,13 @@ pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, ru
         return step.stop(Limit::NoType);
     }
     step.work(step.rules.types[rule.counted.index()].tree.len());
-    let count = step.state.count(step.rules, rule.counted);
+    let count = step.world.count(step.rules, rule.counted);
     let met = (rule.at_least..=rule.at_most).contains(&count);
     step.apply_score(index, met);
     step.apply_count(index, met);
     step.apply_count_else(index, !met && rule.otherwise.is_some());
     let Some(stype) = (if met { Some(rule.stype) } else { rule.otherwise }) else { return };
-    let rect = step.state.sprite(one).rect;
+    let rect = step.world.sprite(one).rect;
     if let Some(new) = step.add_forced(stype, rect.x, rect.y) {
         hand_over(step, one, new, Some(two).filter(|_| rule.kill_second), rule.force_orientation);
     }
@@ -83,46 +83,46 @@ pub(super) fn to_singleton(
     other: SpriteType,
     take_orientation: bool,
 ) {
-    if stype == other && step.state.group(stype).head != NONE {
+    if stype == other && step.world.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
     }
-    step.work(EFFECT_WORK * usize::from(step.state.group(stype).count));
-    let mut slot = step.state.group(stype).head;
+    step.work(EFFECT_WORK * usize::from(step.world.group(stype).count));
+    let mut slot = step.world.group(stype).head;
     while slot != NONE {
-        let rect = step.state.sprite(slot).rect;
+        let rect = step.world.sprite(slot).rect;
         if let Some(new) = step.add(other, rect.x, rect.y) {
             inherit(step, slot, new);
         }
-        slot = step.state.sprite(slot).next;
+        slot = step.world.sprite(slot).next;
     }
-    let rect = step.state.sprite(one).rect;
+    let rect = step.world.sprite(one).rect;
     if let Some(new) = step.add(stype, rect.x, rect.y) {
         inherit(step, one, new);
         if take_orientation {
-            let facing = step.state.overrides(two).orientation.reversed();
-            step.state.edit(new).set(flag::ORIENTED, true);
-            step.state.face(new, facing);
+            let facing = step.world.overrides(two).orientation.reversed();
+            step.world.edit(new).set(flag::ORIENTED, true);
+            step.world.face(new, facing);
         }
     }
 }
 
 /// Like [`hand_over`], but always passes on the orientation, and never health.
 fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
-    if step.state.sprite(old).is(flag::ORIENTED) && step.state.sprite(new).is(flag::ORIENTED) {
-        step.state.face(new, step.state.overrides(old).orientation);
+    if step.world.sprite(old).is(flag::ORIENTED) && step.world.sprite(new).is(flag::ORIENTED) {
+        step.world.face(new, step.world.overrides(old).orientation);
     }
     pass_on(step, old, new);
 }
 
 /// Passes the properties of the old sprite on to the new one, and removes the old one.
 fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
-    let (before, after) = (*step.state.overrides(old), *step.state.overrides(new));
-    let oriented = step.state.sprite(new).is(flag::ORIENTED) && step.state.sprite(old).is(flag::ORIENTED);
+    let (before, after) = (*step.world.overrides(old), *step.world.overrides(new));
+    let oriented = step.world.sprite(new).is(flag::ORIENTED) && step.world.sprite(old).is(flag::ORIENTED);
     if force || (oriented && after.orientation == Direction::NONE) {
-        step.state.face(new, before.orientation);
+        step.world.face(new, before.orientation);
     }
     if after.health != before.health {
-        step.state.edit_overrides(new).health = before.health;
+        step.world.edit_overrides(new).health = before.health;
     }
     pass_on(step, old, new);
     if let Some(victim) = victim {
@@ -132,10 +132,10 @@ fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, fo
 
 /// Passes on the last rectangle, the resources and the player; then removes the old sprite.
 fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
-    let before = *step.state.sprite(old);
-    step.set_last(new, step.state.last(old));
-    if !step.state.held.is_empty() {
-        let held: SmallVec<[Held; 4]> = step.state.held_by(old).into();
+    let before = *step.world.sprite(old);
+    step.set_last(new, step.world.last(old));
+    if !step.world.held.is_empty() {
+        let held: SmallVec<[Held; 4]> = step.world.held_by(old).into();
         for Held { resource, amount, .. } in held {
             step.add_amount(new, resource, amount);
         }
@@ -143,7 +143,7 @@ fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
     // The player moves on to the new avatar, if the new sprite can be one; otherwise the old avatar stays, disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
-        if step.state.avatar == NONE {
+        if step.world.avatar == NONE {
             // The reference takes the score and the player from an avatar that does not exist.
             return step.stop(Limit::NoAvatar);
         }

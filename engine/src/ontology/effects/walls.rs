@@ -3,21 +3,21 @@
 use super::motion::pixel_perfect;
 use crate::geometry::{Direction, Rect};
 use crate::ontology::physics;
-use crate::overlap::Partners;
-use crate::overrides::Overrides;
-use crate::state::Slot;
-use crate::step::Step;
+use crate::tick::Step;
 use crate::trigonometry::{cos, sin};
+use crate::world::Overrides;
+use crate::world::Partners;
+use crate::world::Slot;
 
 /// The displacement that a sprite aims at in a tick, in pixels right and down.
 fn velocity(step: &Step<'_>, slot: Slot) -> Direction {
-    let &Overrides { orientation, speed, .. } = step.state.overrides(slot);
+    let &Overrides { orientation, speed, .. } = step.world.overrides(slot);
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
 /// The flags for a collision with a rectangle from the side, and from above or below; both or neither may be set.
 fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
-    let rect = step.state.sprite(one).rect;
+    let rect = step.world.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
         a.wrapping_add(a_size).min(b.wrapping_add(b_size)).wrapping_sub(a.max(b))
     };
@@ -26,7 +26,7 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
     if horizontal || vertical {
         return (horizontal, vertical);
     }
-    let (velocity, last) = (velocity(step, one), step.state.last(one));
+    let (velocity, last) = (velocity(step, one), step.world.last(one));
     let time = |last: i32, size: i32, from: i32, extent: i32, velocity: f64| {
         let gap = if velocity > 0.0 {
             last.wrapping_add(size).wrapping_sub(from)
@@ -44,7 +44,7 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
 
 /// The rectangle that several partners form together, and their number: two aligned partners count as two.
 fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
-    let rect = |slot: Slot| step.state.sprite(slot).rect;
+    let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {
         let (a, b) = (rect(first), rect(second));
         if a.centre().0 == b.centre().0 {
@@ -55,9 +55,9 @@ fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
         }
     }
     if partners.len() > 1 {
-        let own = step.state.last(one).centre();
+        let own = step.world.last(one).centre();
         let distance = |slot: &Slot| {
-            let centre = step.state.last(*slot).centre();
+            let centre = step.world.last(*slot).centre();
             let (x, y) = (centre.0 - own.0, centre.1 - own.1);
             (x * x + y * y).sqrt()
         };
@@ -69,14 +69,14 @@ fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
 /// Puts all participants of the collision back to their last rectangles.
 fn separate(step: &mut Step<'_>, one: Slot, partners: &[Slot]) {
     for &slot in std::iter::once(&one).chain(partners) {
-        let last = step.state.last(slot);
+        let last = step.world.last(slot);
         step.place(slot, last);
     }
 }
 
 fn reflect(step: &mut Step<'_>, one: Slot, wall: Rect) {
     let (horizontal, vertical) = collision(step, one, wall);
-    let facing = &mut step.state.edit_overrides(one).orientation;
+    let facing = &mut step.world.edit_overrides(one).orientation;
     if vertical {
         facing.y = -facing.y;
     } else if horizontal {
@@ -94,19 +94,19 @@ pub(super) fn bounce_batch(step: &mut Step<'_>, one: Slot, partners: &mut Partne
 }
 
 pub(super) fn bounce(step: &mut Step<'_>, one: Slot, two: Slot) {
-    if step.state.gravity(step.rules, one) > 0.0 {
+    if step.world.gravity(step.rules, one) > 0.0 {
         physics::active(step, one, Direction::UP, 0.0);
     }
-    let wall = step.state.sprite(two).rect;
+    let wall = step.world.sprite(two).rect;
     reflect(step, one, wall);
     separate(step, one, &[two]);
 }
 
 /// Reduces the velocity to `rest`; gravity is the minimum speed.
 fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
-    let gravity = step.state.gravity(step.rules, one);
+    let gravity = step.world.gravity(step.rules, one);
     let length = (rest.x * rest.x + rest.y * rest.y).sqrt();
-    let overrides = step.state.edit_overrides(one);
+    let overrides = step.world.edit_overrides(one);
     overrides.orientation = rest.normalised();
     overrides.speed *= length;
     if overrides.speed < gravity {
@@ -116,7 +116,7 @@ fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
 
 fn turn_back(step: &mut Step<'_>, one: Slot, wall: Rect) {
     let (_, vertical) = collision(step, one, wall);
-    let ahead = step.state.overrides(one).orientation.x;
+    let ahead = step.world.overrides(one).orientation.x;
     slow(step, one, Direction { x: if vertical { ahead } else { -ahead }, y: 0.0 });
 }
 
@@ -128,7 +128,7 @@ pub(super) fn reverse_batch(step: &mut Step<'_>, one: Slot, partners: &mut Partn
 }
 
 pub(super) fn reverse(step: &mut Step<'_>, one: Slot, two: Slot) {
-    let wall = step.state.sprite(two).rect;
+    let wall = step.world.sprite(two).rect;
     turn_back(step, one, wall);
     separate(step, one, &[two]);
 }
@@ -137,8 +137,8 @@ pub(super) fn reverse(step: &mut Step<'_>, one: Slot, two: Slot) {
 pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);
-    let (own, wall) = (step.state.sprite(one).rect.centre(), step.state.sprite(two).rect.centre());
-    let facing = step.state.overrides(one).orientation;
+    let (own, wall) = (step.world.sprite(one).rect.centre(), step.world.sprite(two).rect.centre());
+    let facing = step.world.overrides(one).orientation;
     let beside = (own.0 - wall.0).abs() > (own.1 - wall.1).abs();
     let rest = if beside { Direction { x: 0.0, y: facing.y } } else { Direction { x: facing.x, y: 0.0 } };
     slow(step, one, rest);
@@ -146,8 +146,8 @@ pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
 
 /// Bounces off a paddle: the further from its middle, the steeper.
 pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: f64) {
-    let (ball, paddle) = (*step.state.sprite(one), step.state.sprite(two).rect);
-    let (velocity, last) = (velocity(step, one), step.state.last(one));
+    let (ball, paddle) = (*step.world.sprite(one), step.world.sprite(two).rect);
+    let (velocity, last) = (velocity(step, one), step.world.last(one));
     let gap = |last: i32, size: i32, from: i32, extent: i32| {
         let before = last.wrapping_sub(from.wrapping_add(extent)).wrapping_abs();
         let after = last.wrapping_add(size).wrapping_sub(from).wrapping_abs();
@@ -166,9 +166,9 @@ pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: 
         let angle = share(other.1 - own.1, paddle.h) * most;
         Direction { x: cos(angle) * side, y: -sin(angle) }
     } else {
-        let facing = &mut step.state.edit_overrides(one).orientation;
+        let facing = &mut step.world.edit_overrides(one).orientation;
         facing.x = -facing.x;
         return;
     };
-    step.state.edit_overrides(one).orientation = facing.normalised();
+    step.world.edit_overrides(one).orientation = facing.normalised();
 }

@@ -7,10 +7,10 @@ pub(in crate::ontology) mod walkers;
 
 use super::class::SpriteClass;
 use super::traits::Traits;
-use crate::game::{SpriteType, TypeInfo};
 use crate::ontology::physics;
-use crate::state::{Slot, Sprite, State, flag};
-use crate::step::Step;
+use crate::rules::{SpriteType, TypeInfo};
+use crate::tick::Step;
+use crate::world::{Slot, Sprite, World, flag};
 
 /// The `heading` of an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u32 = 4;
@@ -41,17 +41,17 @@ pub(crate) fn draws(class: SpriteClass) -> bool {
 /// Tests whether [`base`] does nothing to a sprite in this tick: the sprite does not move by itself, or its cooldown has
 /// not passed.
 #[inline]
-pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
+pub(crate) fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let stands =
-        || state.overrides_of(sprite).speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
+        || world.overrides_of(sprite).speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
     sprite.time_to_live < 0
-        && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, state))
+        && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, world))
 }
 
 /// Tests whether a sprite does not move by itself because its cooldown has not passed.
 #[inline]
-pub(crate) fn waits(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
-    let age = state.tick.wrapping_sub(sprite.moved_at);
+pub(crate) fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
+    let age = world.tick.wrapping_sub(sprite.moved_at);
     traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
 }
 
@@ -148,9 +148,9 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
 #[inline]
 pub(crate) fn base(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
-    let time_to_live = step.state.sprite(slot).time_to_live;
+    let time_to_live = step.world.sprite(slot).time_to_live;
     if time_to_live > 0 {
-        step.state.edit_motion(slot).time_to_live -= 1;
+        step.world.edit_motion(slot).time_to_live -= 1;
     } else if time_to_live == 0 {
         step.kill(slot);
     }

@@ -1,13 +1,13 @@
 //! Characters that move at random or pursue others (`spec/02` §7).
 
 use super::NO_HEADING;
-use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
-use crate::overrides::Target;
-use crate::state::{NONE, Slot, Sprite, State, flag};
-use crate::step::Step;
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::Target;
+use crate::world::{NONE, Slot, Sprite, World, flag};
 use smallvec::SmallVec;
 
 /// The directions to choose from, as indices of the base directions; a direction appears once for each target that it
@@ -17,7 +17,7 @@ type Options = SmallVec<[u8; 16]>;
 /// Drifts, then moves in the chosen direction.
 #[inline(always)]
 pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
-    let sprite = step.state.sprite(slot);
+    let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     // Other characters do not drift.
     if sprite.is(flag::FIRST_TICK | flag::ORIENTED) || traits.continuous {
@@ -26,7 +26,7 @@ pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     let direction = if wanders(class) {
         let heading = random_heading(step, slot, traits.cons);
         if heading != NO_HEADING {
-            let speed = step.state.overrides(slot).speed;
+            let speed = step.world.overrides(slot).speed;
             physics::active_along(step, slot, heading as usize, speed);
             return;
         }
@@ -34,7 +34,7 @@ pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     } else {
         pursue(step, slot, class)
     };
-    let speed = step.state.overrides(slot).speed;
+    let speed = step.world.overrides(slot).speed;
     physics::active(step, slot, direction, speed);
 }
 
@@ -42,7 +42,7 @@ pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
 #[inline(always)]
 pub(crate) fn choose(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     if wanders(class) {
-        let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
+        let cons = step.rules.types[step.world.sprite(slot).stype.index()].traits.cons;
         random_heading(step, slot, cons);
     } else {
         pursue(step, slot, class);
@@ -76,8 +76,8 @@ fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
 /// [`random_move`] as an index of the base directions, or [`NO_HEADING`].
 #[inline]
 fn random_heading(step: &mut Step<'_>, slot: Slot, cons: i32) -> u32 {
-    let mut chance = step.state.chance;
-    let sprite = step.state.edit_motion(slot);
+    let mut chance = step.world.chance;
+    let sprite = step.world.edit_motion(slot);
     if sprite.count < cons {
         sprite.count += 1;
     } else {
@@ -85,13 +85,13 @@ fn random_heading(step: &mut Step<'_>, slot: Slot, cons: i32) -> u32 {
         sprite.set_heading(chance.below(4) as u32);
     }
     let heading = sprite.heading();
-    step.state.chance = chance;
+    step.world.chance = chance;
     heading
 }
 
 /// The last drawn direction.
 fn heading(step: &Step<'_>, slot: Slot) -> Direction {
-    towards(step.state.sprite(slot).heading())
+    towards(step.world.sprite(slot).heading())
 }
 
 fn towards(heading: u32) -> Direction {
@@ -107,7 +107,7 @@ fn drawn(step: &mut Step<'_>, options: &[u8]) -> Option<Direction> {
     if options.is_empty() {
         return None;
     }
-    let drawn = step.state.chance.below(options.len() as i32) as usize;
+    let drawn = step.world.chance.below(options.len() as i32) as usize;
     Some(Direction::BASE[usize::from(options[drawn])])
 }
 
@@ -129,10 +129,10 @@ fn los_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
 }
 
 fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> bool) -> Direction {
-    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
-    let visible = targets.rects(step.state).filter(|&target| sees(own, target));
+    let visible = targets.rects(step.world).filter(|&target| sees(own, target));
     let near = |distance: f64| traits.max_distance == -1.0 || distance <= traits.max_distance;
     let options = options(traits.continuous, traits.fleeing, own, visible, near);
     drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons))
@@ -196,16 +196,16 @@ impl<'a> Targets<'a> {
         self.first.into_iter().chain(self.others.iter().copied())
     }
 
-    fn slots(self, state: &State) -> impl Iterator<Item = Slot> + Clone {
-        self.types().flat_map(|stype| state.slots(stype))
+    fn slots(self, world: &World) -> impl Iterator<Item = Slot> + Clone {
+        self.types().flat_map(|stype| world.slots(stype))
     }
 
-    fn rects(self, state: &State) -> impl Iterator<Item = Rect> + Clone {
-        self.slots(state).map(|slot| state.sprite(slot).rect)
+    fn rects(self, world: &World) -> impl Iterator<Item = Rect> + Clone {
+        self.slots(world).map(|slot| world.sprite(slot).rect)
     }
 
-    fn count(self, state: &State) -> usize {
-        self.types().map(|stype| usize::from(state.group(stype).count)).sum()
+    fn count(self, world: &World) -> usize {
+        self.types().map(|stype| usize::from(world.group(stype).count)).sum()
     }
 }
 
@@ -215,11 +215,11 @@ fn own_or_related<'a>(step: &mut Step<'a>, stype: SpriteType) -> Targets<'a> {
         step.stop(Limit::NoType);
         return Targets::NONE;
     }
-    let targets = match step.state.group(stype).head {
+    let targets = match step.world.group(stype).head {
         NONE => Targets { first: None, others: &step.rules.types[stype.index()].tree },
         _ => Targets { first: Some(stype), others: &[] },
     };
-    step.work(targets.types().count() + targets.count(step.state));
+    step.work(targets.types().count() + targets.count(step.world));
     targets
 }
 
@@ -246,13 +246,13 @@ fn closest(continuous: bool, from: Rect, targets: impl Iterator<Item = Rect>) ->
 
 /// PathChaser: follows the path to the first of the closest targets.
 fn path_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
-    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
-    match closest(traits.continuous, own, targets.rects(step.state)) {
+    match closest(traits.continuous, own, targets.rects(step.world)) {
         Some(Closest { first, .. }) => {
             let way = first_step(step, own, (first.x, first.y));
-            step.state.edit_motion(slot).count = traits.cons;
+            step.world.edit_motion(slot).count = traits.cons;
             way.unwrap_or(Direction::NONE)
         }
         None => random_move(step, slot, traits.cons),
@@ -265,7 +265,7 @@ fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Directi
         step.stop(Limit::NoPaths);
         return None;
     }
-    let (way, looked) = step.state.first_step((from.x, from.y), to);
+    let (way, looked) = step.world.first_step((from.x, from.y), to);
     step.work(looked);
     way
 }
@@ -274,39 +274,39 @@ fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Directi
 /// sprites of a leaf type appear twice.
 fn alternate_targets<'a>(step: &mut Step<'a>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
-    let stypes = &rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
+    let stypes = &rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
     if stypes.contains(&SpriteType::NONE) {
         step.stop(Limit::NoType);
         return Targets::NONE;
     }
-    let total: i32 = stypes.iter().map(|&stype| step.state.count(rules, stype)).sum();
+    let total: i32 = stypes.iter().map(|&stype| step.world.count(rules, stype)).sum();
     if total == 0 {
         return Targets::NONE;
     }
     // Among several types the reference chooses with an unseeded generator of its own.
     let chosen = match stypes.len() {
         1 => stypes[0],
-        count => stypes[step.state.jumps.below(count as i32) as usize],
+        count => stypes[step.world.jumps.below(count as i32) as usize],
     };
     let targets = Targets { first: Some(chosen), others: &rules.types[chosen.index()].tree };
-    step.work(stypes.len() + targets.count(step.state));
+    step.work(stypes.len() + targets.count(step.world));
     targets
 }
 
 /// AlternateChaser: a step towards one of the closest targets; it never flees, whatever its parameters say.
 fn alternate_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let targets = alternate_targets(step, slot);
-    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let continuous = step.rules.types[stype.index()].traits.continuous;
-    let options = options(continuous, false, own, targets.rects(step.state), |_| true);
-    drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.state.chance.below(4) as usize])
+    let options = options(continuous, false, own, targets.rects(step.world), |_| true);
+    drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.world.chance.below(4) as usize])
 }
 
 /// RandomAltChaser and RandomPathAltChaser: occasionally a random step instead; the first draw is made in any case.
 fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot) -> Direction) -> Direction {
-    let epsilon = step.rules.types[step.state.sprite(slot).stype.index()].traits.epsilon;
-    if step.state.chance.double() < epsilon {
-        Direction::BASE[step.state.chance.below(4) as usize]
+    let epsilon = step.rules.types[step.world.sprite(slot).stype.index()].traits.epsilon;
+    if step.world.chance.double() < epsilon {
+        Direction::BASE[step.world.chance.below(4) as usize]
     } else {
         otherwise(step, slot)
     }
@@ -315,11 +315,11 @@ fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot)
 /// PathAltChaser: follows paths to one target until it stands on it.
 fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let rules = step.rules;
-    let own = step.state.sprite(slot).rect;
-    let current = match step.state.extra(rules, slot).target {
+    let own = step.world.sprite(slot).rect;
+    let current = match step.world.extra(rules, slot).target {
         Target::None => None,
         Target::Sprite(target) => {
-            Some((step.state.extra(rules, slot).target, step.state.sprite(target).rect))
+            Some((step.world.extra(rules, slot).target, step.world.sprite(target).rect))
         }
         Target::Gone(rect) => Some((Target::Gone(rect), rect)),
     };
@@ -334,10 +334,10 @@ fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
         },
     };
     let Some((target, rect)) = chosen else {
-        return Direction::BASE[step.state.chance.below(4) as usize];
+        return Direction::BASE[step.world.chance.below(4) as usize];
     };
     let mut way = first_step(step, own, (rect.x, rect.y));
-    let extra = step.state.extra(rules, slot);
+    let extra = step.world.extra(rules, slot);
     extra.target = target;
     match (way, extra.last_known) {
         (None, Some(known)) => way = first_step(step, own, known),
@@ -348,21 +348,21 @@ fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
 
 /// The first of the closest targets, or a random one.
 fn new_target(step: &mut Step<'_>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
-    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
     let targets = alternate_targets(step, slot);
-    let rect = |step: &Step<'_>, target: Slot| step.state.sprite(target).rect;
+    let rect = |step: &Step<'_>, target: Slot| step.world.sprite(target).rect;
     let chosen = if traits.random_target {
-        let count = targets.count(step.state);
+        let count = targets.count(step.world);
         if count == 0 {
             return Err(Limit::NoSprite);
         }
-        let drawn = step.state.chance.below(count as i32) as usize;
-        targets.slots(step.state).nth(drawn)
+        let drawn = step.world.chance.below(count as i32) as usize;
+        targets.slots(step.world).nth(drawn)
     } else {
         let distance = |target: &Slot| physics::distance(traits.continuous, own, rect(step, *target));
         let mut best: Option<(f64, Slot)> = None;
-        for target in targets.slots(step.state) {
+        for target in targets.slots(step.world) {
             let distance = distance(&target);
             if best.is_none_or(|(least, _)| distance < least) {
                 best = Some((distance, target));

@@ -3,13 +3,13 @@
 use super::base;
 use crate::geometry::Direction;
 use crate::ontology::physics;
-use crate::state::Slot;
-use crate::step::Step;
+use crate::tick::Step;
+use crate::world::Slot;
 
 pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
-    if step.state.overrides(slot).orientation == Direction::NIL {
-        let drawn = Direction::BASE[step.state.chance.below(4) as usize];
-        step.state.face(slot, drawn);
+    if step.world.overrides(slot).orientation == Direction::NIL {
+        let drawn = Direction::BASE[step.world.chance.below(4) as usize];
+        step.world.face(slot, drawn);
     }
     physics::passive(step, slot);
 }
@@ -17,25 +17,25 @@ pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
 /// Kills a flicker in the update in which its age exceeds the limit.
 pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
     base(step, slot);
-    let sprite = step.state.sprite(slot);
+    let sprite = step.world.sprite(slot);
     if sprite.count > step.rules.types[sprite.stype.index()].traits.limit {
         step.kill(slot);
     }
-    let sprite = step.state.edit_motion(slot);
+    let sprite = step.world.edit_motion(slot);
     sprite.count = sprite.count.wrapping_add(1);
 }
 
 /// A flicker that spreads in its second update: four draws, always.
 pub(super) fn spreader(step: &mut Step<'_>, slot: Slot) {
     flicker(step, slot);
-    let (sprite, last) = (*step.state.sprite(slot), step.state.last(slot));
+    let (sprite, last) = (*step.world.sprite(slot), step.world.last(slot));
     if sprite.count != 2 {
         return;
     }
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let stype = traits.stypes.first().copied().unwrap_or(sprite.stype);
     for direction in Direction::BASE {
-        if step.state.chance.double() < traits.spread_probability {
+        if step.world.chance.double() < traits.spread_probability {
             let at = |corner: i32, component: f64, size: i32| {
                 (f64::from(corner) + component * f64::from(size)) as i32
             };

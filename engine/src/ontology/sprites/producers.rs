@@ -2,24 +2,24 @@
 
 use super::{base, stays};
 use crate::chance::DRAW;
-use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::ontology::traits::Traits;
-use crate::overrides::Overrides;
-use crate::sleep::mark;
-use crate::state::{NONE, Slot, State, flag};
-use crate::step::Step;
+use crate::rules::{Limit, SpriteType};
+use crate::schedule::mark;
+use crate::tick::Step;
+use crate::world::Overrides;
+use crate::world::{NONE, Slot, World, flag};
 
 /// SpawnPoint and Bomber: one draw per update, and a sprite when the tick and the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {
-    let stype = step.state.overrides(slot).spawns;
+    let stype = step.world.overrides(slot).spawns;
     produce(step, slot, &[stype]);
 }
 
 /// SpawnPointMultiSprite: one sprite of each type.
 pub(super) fn multi_sprite(step: &mut Step<'_>, slot: Slot) {
-    let stypes = &step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
+    let stypes = &step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
     produce(step, slot, stypes);
 }
 
@@ -32,20 +32,20 @@ pub(crate) fn threshold(prob: f64) -> i32 {
 
 /// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, the most frequent case. Returns the first
 /// one that does more.
-pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
-    let mut chance = state.chance;
+pub(crate) fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
+    let mut chance = world.chance;
     while slot != NONE {
-        let sprite = state.sprite(slot);
+        let sprite = world.sprite(slot);
         let lives = traits.total <= 0 || sprite.count < traits.total;
-        let moves = || sprite.activity & mark::SKIPPED == 0 && !stays(sprite, traits, state);
+        let moves = || sprite.activity & mark::SKIPPED == 0 && !stays(sprite, traits, world);
         if !lives || !sprite.is(flag::STARTED) || moves() {
             break;
         }
         let mut drawn = chance;
         let misses = drawn.next(DRAW) >= threshold;
         let waits = || {
-            let start = state.overrides_of(sprite).start;
-            traits.cooldown != 1 && start.wrapping_add(state.tick) % traits.cooldown != 0
+            let start = world.overrides_of(sprite).start;
+            traits.cooldown != 1 && start.wrapping_add(world.tick) % traits.cooldown != 0
         };
         if !misses && !waits() {
             break;
@@ -53,56 +53,56 @@ pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut 
         chance = drawn;
         slot = sprite.next;
     }
-    state.chance = chance;
+    world.chance = chance;
     slot
 }
 
 fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
-    let tick = step.state.tick;
-    if !step.state.sprite(slot).is(flag::STARTED) {
-        step.state.edit_overrides(slot).start = tick;
-        step.state.edit(slot).set(flag::STARTED, true);
+    let tick = step.world.tick;
+    if !step.world.sprite(slot).is(flag::STARTED) {
+        step.world.edit_overrides(slot).start = tick;
+        step.world.edit(slot).set(flag::STARTED, true);
     }
-    let draw = f64::from(step.state.chance.float());
-    let sprite = step.state.sprite(slot);
-    let &Overrides { start, orientation, .. } = step.state.overrides_of(sprite);
+    let draw = f64::from(step.world.chance.float());
+    let sprite = step.world.sprite(slot);
+    let &Overrides { start, orientation, .. } = step.world.overrides_of(sprite);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if start.wrapping_add(tick) % traits.cooldown == 0 && draw < traits.prob {
         let (x, y) = (sprite.rect.x, sprite.rect.y);
         for &stype in stypes {
             let Some(made) = step.add(stype, x, y) else { continue };
-            step.state.edit_motion(slot).count += 1;
+            step.world.edit_motion(slot).count += 1;
             if traits.spawn_orientation != Direction::NONE {
-                step.state.face(made, traits.spawn_orientation);
-            } else if step.state.overrides(made).orientation == Direction::NONE {
-                step.state.face(made, orientation);
+                step.world.face(made, traits.spawn_orientation);
+            } else if step.world.overrides(made).orientation == Direction::NONE {
+                step.world.face(made, orientation);
             }
         }
     }
     base(step, slot);
-    if traits.total > 0 && step.state.sprite(slot).count >= traits.total {
+    if traits.total > 0 && step.world.sprite(slot).count >= traits.total {
         step.kill(slot);
     }
 }
 
 /// Moves at random, then acts as a spawn point at its new place.
 pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
-    let direction = Direction::BASE[step.state.chance.below(4) as usize];
-    let speed = step.state.overrides(slot).speed;
+    let direction = Direction::BASE[step.world.chance.below(4) as usize];
+    let speed = step.world.overrides(slot).speed;
     physics::active(step, slot, direction, speed);
     spawn_point(step, slot);
 }
 
 /// Draws the type that it would make in every update.
 pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
-    let count = step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes.len();
+    let count = step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes.len();
     if count == 0 {
         return step.stop(Limit::NoType);
     }
-    let drawn = step.state.chance.below(count as i32) as usize;
-    let stype = step.state.missile(step.rules, slot, drawn);
-    if step.state.overrides(slot).spawns != stype {
-        step.state.edit_overrides(slot).spawns = stype;
+    let drawn = step.world.chance.below(count as i32) as usize;
+    let stype = step.world.missile(step.rules, slot, drawn);
+    if step.world.overrides(slot).spawns != stype {
+        step.world.edit_overrides(slot).spawns = stype;
     }
     spawn_point(step, slot);
 }

@@ -2,54 +2,54 @@
 
 use crate::geometry::Direction;
 use crate::ontology::physics;
-use crate::overrides::Overrides;
-use crate::state::{Slot, flag};
-use crate::step::Step;
+use crate::tick::Step;
+use crate::world::Overrides;
+use crate::world::{Slot, flag};
 
 pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
-    let sprite = step.state.sprite(slot);
+    let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    if traits.air_steering || sprite.rect.x == step.state.last(slot).x {
-        let ahead = step.state.overrides(slot).orientation.x;
+    if traits.air_steering || sprite.rect.x == step.world.last(slot).x {
+        let ahead = step.world.overrides(slot).orientation.x;
         let x = if ahead > 0.0 {
             1.0
         } else if ahead < 0.0 {
             -1.0
         } else {
-            [-1.0, 1.0][step.state.chance.below(2) as usize]
+            [-1.0, 1.0][step.world.chance.below(2) as usize]
         };
         let direction = Direction { x, y: 0.0 };
-        step.state.face(slot, direction);
+        step.world.face(slot, direction);
         physics::active(step, slot, direction, traits.max_speed);
     }
-    if step.state.overrides(slot).speed.to_bits() != traits.max_speed.to_bits() {
-        step.state.edit_overrides(slot).speed = traits.max_speed;
+    if step.world.overrides(slot).speed.to_bits() != traits.max_speed.to_bits() {
+        step.world.edit_overrides(slot).speed = traits.max_speed;
     }
-    step.state.edit_motion(slot).set(flag::ON_GROUND, false);
+    step.world.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
 /// Jumps occasionally; the reference decides it with a generator other than the game's.
 pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
-    let sprite = *step.state.sprite(slot);
+    let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    if sprite.is(flag::ON_GROUND) && traits.probability > step.state.jumps.double() {
+    if sprite.is(flag::ON_GROUND) && traits.probability > step.world.jumps.double() {
         jump(step, slot, traits.jump_strength);
     } else {
-        let &Overrides { orientation, speed, .. } = step.state.overrides(slot);
+        let &Overrides { orientation, speed, .. } = step.world.overrides(slot);
         physics::active(step, slot, orientation, speed);
     }
-    step.state.edit_motion(slot).set(flag::ON_GROUND, false);
+    step.world.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
 /// Jumps upwards, and leaves the ground at once.
 pub(in crate::ontology) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
-    let overrides = step.state.edit_overrides(slot);
+    let overrides = step.world.edit_overrides(slot);
     overrides.orientation.y = 0.0;
     let speed = overrides.speed;
     physics::active(step, slot, Direction { x: 0.0, y: -strength }, speed);
-    let cooldown = step.rules.types[step.state.sprite(slot).stype.index()].traits.cooldown;
+    let cooldown = step.rules.types[step.world.sprite(slot).stype.index()].traits.cooldown;
     step.set_age(slot, cooldown);
     step.displace(slot, Direction::UP, 5);
 }

@@ -103,7 +103,7 @@ impl Board {
             };
             self.game.step(&mut self.state, action);
         }
-        let hash = self.state.state_hash_from_scratch(&self.game);
+        let hash = self.state.state_hash_from_scratch();
         assert_eq!(self.state.state_hash(), hash, "the running hash");
         self
     }

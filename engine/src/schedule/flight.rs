@@ -3,19 +3,20 @@
 //! A car on a road moves two pixels in every tick, and each tick repeats the last one; an invader moves in every third
 //! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is extrapolated
 //! from an earlier position and the time since then, and so is their hash contribution (`contribution.rs`). A sprite is entered
-//! into other cells, and into those ahead, only when it is about to cover them. The rules that pair it with sprites in
+//! into other cells only when it is about to cover them. The rules that pair it with sprites in
 //! its cells are known all the while (`contacts.rs`), and overlap is tested with the extrapolated position. As soon as an
 //! effect is executed on it, or can reach it, it lands: it is an ordinary sprite again.
 //!
 //! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and no other
 //! sprite looks for them. Producers that draw continue to draw, and land when they make something.
 
-use crate::game::Rules;
+use super::mark;
+use crate::flat::bytes_of_fields;
 use crate::geometry::Rect;
 use crate::ontology::physics;
-use crate::sleep::mark;
-use crate::state::{Slot, Sprite, State, flag};
-use crate::step::Step;
+use crate::tick::Step;
+use crate::world::flight::settle_in;
+use crate::world::{Slot, Sprite, flag};
 
 /// A sprite in flight, and the tick in which it is next entered into other cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +25,8 @@ pub(crate) struct Flight {
     pub(crate) due: i32,
 }
 
+bytes_of_fields! { Flight { slot due } }
+
 /// The largest distance in pixels from the board at takeoff, and the largest distance of a single move: far from where
 /// numbers overflow.
 const FARTHEST: i32 = 1 << 16;
@@ -31,128 +34,83 @@ const FASTEST: i32 = 1 << 15;
 /// The largest number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// Advances a sprite in flight to its last move up to a tick. Returns the displacement of a move.
-fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
-    let Sprite { rect, last_corner, moved_at, .. } = *sprite;
-    let (dx, dy) = (rect.x.wrapping_sub(last_corner.0), rect.y.wrapping_sub(last_corner.1));
-    let ticks = tick.wrapping_sub(moved_at);
-    let period = i32::from(sprite.period());
-    let moves = if period == 1 { ticks } else { ticks.div_euclid(period) };
-    let along = |at: i32, by: i32| at.wrapping_add(by.wrapping_mul(moves));
-    sprite.rect = rect.at(along(rect.x, dx), along(rect.y, dy));
-    sprite.last_corner = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
-    sprite.moved_at = moved_at.wrapping_add(moves.wrapping_mul(period));
-    (dx, dy)
-}
-
-/// Advances a sprite in flight to a tick.
-fn settle_in(sprite: &mut Sprite, tick: i32) {
-    fly_to(sprite, tick);
-    if sprite.moved_at != tick {
-        sprite.last_corner = (sprite.rect.x, sprite.rect.y);
-    }
-}
-
 /// The tick of the move after `moves` more moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
-    let ticks = i32::from(sprite.period()).saturating_mul(moves.saturating_add(1));
+    let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)
 }
 
-impl State {
-    /// The rectangle of a sprite, in flight or not; in the event phase and between steps.
-    pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
-        if !sprite.flies() {
-            return sprite.rect;
-        }
-        let mut sprite = *sprite;
-        fly_to(&mut sprite, self.tick);
-        sprite.rect
-    }
-
-    /// The current values of a sprite, in flight or not; in the event phase and between steps.
-    pub(crate) fn present(&self, slot: Slot) -> Sprite {
-        let mut sprite = *self.sprite(slot);
-        if sprite.flies() {
-            settle_in(&mut sprite, self.tick);
-        }
-        sprite
-    }
-
+impl Step<'_> {
     /// Ends a flight: the sprite becomes what it would be after its update in `tick`.
-    fn land(&mut self, rules: &Rules, slot: Slot, tick: i32) {
-        let sprite = self.edit_motion(slot);
+    fn land(&mut self, slot: Slot, tick: i32) {
+        let sprite = self.world.edit_motion(slot);
         settle_in(sprite, tick);
         let (stype, rect) = (sprite.stype, sprite.rect);
-        if sprite.last_corner == (rect.x, rect.y) {
-            sprite.activity = mark::NOTHING;
-        } else {
-            sprite.activity = mark::MOVED;
-            sprite.set(flag::MOVED, true);
-            self.moved.push(slot);
+        let moved = !sprite.is_back();
+        (sprite.activity, sprite.period) = (if moved { mark::MOVED } else { mark::NOTHING }, 0);
+        if moved {
+            self.world.note_moved(slot);
         }
-        self.groups[stype.index()].skipped -= 1;
-        self.enter_anew(rules, slot, rect);
+        self.schedule.skipped[stype.index()] -= 1;
+        self.enter_anew(slot, rect);
+    }
+
+    fn enter_anew(&mut self, slot: Slot, rect: Rect) {
+        let models = self.models;
+        let (world, mut watcher) = self.watched();
+        world.enter_anew(models, slot, rect, &mut watcher);
     }
 
     /// Enters sprites in flight into their new cells if that is due, before the updates of a tick. This is a little early
     /// for sprites whose update comes later, but nothing looks before the event phase.
     #[inline]
-    pub(crate) fn fly(&mut self, rules: &Rules) {
-        if self.tick >= self.next_due {
-            self.fly_on(rules);
+    pub(crate) fn fly(&mut self) {
+        if self.world.tick >= self.schedule.next_due {
+            self.fly_on();
         }
     }
 
     #[inline(never)]
-    fn fly_on(&mut self, rules: &Rules) {
-        let tick = self.tick;
-        let mut flights = std::mem::take(&mut self.flights);
+    fn fly_on(&mut self) {
+        let tick = self.world.tick;
+        let mut flights = std::mem::take(&mut self.schedule.flights);
         let mut next = i32::MAX;
         for flight in &mut flights {
             if flight.due <= tick {
-                flight.due = self.hop(rules, flight.slot);
+                flight.due = self.hop(flight.slot);
             }
             next = next.min(flight.due);
         }
-        (self.flights, self.next_due) = (flights, next);
+        (self.schedule.flights, self.schedule.next_due) = (flights, next);
     }
 
     /// Enters a sprite in flight into the cells that it will cover after this tick's update. Returns the tick of the next
     /// such change.
-    fn hop(&mut self, rules: &Rules, slot: Slot) -> i32 {
-        if !self.sleepers.is_empty() {
-            self.touch(slot);
-        }
-        let by = fly_to(&mut self.sprites[usize::from(slot)], self.tick);
-        let moves = self
-            .enter_next_swept_cells(rules, slot, by)
-            .unwrap_or_else(|| self.enter_swept_cells(rules, slot, by));
-        if !self.sleepers.is_empty() {
-            self.touch(slot);
-        }
-        let sprite = *self.sprite(slot);
-        let due = due(&sprite, moves);
-        if rules.any_sleep {
-            self.stamp(&sprite, due);
+    fn hop(&mut self, slot: Slot) -> i32 {
+        self.touch(slot);
+        let (rect, by) = self.world.fly_on(slot);
+        self.enter_anew(slot, rect);
+        self.touch(slot);
+        let sprite = *self.world.sprite(slot);
+        let due = due(&sprite, self.world.moves_within(&sprite, by));
+        if self.plan.any_sleep {
+            self.schedule.stamp(self.world, &sprite, due);
         }
         due
     }
 
-    /// Lands all sprites in flight. Between steps only.
-    pub(crate) fn land_all(&mut self, rules: &Rules) {
-        while let Some(flight) = self.flights.pop() {
-            self.land(rules, flight.slot, self.tick);
+    /// Lands all sprites in flight. Between the updates of two ticks only.
+    pub(super) fn land_all(&mut self, tick: i32) {
+        while let Some(flight) = self.schedule.flights.pop() {
+            self.land(flight.slot, tick);
         }
-        self.next_due = i32::MAX;
+        self.schedule.next_due = i32::MAX;
     }
-}
 
-impl Step<'_> {
     /// Lands a sprite on which an effect is about to be executed. Cost: O(sprites in flight), if it flies.
     #[inline]
     pub(crate) fn land_one(&mut self, slot: Slot) {
-        if self.state.sprite(slot).flies() {
+        if self.world.sprite(slot).flies() {
             self.land_now(slot);
         }
     }
@@ -160,7 +118,7 @@ impl Step<'_> {
     #[inline(never)]
     fn land_now(&mut self, slot: Slot) {
         self.strike_flight(slot);
-        self.state.land(self.rules, slot, self.state.tick);
+        self.land(slot, self.world.tick);
     }
 
     /// Lands a sprite that is about to be updated in this tick.
@@ -171,36 +129,36 @@ impl Step<'_> {
     }
 
     fn strike_flight(&mut self, slot: Slot) {
-        self.work(self.state.flights.len() / 64);
-        let at = self.state.flights.iter().position(|flight| flight.slot == slot);
-        self.state.flights.swap_remove(at.expect("a sprite in flight is in the list"));
+        self.work(self.schedule.flights.len() / 64);
+        let at = self.schedule.flights.iter().position(|flight| flight.slot == slot);
+        self.schedule.flights.swap_remove(at.expect("a sprite in flight is in the list"));
     }
 
     /// Ends a flight before the update in this tick.
     fn land_late(&mut self, slot: Slot) {
-        self.state.land(self.rules, slot, self.state.tick - 1);
-        let sprite = self.state.edit_motion(slot);
+        self.land(slot, self.world.tick - 1);
+        let sprite = self.world.edit_motion(slot);
         sprite.last_corner = (sprite.rect.x, sprite.rect.y);
     }
 
     /// Lands all sprites in flight. In the middle of the updates, sprites that are yet to be updated are one tick behind.
-    pub(crate) fn land_midway(&mut self) {
-        let mut flights = std::mem::take(&mut self.state.flights);
+    pub(super) fn land_midway(&mut self) {
+        let mut flights = std::mem::take(&mut self.schedule.flights);
         for flight in flights.drain(..) {
             if self.has_moved(flight.slot) {
-                self.state.land(self.rules, flight.slot, self.state.tick);
+                self.land(flight.slot, self.world.tick);
             } else {
                 self.land_late(flight.slot);
             }
         }
-        self.state.flights = flights;
-        self.state.next_due = i32::MAX;
+        self.schedule.flights = flights;
+        self.schedule.next_due = i32::MAX;
     }
 
     /// Starts a flight after a tick in which a sprite has moved by itself and nothing else happened to it. Returns
     /// `false` if the sprite cannot fly.
-    pub(crate) fn take_off(&mut self, slot: Slot) -> bool {
-        let sprite = *self.state.sprite(slot);
+    pub(super) fn take_off(&mut self, slot: Slot) -> bool {
+        let sprite = *self.world.sprite(slot);
         let (dx, dy) = (
             sprite.rect.x.wrapping_sub(sprite.last_corner.0),
             sprite.rect.y.wrapping_sub(sprite.last_corner.1),
@@ -208,28 +166,28 @@ impl Step<'_> {
         let within = |most: i32| move |at: &i32| at.unsigned_abs() < most as u32;
         let near = [sprite.rect.x, sprite.rect.y].iter().all(within(FARTHEST));
         let near = near && [dx, dy].iter().all(within(FASTEST));
-        let tick = self.state.tick;
+        let tick = self.world.tick;
         if !near || sprite.is(flag::BIG | flag::KILLED | flag::RESIZED) || sprite.moved_at != tick {
             return false;
         }
-        let moves = self.state.moves_within(&sprite, dx, dy);
+        let moves = self.world.moves_within(&sprite, (dx, dy));
         let next = sprite.rect.at(sprite.rect.x + dx, sprite.rect.y + dy);
         if physics::aim(self, slot) != Some(next) {
             return false;
         }
         let period = self.rules.types[sprite.stype.index()].traits.cooldown.clamp(1, LONGEST_PERIOD) as u16;
-        let sprite = Sprite { activity: mark::SKIPPED | period, ..sprite };
+        let sprite = Sprite { activity: mark::SKIPPED, period, ..sprite };
         let due = due(&sprite, moves);
-        if self.rules.any_sleep {
-            self.state.stamp(&sprite, due);
+        if self.plan.any_sleep {
+            self.schedule.stamp(self.world, &sprite, due);
         }
-        let (stype, activity) = (sprite.stype, sprite.activity);
-        let sprite = self.state.edit_motion(slot);
-        sprite.activity = activity;
+        let stype = sprite.stype;
+        let sprite = self.world.edit_motion(slot);
+        (sprite.activity, sprite.period) = (mark::SKIPPED, period);
         sprite.set(flag::MOVED, false);
-        self.state.groups[stype.index()].skipped += 1;
-        self.state.flights.push(Flight { slot, due });
-        self.state.next_due = self.state.next_due.min(due);
+        self.schedule.skipped[stype.index()] += 1;
+        self.schedule.flights.push(Flight { slot, due });
+        self.schedule.next_due = self.schedule.next_due.min(due);
         true
     }
 }
@@ -268,13 +226,13 @@ BasicGame
             game.step(&mut state, action);
             game.step_unoptimised(&mut plain, action, &mut ());
             assert_eq!(state.state_hash(), plain.state_hash(), "tick {tick}");
-            assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game), "tick {tick}");
+            assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {tick}");
             // With and without hash contributions of earlier ticks.
             if tick % 3 == 0 {
                 state.settle_hash();
             }
-            for flight in &state.flights {
-                flights[usize::from(state.sprite(flight.slot).period())] += 1;
+            for flight in &state.schedule.flights {
+                flights[usize::from(state.world.sprite(flight.slot).period)] += 1;
             }
         }
         assert_eq!(state.outcome(), Outcome::Ongoing);

@@ -1,8 +1,9 @@
 //! Side tables for data of single sprites: the resources that they hold, and changed entries in the list of types that
 //! they make. Few sprites have such data, so it lies in two sorted lists of the state.
 
-use crate::game::{Rules, SpriteType};
-use crate::state::{Slot, State};
+use super::{Slot, World};
+use crate::flat::bytes_of_fields;
+use crate::rules::{Rules, SpriteType};
 
 /// An amount of a resource that a sprite holds; entries stay at 0 (`spec/02` §1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +12,8 @@ pub(crate) struct Held {
     pub(crate) resource: SpriteType,
     pub(crate) amount: i32,
 }
+
+bytes_of_fields! { Held { holder resource amount } }
 
 /// An entry of a BomberRandomMissile's list that has been replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +24,9 @@ pub(crate) struct Replaced {
     pub(crate) stype: SpriteType,
 }
 
-impl State {
+bytes_of_fields! { Replaced { holder place stype } }
+
+impl World {
     /// Finds the entry of a resource, or the index at which to insert it.
     fn find_held(&self, holder: Slot, resource: SpriteType) -> Result<usize, usize> {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))

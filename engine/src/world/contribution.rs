@@ -5,11 +5,12 @@
 //! sprites that move in the same ticks form one linear hash class, and the sum grows by the class's growth after each of
 //! their moves.
 
+use super::hash::{KEYS, Products, SECRET, bits, fold, two};
+use super::moved::{Resized, last_of};
+use super::{Overrides, Slot, Sprite, World, flag};
+use crate::flat::bytes_of_fields;
+use crate::flat::bytes_of_wrapper;
 use crate::geometry::Rect;
-use crate::hash::{KEYS, Products, SECRET, bits, fold, two};
-use crate::moved::{Resized, last_of};
-use crate::overrides::Overrides;
-use crate::state::{Slot, Sprite, State, flag};
 
 /// The tables with data that a sprite does not hold itself.
 #[derive(Clone, Copy)]
@@ -18,7 +19,7 @@ pub(crate) struct SideTables<'a> {
     pub(crate) resized: &'a [Resized],
 }
 
-impl State {
+impl World {
     pub(crate) fn side_tables(&self) -> SideTables<'_> {
         SideTables { overrides: &self.overrides, resized: &self.resized }
     }
@@ -64,6 +65,8 @@ pub(crate) struct Contribution {
     pub(crate) still: u64,
 }
 
+bytes_of_fields! { Contribution { word motion still } }
+
 /// The weights of a pixel down, and of a later tick, in [`Contribution::word`]; a pixel to the right has weight 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
 const LATER: u64 = 0xD1B5_4A32_D192_ED03;
@@ -77,18 +80,20 @@ fn point(x: i32, y: i32) -> u64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct FlightMotion(pub(crate) u64);
 
+bytes_of_wrapper! { FlightMotion }
+
 impl FlightMotion {
     const NONE: FlightMotion = FlightMotion(0);
     /// The bit that is set if the tick of the last move matters.
     const AGES: u64 = 1 << 63;
 
     fn of(sprite: &Sprite, ages: bool) -> FlightMotion {
-        let phase = match sprite.period() {
+        let phase = match sprite.period {
             1 => 0,
             period => sprite.moved_at.rem_euclid(i32::from(period)) as u64,
         };
         let ages = if ages { FlightMotion::AGES } else { 0 };
-        let ticks = ages | phase << 48 | u64::from(sprite.period()) << 32;
+        let ticks = ages | phase << 48 | u64::from(sprite.period) << 32;
         let by = |at: i32, was: i32| u64::from(at.wrapping_sub(was) as u16);
         FlightMotion(
             ticks | by(sprite.rect.y, sprite.last_corner.1) << 16 | by(sprite.rect.x, sprite.last_corner.0),
@@ -227,6 +232,8 @@ pub(crate) struct HashClass {
     pub(crate) growth: Sum,
 }
 
+bytes_of_fields! { HashClass { period phase flights growth } }
+
 impl HashClass {
     /// The growth up to a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
@@ -286,9 +293,7 @@ fn class_of(motion: FlightMotion, hash_classes: &mut Vec<HashClass>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::population::{base_overrides, prototype};
-    use crate::sleep::mark;
-    use crate::{Game, SpriteType};
+    use crate::Game;
     use std::collections::BTreeSet;
     use std::sync::LazyLock;
 
@@ -301,14 +306,14 @@ mod tests {
     /// The hash contribution of a sprite with that id, which is at (x, y) and moves by (dx, dy) every three ticks, most
     /// recently in tick 5.
     fn contribution(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Contribution {
-        let info = &GAME.0.types[0];
-        let mut sprite = prototype(SpriteType(0), info);
+        let model = &GAME.0.models.of_type[0];
+        let mut sprite = model.prototype;
         (sprite.id, sprite.moved_at, sprite.flags) = (id, 5, 0);
         (sprite.rect, sprite.last_corner) = (Rect { x, y, w: 10, h: 10 }, (x - dx, y - dy));
         if (dx, dy) != (0, 0) {
-            sprite.activity = mark::SKIPPED | 3;
+            sprite.period = 3;
         }
-        Contribution::fresh(&sprite, 0, &SideTables { overrides: &[base_overrides(info)], resized: &[] })
+        Contribution::fresh(&sprite, 0, &SideTables { overrides: &[model.overrides], resized: &[] })
     }
 
     fn of(contributions: &[Contribution]) -> (Sum, Vec<HashClass>) {

@@ -1,13 +1,12 @@
 //! The two hashes of a state, 128 bits each (`docs/decisions/0004-state-as-flat-data.md`).
 //!
-//! [`State::state_hash`] covers everything that can influence the future, including the random number generator and the
+//! [`World::state_hash`] covers everything that can influence the future, including the random number generator and the
 //! tick. It is a sum over the sprites that `step` keeps up to date as they change, plus a hash of the few numbers beside
-//! them. [`State::search_key`] covers live behaviour only, for transposition tables (`search_key.rs`).
+//! them. [`World::search_key`] covers live behaviour only, for transposition tables (`search_key.rs`).
 
-use crate::contribution::{Contribution, SideTables, Sum, exchange, minus, plus};
-use crate::game::Game;
-use crate::overrides::{Extra, Target};
-use crate::state::{NONE, State, flag};
+use super::contribution::{Contribution, SideTables, Sum, exchange, minus, plus};
+use super::{Extra, NONE, Target, World, flag};
+use crate::rules::SpriteType;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::fmt;
@@ -127,9 +126,9 @@ pub(crate) const KEYS: [[u64; 2]; 4] = [
     [0x1F83_D9AB_FB41_BD6B, 0x5BE0_CD19_137E_2179],
 ];
 
-impl State {
-    /// The hash of everything that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
-    pub fn state_hash(&self) -> StateHash {
+impl World {
+    /// The hash of everything that can influence the future. Cost: O(sprites changed since [`World::settle_hash`]).
+    pub(crate) fn state_hash(&self) -> StateHash {
         let mut sum = self.hash_classes.iter().fold(self.sum, |sum, class| plus(sum, class.at(self.tick)));
         for &slot in &self.dirty {
             let contribution = self.contributions[usize::from(slot)];
@@ -140,12 +139,12 @@ impl State {
         self.with_globals(sum, memory)
     }
 
-    /// Updates the running sum, so that [`State::state_hash`] does not have to look at earlier changes.
+    /// Updates the running sum, so that [`World::state_hash`] does not have to look at earlier changes.
     ///
     /// Stepping does not do this by itself: planners, which ask for few hashes, do not pay for all of them. Cost:
     /// O(sprites changed since the last time).
-    pub fn settle_hash(&mut self) {
-        let State { sprites, contributions, dirty, sum, hash_classes, overrides, resized, .. } = self;
+    pub(crate) fn settle_hash(&mut self) {
+        let World { sprites, contributions, dirty, sum, hash_classes, overrides, resized, .. } = self;
         let (sprites, contributions, mut running) = (&mut sprites[..], &mut contributions[..], *sum);
         let tables = SideTables { overrides, resized };
         for &slot in &*dirty {
@@ -168,11 +167,11 @@ impl State {
         }
     }
 
-    /// The same hash, computed from scratch: tests compare [`State::state_hash`] with it. Cost: O(sprites).
-    pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
-        let slots = game.sprite_types().flat_map(|stype| self.slots(stype));
-        let slots = slots.map(|slot| (slot, self.sprite(slot)));
-        let scenery = game.sprite_types().flat_map(|stype| self.scenery_of(stype));
+    /// The same hash, computed from scratch. Cost: O(sprites).
+    pub(crate) fn state_hash_from_scratch(&self) -> StateHash {
+        let types = || (0..self.groups.len() as u16).map(SpriteType);
+        let slots = types().flat_map(|stype| self.slots(stype)).map(|slot| (slot, self.sprite(slot)));
+        let scenery = types().flat_map(|stype| self.scenery_of(stype));
         let sprites = slots.chain(scenery.map(|sprite| (NONE, sprite)));
         let contributions = sprites
             .map(|(slot, sprite)| Contribution::fresh(sprite, slot, &self.side_tables()).at(self.tick));
@@ -273,7 +272,7 @@ impl State {
     }
 
     pub(crate) fn outcome_code(&self) -> u64 {
-        use crate::game::Outcome;
+        use crate::rules::Outcome;
         match self.outcome {
             Outcome::Ongoing => 0,
             Outcome::Won => 1,

@@ -2,11 +2,10 @@
 //! lies in it, except those of types without rules. It is updated as sprites move, so the cost of a query for the sprites
 //! that overlap a rectangle depends only on the sprites that are there.
 
-use crate::contacts::{Contacts, TypeMask};
-use crate::game::Rules;
+use super::span::Span;
+use super::{Models, NONE, Slot, Sprite, TypeBits, Watcher, World, flag};
 use crate::geometry::Rect;
-use crate::span::Span;
-use crate::state::{NONE, Slot, Sprite, State, flag};
+use crate::rules::SpriteType;
 
 /// The maximum number of cells of a sprite that are stored one by one; a larger sprite counts as being everywhere.
 const MAX_COVERED: i32 = 100;
@@ -19,7 +18,7 @@ pub(crate) struct Located {
     pub(crate) flags: u32,
 }
 
-impl State {
+impl World {
     /// The column of a pixel, counted with the ring: 0 is left of the board.
     pub(crate) fn column(&self, x: i32) -> i32 {
         x.div_euclid(self.block).clamp(-1, self.columns) + 1
@@ -126,7 +125,7 @@ impl State {
     }
 
     /// Enters a sprite into its cells.
-    pub(crate) fn enter_cell(&mut self, rules: &Rules, slot: Slot) {
+    pub(crate) fn enter_cell(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let rect = self.sprite(slot).rect;
         let Rect { w, h, .. } = self.screen();
         let to = if (0..w).contains(&rect.x) && (0..h).contains(&rect.y) {
@@ -135,67 +134,59 @@ impl State {
         } else {
             self.locate_afar(rect)
         };
-        self.enter_located(rules, slot, to);
+        self.enter_located(models, slot, to, watcher);
     }
 
     /// Enters a sprite into the cells that its fields name.
-    pub(crate) fn enter_cell_again(&mut self, rules: &Rules, slot: Slot) {
+    pub(crate) fn enter_cell_again(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let to = self.located(slot);
-        self.enter_located(rules, slot, to);
+        self.enter_located(models, slot, to, watcher);
     }
 
-    fn enter_located(&mut self, rules: &Rules, slot: Slot, to: Located) {
+    fn enter_located(&mut self, models: &Models, slot: Slot, to: Located, watcher: &mut impl Watcher) {
         let cell = self.cell(i32::from(to.column), i32::from(to.row));
         let sprite = &mut self.sprites[usize::from(slot)];
         (sprite.column, sprite.row) = (to.column, to.row);
         sprite.flags = sprite.flags & !flag::PLACEMENT | to.flags;
-        let stype = sprite.stype.index();
+        let stype = sprite.stype;
         if to.flags != 0 {
-            self.lie(&rules.contacts, stype, 0, to.flags);
+            self.lie(models, stype, 0, to.flags, watcher);
         }
-        let kind = &rules.contacts.kinds[stype];
-        if kind.own == 0 {
+        let bits = models.bits[stype.index()];
+        if bits.own == 0 {
             return;
         }
         self.link(slot, cell);
-        self.arrive(&rules.contacts, kind, cell);
+        self.arrive(bits, cell, watcher);
         if to.flags & (flag::RIGHT | flag::BELOW) != 0 {
             for cell in self.span(cell, to.flags).cells().skip(1) {
-                self.arrive(&rules.contacts, kind, cell);
+                self.arrive(bits, cell, watcher);
             }
         }
         if to.flags & flag::BIG != 0 {
-            self.cover(kind, slot);
+            self.cover(bits.own, slot);
         }
     }
 
-    pub(crate) fn leave_cell(&mut self, rules: &Rules, slot: Slot) {
+    pub(crate) fn leave_cell(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let sprite = self.sprite(slot);
-        let (cell, stype, flags) = (self.cell_of(sprite), sprite.stype.index(), sprite.flags);
+        let (cell, stype, flags) = (self.cell_of(sprite), sprite.stype, sprite.flags);
         if flags & flag::PLACEMENT != 0 {
             self.sprites[usize::from(slot)].flags &= !flag::PLACEMENT;
-            self.lie(&rules.contacts, stype, flags, 0);
+            self.lie(models, stype, flags, 0, watcher);
         }
-        let kind = &rules.contacts.kinds[stype];
-        if kind.own == 0 {
+        let bits = models.bits[stype.index()];
+        if bits.own == 0 {
             return;
         }
         self.unlink(slot, cell);
-        self.depart(&rules.contacts, kind, cell);
+        self.depart(models, bits, cell, watcher);
         if flags & (flag::RIGHT | flag::BELOW) != 0 {
             for cell in self.span(cell, flags).cells().skip(1) {
-                self.depart(&rules.contacts, kind, cell);
+                self.depart(models, bits, cell, watcher);
             }
         }
         self.left_behind += u32::from(flags & flag::BIG != 0);
-    }
-
-    /// Changes the rectangle of a sprite, which counts as moved in this tick. If sprites may sleep, use
-    /// [`State::relocate_noisily`].
-    #[inline(always)]
-    pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
-        let (from, to) = self.locate_move(slot, rect);
-        self.relocate_as(rules, slot, rect, from, to);
     }
 
     /// The place at which a sprite is entered, and its place after a move to `rect`.
@@ -205,9 +196,17 @@ impl State {
         (from, self.locate_moved(from, self.sprite(slot).rect, rect))
     }
 
-    /// [`State::relocate`] for a sprite that has been located already and keeps its size.
+    /// Changes the rectangle of a sprite, which counts as moved in this tick. The sprite keeps its size, and has been located
+    /// already.
     #[inline(always)]
-    pub(crate) fn relocate_to(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
+    pub(crate) fn relocate_to(
+        &mut self,
+        models: &Models,
+        slot: Slot,
+        rect: Rect,
+        (from, to): (Located, Located),
+        watcher: &mut impl Watcher,
+    ) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let before = sprite.flags;
         sprite.flags |= flag::DIRTY | flag::MOVED;
@@ -218,81 +217,71 @@ impl State {
         if before & flag::DIRTY == 0 {
             self.dirty.push(slot);
         }
-        self.enter_other(rules, slot, from, to);
+        self.enter_other(models, slot, from, to, watcher);
     }
 
-    /// [`State::relocate`] for a sprite that has been located already and may change its size.
-    fn relocate_as(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
+    /// [`World::relocate_to`] for a sprite that may change its size.
+    pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
+        let (from, to) = self.locate_move(slot, rect);
         let before = self.sprite(slot).rect;
         if (before.w, before.h) == (rect.w, rect.h) {
-            return self.relocate_to(rules, slot, rect, from, to);
+            return self.relocate_to(models, slot, rect, (from, to), watcher);
         }
         let last = self.last(slot);
         self.edit(slot).rect = rect;
         self.set_last(slot, last);
-        self.enter_other(rules, slot, from, to);
-    }
-
-    /// [`State::relocate`], and marks the watched cells that the sprite leaves or enters, to wake sleeping sprites.
-    pub(crate) fn relocate_noisily(
-        &mut self,
-        rules: &Rules,
-        slot: Slot,
-        rect: Rect,
-        from: Located,
-        to: Located,
-    ) {
-        if self.sleepers.is_empty() {
-            return self.relocate_as(rules, slot, rect, from, to);
-        }
-        self.touch(slot);
-        self.relocate_as(rules, slot, rect, from, to);
-        self.touch(slot);
+        self.enter_other(models, slot, from, to, watcher);
     }
 
     /// Enters a sprite that has moved into its new cells.
     #[inline(always)]
-    pub(crate) fn enter_anew(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
+    pub(crate) fn enter_anew(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
         let from = self.located(slot);
         let to = self.locate(rect, from.column, from.row);
-        self.enter_other(rules, slot, from, to);
+        self.enter_other(models, slot, from, to, watcher);
     }
 
     #[inline(always)]
-    fn enter_other(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
+    fn enter_other(
+        &mut self,
+        models: &Models,
+        slot: Slot,
+        from: Located,
+        to: Located,
+        watcher: &mut impl Watcher,
+    ) {
         if from != to {
-            self.shift(rules, slot, from, to);
+            self.shift(models, slot, from, to, watcher);
         }
         if (from.flags | to.flags) & flag::BIG != 0 {
-            self.shift_big(rules, slot, from, to);
+            self.shift_big(models, slot, from, to);
         }
     }
 
     #[inline(always)]
-    pub(crate) fn shift(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
+    fn shift(&mut self, models: &Models, slot: Slot, from: Located, to: Located, watcher: &mut impl Watcher) {
         let before = self.cell(i32::from(from.column), i32::from(from.row));
         let after = self.cell(i32::from(to.column), i32::from(to.row));
         let sprite = &mut self.sprites[usize::from(slot)];
-        let stype = sprite.stype.index();
+        let stype = sprite.stype;
         sprite.flags = sprite.flags & !flag::PLACEMENT | to.flags;
         (sprite.column, sprite.row) = (to.column, to.row);
         if from.flags != to.flags {
-            self.lie(&rules.contacts, stype, from.flags, to.flags);
+            self.lie(models, stype, from.flags, to.flags, watcher);
         }
-        let kind = &rules.contacts.kinds[stype];
-        if kind.own == 0 {
+        let bits = models.bits[stype.index()];
+        if bits.own == 0 {
             return;
         }
         if before != after {
             self.unlink(slot, before);
             self.link(slot, after);
         }
-        let contacts = &rules.contacts;
         if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
             // From one cell to another, the most frequent case on a grid.
             if before != after {
-                self.depart(contacts, kind, before);
-                self.arrive(contacts, kind, after);
+                self.depart(models, bits, before, watcher);
+                self.arrive(bits, after, watcher);
             }
             return;
         }
@@ -303,51 +292,39 @@ impl State {
         } else if from.column == to.column && changed & flag::RIGHT == 0 {
             (stride, usize::from(to.flags & flag::RIGHT != 0), flag::BELOW)
         } else {
-            return self.shift_across(contacts, kind, (before, from), (after, to));
+            return self.shift_across(models, bits, (before, from), (after, to), watcher);
         };
         // Along one axis: one or two cells before and after, and as many beside them if the sprite is in two rows or
         // columns.
         let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
         let (old, new) = (ends(before, from.flags), ends(after, to.flags));
-        if old.0 != new.0 && old.0 != new.1 {
-            self.depart_beside(contacts, kind, old.0, across);
+        for cell in [old.0, old.1].into_iter().take(1 + usize::from(old.1 != old.0)) {
+            if cell != new.0 && cell != new.1 {
+                self.depart(models, bits, cell, watcher);
+                if across != 0 {
+                    self.depart(models, bits, cell + across, watcher);
+                }
+            }
         }
-        if old.1 != old.0 && old.1 != new.0 && old.1 != new.1 {
-            self.depart_beside(contacts, kind, old.1, across);
-        }
-        if new.0 != old.0 && new.0 != old.1 {
-            self.arrive_beside(contacts, kind, new.0, across);
-        }
-        if new.1 != new.0 && new.1 != old.0 && new.1 != old.1 {
-            self.arrive_beside(contacts, kind, new.1, across);
-        }
-    }
-
-    /// Departs from a cell, and from the cell `across` further on if `across` is not 0.
-    #[inline(always)]
-    pub(crate) fn depart_beside(&mut self, contacts: &Contacts, kind: &TypeMask, cell: usize, across: usize) {
-        self.depart(contacts, kind, cell);
-        if across != 0 {
-            self.depart(contacts, kind, cell + across);
+        for cell in [new.0, new.1].into_iter().take(1 + usize::from(new.1 != new.0)) {
+            if cell != old.0 && cell != old.1 {
+                self.arrive(bits, cell, watcher);
+                if across != 0 {
+                    self.arrive(bits, cell + across, watcher);
+                }
+            }
         }
     }
 
-    #[inline(always)]
-    pub(crate) fn arrive_beside(&mut self, contacts: &Contacts, kind: &TypeMask, cell: usize, across: usize) {
-        self.arrive(contacts, kind, cell);
-        if across != 0 {
-            self.arrive(contacts, kind, cell + across);
-        }
-    }
-
-    /// The rest of [`State::shift`], for moves along both axes.
+    /// The rest of [`World::shift`], for moves along both axes.
     #[inline(never)]
     fn shift_across(
         &mut self,
-        contacts: &Contacts,
-        kind: &TypeMask,
+        models: &Models,
+        bits: TypeBits,
         (before, from): (usize, Located),
         (after, to): (usize, Located),
+        watcher: &mut impl Watcher,
     ) {
         let (gone, new) = self.span(before, from.flags).apart(
             self.span(after, to.flags),
@@ -355,25 +332,136 @@ impl State {
             i32::from(to.row) - i32::from(from.row),
         );
         for cell in gone.cells() {
-            self.depart(contacts, kind, cell);
+            self.depart(models, bits, cell, watcher);
         }
         for cell in new.cells() {
-            self.arrive(contacts, kind, cell);
+            self.arrive(bits, cell, watcher);
         }
     }
 
     /// Notes the new cells of a large sprite.
     #[inline(never)]
-    fn shift_big(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
+    fn shift_big(&mut self, models: &Models, slot: Slot, from: Located, to: Located) {
         self.left_behind += u32::from(from.flags & flag::BIG != 0);
-        let kind = &rules.contacts.kinds[self.sprite(slot).stype.index()];
-        if to.flags & flag::BIG != 0 && kind.own != 0 {
-            self.cover(kind, slot);
+        let own = models.bit(self.sprite(slot).stype);
+        if to.flags & flag::BIG != 0 && own != 0 {
+            self.cover(own, slot);
+        }
+    }
+
+    /// Notes that a sprite has started to cover a cell.
+    #[inline(always)]
+    fn arrive(&mut self, TypeBits { own, partners }: TypeBits, cell: usize, watcher: &mut impl Watcher) {
+        let mask = &mut self.masks[cell];
+        let others =
+            if *mask & own == 0 { std::mem::replace(mask, *mask | own) } else { self.crowd(own, cell) };
+        if others & partners != 0 {
+            watcher.arrives(own, others & partners);
+        }
+    }
+
+    /// Notes that a sprite has stopped covering a cell; the chains are already up to date.
+    #[inline(always)]
+    fn depart(&mut self, models: &Models, bits: TypeBits, cell: usize, watcher: &mut impl Watcher) {
+        let TypeBits { own, partners } = bits;
+        let others = if self.crowds_in(cell) & own == 0 {
+            self.masks[cell] &= !own;
+            self.masks[cell]
+        } else {
+            self.thin_out(models, own, cell)
+        };
+        if others & partners != 0 {
+            watcher.departs(own, others & partners);
+        }
+    }
+
+    /// The bits of the types with several sprites in a cell.
+    #[inline(always)]
+    pub(crate) fn crowds_in(&self, cell: usize) -> u64 {
+        self.crowds.get(cell).copied().unwrap_or(0)
+    }
+
+    /// Notes that several sprites with a bit cover a cell. Returns the bit: the sprite shares the cell with its own kind.
+    #[inline(never)]
+    fn crowd(&mut self, own: u64, cell: usize) -> u64 {
+        self.crowds.resize(self.masks.len(), 0);
+        self.crowds[cell] |= own;
+        own
+    }
+
+    /// Notes that one of several sprites with a bit has left a cell. Returns the bit.
+    #[inline(never)]
+    fn thin_out(&mut self, models: &Models, own: u64, cell: usize) -> u64 {
+        if self.count_in(models, cell, own) < 2 {
+            self.crowds[cell] &= !own;
+        }
+        own
+    }
+
+    /// The number of sprites with the bit that cover a cell; stops counting at two.
+    #[inline(never)]
+    fn count_in(&self, models: &Models, cell: usize, own: u64) -> u32 {
+        let stride = (self.columns + 2) as usize;
+        let mut count = 0;
+        let reaches =
+            [(0, 0), (1, flag::RIGHT), (stride, flag::BELOW), (stride + 1, flag::RIGHT | flag::BELOW)];
+        for (back, reach) in reaches {
+            let mut at = cell.checked_sub(back).map_or(NONE, |cell| self.cells[cell]);
+            while at != NONE {
+                let sprite = self.sprite(at);
+                if sprite.flags & reach == reach && models.bit(sprite.stype) == own {
+                    count += 1;
+                    if count == 2 {
+                        return count;
+                    }
+                }
+                at = sprite.cell_next;
+            }
+        }
+        count
+    }
+
+    /// Notes the cells that a large sprite covers.
+    pub(crate) fn cover(&mut self, own: u64, slot: Slot) {
+        let mut covered = std::mem::take(&mut self.covered);
+        covered.resize(self.cells.len(), 0);
+        if !self.covered_by(self.sprite(slot), |cell| covered[cell] |= own) {
+            self.vast |= own;
+        }
+        self.covered = covered;
+    }
+
+    /// Recomputes the cells that large sprites cover, once they have left enough of them to make it worthwhile.
+    #[inline]
+    pub(crate) fn tidy_covered(&mut self, models: &Models) {
+        if self.left_behind as usize > 4 * self.big as usize + self.cells.len() / 16 {
+            self.cover_anew(models);
+        }
+    }
+
+    #[inline(never)]
+    fn cover_anew(&mut self, models: &Models) {
+        self.covered.fill(0);
+        (self.vast, self.left_behind) = (0, 0);
+        for stype in (0..models.bits.len() as u16).map(SpriteType) {
+            let own = models.bit(stype);
+            if self.group(stype).big == 0 || own == 0 {
+                continue;
+            }
+            let mut slot = self.group(stype).head;
+            while slot != NONE {
+                let sprite = self.sprite(slot);
+                let next = sprite.next;
+                if sprite.is(flag::BIG) {
+                    self.cover(own, slot);
+                }
+                slot = next;
+            }
         }
     }
 
     #[inline(always)]
-    pub(crate) fn link(&mut self, slot: Slot, cell: usize) {
+    fn link(&mut self, slot: Slot, cell: usize) {
         let sprites = &mut self.sprites[..];
         let head = std::mem::replace(&mut self.cells[cell], slot);
         if head != NONE {
@@ -384,7 +472,7 @@ impl State {
     }
 
     #[inline(always)]
-    pub(crate) fn unlink(&mut self, slot: Slot, cell: usize) {
+    fn unlink(&mut self, slot: Slot, cell: usize) {
         let sprites = &mut self.sprites[..];
         let Sprite { cell_next, cell_previous, .. } = sprites[usize::from(slot)];
         match cell_previous {
@@ -398,47 +486,47 @@ impl State {
 
     /// Updates the counts of how the sprites of a type lie.
     #[inline]
-    fn lie(&mut self, contacts: &Contacts, stype: usize, from: u32, to: u32) {
+    fn lie(&mut self, models: &Models, stype: SpriteType, from: u32, to: u32, watcher: &mut impl Watcher) {
         if (from ^ to) & flag::OFF != 0 {
-            let group = &mut self.groups[stype];
+            let group = &mut self.groups[stype.index()];
             if to & flag::OFF != 0 {
                 (group.off, self.off) = (group.off + 1, self.off + 1);
             } else {
                 (group.off, self.off) = (group.off - 1, self.off - 1);
             }
         }
-        let group = &mut self.groups[stype];
+        let group = &mut self.groups[stype.index()];
         match (from & flag::MULTI_CELL != 0, to & flag::MULTI_CELL != 0) {
             (false, true) => {
                 group.multi_cell += 1;
                 if group.multi_cell == 1 {
-                    self.multi_cell_bits |= contacts.kinds[stype].own;
+                    self.multi_cell_bits |= models.bit(stype);
                 }
             }
             (true, false) => {
                 group.multi_cell -= 1;
                 if group.multi_cell == 0 {
-                    self.multi_cell_bits &= !contacts.sole_bit(stype);
+                    self.multi_cell_bits &= !models.sole_bit(stype);
                 }
             }
             _ => {}
         }
-        let group = &mut self.groups[stype];
+        let group = &mut self.groups[stype.index()];
         match (from & flag::BIG != 0, to & flag::BIG != 0) {
             (false, true) => {
                 group.big += 1;
                 self.big += 1;
                 if group.big == 1 {
-                    self.big_bits |= contacts.kinds[stype].own;
-                    self.enlarged(contacts, stype);
+                    self.big_bits |= models.bit(stype);
+                    watcher.enlarged(stype.index());
                 }
             }
             (true, false) => {
                 group.big -= 1;
                 self.big -= 1;
                 if group.big == 0 {
-                    self.big_bits &= !contacts.sole_bit(stype);
-                    self.reduced(contacts, stype);
+                    self.big_bits &= !models.sole_bit(stype);
+                    watcher.reduced(stype.index());
                 }
             }
             _ => {}

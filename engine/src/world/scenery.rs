@@ -5,56 +5,10 @@
 //! states of a level share them. They have no slots, a copy of a state does not copy them, and the running hash contains
 //! their contributions from the start.
 
-use crate::contribution::{Contribution, exchange};
-use crate::game::{SpriteType, TypeInfo};
-use crate::ontology::sprites::Mover;
-use crate::state::{NONE, Sprite, State};
-use crate::syntax::{Description, Param, Word};
-use std::collections::BTreeSet;
+use super::contribution::{Contribution, exchange};
+use super::{NONE, Sprite, World};
+use crate::rules::SpriteType;
 use std::sync::Arc;
-
-/// The parameter with which the reference reads a type by its number.
-const BY_NUMBER: &str = "itype";
-
-/// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it. `true` in case of doubt:
-/// a value that is only spelled like the type counts, too. Cost: O(words of the game × log).
-pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
-    let lines = description.sprite_lines();
-    let lines = lines.iter().flat_map(|(_, line)| &line.params);
-    let interactions = &description.interactions;
-    let endings = description.terminations.iter().flat_map(|line| &line.params);
-    let params: Vec<&Param> = lines
-        .chain(interactions.iter().flat_map(|line| &line.params))
-        .chain(endings)
-        .chain(&description.header.params)
-        .collect();
-    let sides = interactions.iter().flat_map(|line| line.second.iter().chain([&line.first]));
-    let words = sides.chain(params.iter().map(|param| &param.value));
-    let named: BTreeSet<&str> = words.flat_map(|word: &Word| word.text.split(',')).collect();
-    let numbered: BTreeSet<usize> = params
-        .iter()
-        .filter(|param| param.key.text == BY_NUMBER)
-        .filter_map(|param| param.value.text.parse().ok())
-        .collect();
-    let speaks_of = |other: &SpriteType| {
-        named.contains(types[other.index()].name.as_str()) || numbered.contains(&other.index())
-    };
-    types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
-}
-
-/// By type: `true` if its sprites are scenery.
-pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool], movers: &[Mover]) -> Vec<bool> {
-    let moves: BTreeSet<SpriteType> = movers.iter().map(|mover| mover.stype).collect();
-    let is_scenery = |(number, info): (u16, &TypeInfo)| {
-        let stype = SpriteType(number);
-        // The first sprite of a type differs from later ones only if its size differs from a cell's.
-        let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
-        let is_still = info.order.is_some() && !moves.contains(&stype) && !info.is_like_avatar();
-        // Some avatars leave walls behind without naming them.
-        stype != SpriteType(0) && !referenced[stype.index()] && is_whole && is_still
-    };
-    (0..).zip(types).map(is_scenery).collect()
-}
 
 /// The scenery sprites, by type, in order of creation.
 #[derive(Clone, Debug, Default)]
@@ -66,7 +20,7 @@ impl Scenery {
     }
 }
 
-impl State {
+impl World {
     /// Makes a scenery sprite. If other states share the scenery, this one gets its own copy.
     pub(crate) fn add_scenery(&mut self, sprite: Sprite) {
         self.groups[sprite.stype.index()].count += 1;
@@ -116,7 +70,7 @@ mod tests {
         let game = Game::from_source(MEADOW).unwrap();
         let state = game.start(&game.level("A..\n.sz\n").unwrap(), Seed::from_text("meadow"));
         let grass = game.sprite_type("grass").unwrap();
-        assert_eq!((state.sprites.len(), state.alive(grass)), (3, 4));
+        assert_eq!((state.world.sprites.len(), state.alive(grass)), (3, 4));
         assert_eq!(state.places(grass).collect::<Vec<_>>(), [(0, 0), (10, 0), (20, 0), (0, 10)]);
         assert_eq!(
             game.records(&state).iter().map(|record| record.id).collect::<Vec<_>>(),
@@ -133,7 +87,7 @@ mod tests {
         let start = |level: &str| game.start(&game.level(level).unwrap(), Seed::from_text("meadow"));
         let (mut one, mut other) = (start("A. .\n"), start("A .. \n"));
         for _ in 0..3 {
-            assert_eq!(one.state_hash(), one.state_hash_from_scratch(&game));
+            assert_eq!(one.state_hash(), one.state_hash_from_scratch());
             assert_ne!(one.state_hash(), other.state_hash());
             game.step(&mut one, Action::Right);
             game.step(&mut other, Action::Right);

@@ -1,71 +1,16 @@
 //! The operations of the ontology that make, kill and release sprites.
 
-use crate::game::{Limit, SpriteType, TypeInfo};
 use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::sprites;
-use crate::overrides::Overrides;
-use crate::sleep::mark;
-use crate::state::{NONE, Slot, Sprite, flag};
-use crate::step::Step;
-
-/// The prototype of a type's sprites; the rectangles, the creation number and the age are set on creation.
-pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
-    let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
-    let flags = [
-        (flag::AVATAR, traits.is_avatar),
-        (flag::FROM_AVATAR, traits.is_from_avatar),
-        (flag::ON_GROUND, traits.on_ground),
-        (flag::FIRST_TICK, traits.is_first_tick),
-        (flag::ORIENTED, traits.is_oriented),
-        // Sprites of avatar classes are updated, and age, only while the player controls them.
-        (flag::FROZEN, info.order.is_none() || is_avatar),
-        (flag::NO_COOLDOWN, traits.cooldown <= 1 && traits.last_move == 0 && !is_avatar),
-    ];
-    let no_heading = sprites::NO_HEADING << flag::HEADING;
-    Sprite {
-        rect: Rect::default(),
-        last_corner: (0, 0),
-        id: 0,
-        moved_at: traits.last_move,
-        time_to_live: traits.time_to_live,
-        count: traits.age,
-        stype,
-        overrides: stype.0,
-        activity: mark::NOTHING,
-        flags: flags.into_iter().fold(no_heading, |all, (bit, on)| if on { all | bit } else { all }),
-        next: NONE,
-        previous: NONE,
-        cell_next: NONE,
-        cell_previous: NONE,
-        column: 0,
-        row: 0,
-    }
-}
-
-/// The values that the sprites of a type share.
-pub(crate) fn base_overrides(info: &TypeInfo) -> Overrides {
-    let traits = &info.traits;
-    Overrides {
-        orientation: traits.orientation,
-        speed: traits.speed,
-        health: traits.health,
-        max_health: traits.max_health,
-        start: -1,
-        spawns: match info.class {
-            Some(SpriteClass::OngoingTurningAvatar) => SpriteType(0),
-            _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
-        },
-        extra: NONE,
-        holder: NONE,
-    }
-}
+use crate::rules::{Limit, SpriteType};
+use crate::tick::Step;
+use crate::world::{NONE, Slot, flag};
 
 impl Step<'_> {
     /// Tests whether the sprite's class is an avatar's; the role of the sprite itself is [`flag::AVATAR`].
     pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
-        self.rules.types[self.state.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
+        self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
 
     /// Makes a sprite unless a singleton of its line exists or there are too many (`spec/01` §3.5).
@@ -76,7 +21,7 @@ impl Step<'_> {
         }
         let path = rules.types.get(stype.index()).map_or(&[][..], |info| &info.path);
         for &ancestor in path {
-            if rules.types[ancestor.index()].singleton && self.state.count(rules, ancestor) > 0 {
+            if rules.types[ancestor.index()].singleton && self.world.count(rules, ancestor) > 0 {
                 return None;
             }
         }
@@ -90,7 +35,7 @@ impl Step<'_> {
 
     /// Tests whether there are too many sprites to make another one, and logs a message if so.
     fn is_full(&mut self) -> bool {
-        let full = self.state.population > MAX_SPRITES as i32;
+        let full = self.world.population > MAX_SPRITES as i32;
         if full {
             self.message();
         }
@@ -107,18 +52,18 @@ impl Step<'_> {
         if info.incomplete {
             self.stop(Limit::UnfitSprite);
         }
-        let block = self.state.block;
-        let mut sprite = rules.prototypes[stype.index()];
+        let block = self.world.block;
+        let mut sprite = self.models.of_type[stype.index()].prototype;
         let size = |factor: f64| if factor == 1.0 { block } else { (f64::from(block) * factor) as i32 };
         let (w, h) = (size(info.traits.width_factor), size(info.traits.height_factor));
         sprite.rect = Rect { x, y, w, h };
         sprite.last_corner = (x, y);
         let mut last = sprite.rect;
-        sprite.id = self.state.next_id;
-        let first = std::mem::replace(&mut self.state.templates[stype.index()], 1) == 0;
+        sprite.id = self.world.next_id;
+        let first = std::mem::replace(&mut self.world.templates[stype.index()], 1) == 0;
         if first {
-            self.state.memory_is_dirty = true;
-            self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
+            self.world.memory_is_dirty = true;
+            self.world.messages = self.world.messages.saturating_add(info.unknown_parameters);
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
@@ -131,7 +76,7 @@ impl Step<'_> {
                 return None;
             }
             due = order < self.updating;
-            sprite.moved_at = (self.state.tick - i32::from(due)).wrapping_sub(sprite.moved_at);
+            sprite.moved_at = (self.world.tick - i32::from(due)).wrapping_sub(sprite.moved_at);
         }
         if first && !due {
             // The first sprite of a type keeps the unscaled size until its first update.
@@ -139,27 +84,29 @@ impl Step<'_> {
         }
         if rules.scenery[stype.index()] {
             // Only a level makes scenery, and it needs no slot.
-            self.state.add_scenery(sprite);
+            self.world.add_scenery(sprite);
             return None;
         }
-        let Some(slot) = self.state.admit(rules, &sprite) else {
+        let models = self.models;
+        let (world, mut watcher) = self.watched();
+        let Some(slot) = world.admit(models, &sprite, &mut watcher) else {
             self.stop(Limit::Sprites);
             return None;
         };
-        self.state.next_id += 1;
-        self.state.population += 1;
+        self.world.next_id += 1;
+        self.world.population += 1;
         // Copies of the first one have lost the type that they leave behind; they leave type 0, which is `wall`.
         if first && class == SpriteClass::OngoingTurningAvatar {
-            self.state.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
+            self.world.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
         if self.sleeps {
-            let sprite = *self.state.sprite(slot);
-            self.state.touch(slot);
+            let sprite = *self.world.sprite(slot);
+            self.touch(slot);
             self.note_change(&sprite);
             self.wake();
         }
         if last != sprite.rect {
-            self.state.set_last(slot, last);
+            self.world.set_last(slot, last);
         }
         Some(slot)
     }
@@ -169,39 +116,39 @@ impl Step<'_> {
         if !self.can_be_played(slot) {
             return self.remove(slot);
         }
-        let sprite = self.state.sprite(slot);
+        let sprite = self.world.sprite(slot);
         if sprite.is(flag::DISABLED) {
             return;
         }
         let stype = sprite.stype;
         self.freeze(slot);
-        self.state.edit(slot).set(flag::DISABLED, true);
-        self.state.groups[stype.index()].disabled += 1;
-        self.state.census_changed = true;
+        self.world.edit(slot).set(flag::DISABLED, true);
+        self.world.groups[stype.index()].disabled += 1;
+        self.world.census_changed = true;
     }
 
     /// Stops the updates and the ageing of a sprite.
     fn freeze(&mut self, slot: Slot) {
         let age = self.age(slot);
-        let sprite = self.state.edit(slot);
+        let sprite = self.world.edit(slot);
         sprite.set(flag::FROZEN, true);
         sprite.moved_at = age;
     }
 
     /// Kills a sprite for good, avatar or not.
     pub(crate) fn remove(&mut self, slot: Slot) {
-        self.state.edit_motion(slot).set(flag::KILLED, true);
-        self.state.killed.push(slot);
+        self.world.edit_motion(slot).set(flag::KILLED, true);
+        self.world.killed.push(slot);
     }
 
     /// Gives a sprite to the player: from now on it is updated and ages, and the previous avatar does not.
     pub(crate) fn control(&mut self, slot: Slot) {
-        let before = std::mem::replace(&mut self.state.avatar, slot);
-        if before != NONE && before != slot && !self.state.sprite(before).is(flag::FROZEN) {
+        let before = std::mem::replace(&mut self.world.avatar, slot);
+        if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {
             self.freeze(before);
         }
-        let tick = self.state.tick;
-        let sprite = self.state.edit(slot);
+        let tick = self.world.tick;
+        let sprite = self.world.edit(slot);
         if sprite.is(flag::FROZEN) && !sprite.is(flag::DISABLED) {
             sprite.set(flag::FROZEN, false);
             sprite.moved_at = tick.wrapping_sub(sprite.moved_at);
@@ -210,25 +157,27 @@ impl Step<'_> {
 
     /// Removes the sprites in the kill list.
     pub(crate) fn clear_killed(&mut self) {
-        let mut killed = std::mem::take(&mut self.state.killed);
+        let mut killed = std::mem::take(&mut self.world.killed);
         for &slot in &killed {
             // The kill list may name a sprite twice; the counter goes down twice, as in the reference.
-            self.state.population -= 1;
-            if self.state.sprite(slot).is(flag::FREE) {
+            self.world.population -= 1;
+            if self.world.sprite(slot).is(flag::FREE) {
                 continue;
             }
-            if slot == self.state.avatar {
-                self.state.avatar = NONE;
+            if slot == self.world.avatar {
+                self.world.avatar = NONE;
             }
             if self.sleeps {
-                let sprite = *self.state.sprite(slot);
-                self.state.touch(slot);
+                let sprite = *self.world.sprite(slot);
+                self.touch(slot);
                 self.note_change(&sprite);
             }
-            self.state.release(self.rules, slot);
+            let models = self.models;
+            let (world, mut watcher) = self.watched();
+            world.release(models, slot, &mut watcher);
         }
-        self.state.forget_gone();
+        self.world.forget_gone();
         killed.clear();
-        self.state.killed = killed;
+        self.world.killed = killed;
     }
 }

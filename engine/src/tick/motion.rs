@@ -1,23 +1,22 @@
 //! The operations of the ontology that move sprites.
 
-use crate::game::Limit;
 use crate::geometry::{Direction, Rect};
-use crate::occupancy::Located;
-use crate::sleep::mark;
-use crate::state::{Slot, Sprite, flag};
-use crate::step::Step;
+use crate::rules::Limit;
+use crate::schedule::mark;
+use crate::tick::Step;
+use crate::world::{Slot, Sprite, flag};
 
 impl Step<'_> {
     /// The reference's `lastmove`: ticks since the last move, at this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
-        let sprite = self.state.sprite(slot);
+        let sprite = self.world.sprite(slot);
         // The reference's counter overflows too.
-        if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.state.tick.wrapping_sub(sprite.moved_at) }
+        if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.world.tick.wrapping_sub(sprite.moved_at) }
     }
 
     pub(crate) fn set_age(&mut self, slot: Slot, age: i32) {
-        let tick = self.state.tick;
-        let sprite = self.state.edit_motion(slot);
+        let tick = self.world.tick;
+        let sprite = self.world.edit_motion(slot);
         sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
     }
 
@@ -26,25 +25,30 @@ impl Step<'_> {
         if rect.h == 0 {
             self.stop(Limit::FlatSprite);
         }
-        if self.state.sprite(slot).rect == rect {
+        if self.world.sprite(slot).rect == rect {
             return;
         }
         if self.sleeps {
-            let (from, to) = self.state.locate_move(slot, rect);
-            self.place_noisily(slot, rect, from, to);
+            self.place_noisily(slot, rect);
         } else {
-            self.state.relocate(self.rules, slot, rect);
+            let models = self.models;
+            let (world, mut watcher) = self.watched();
+            world.relocate(models, slot, rect, &mut watcher);
         }
     }
 
     /// The same in a game in which sprites sleep.
-    fn place_noisily(&mut self, slot: Slot, rect: Rect, from: Located, to: Located) {
-        let before = *self.state.sprite(slot);
-        self.state.relocate_noisily(self.rules, slot, rect, from, to);
+    fn place_noisily(&mut self, slot: Slot, rect: Rect) {
+        let before = *self.world.sprite(slot);
+        self.touch(slot);
+        let models = self.models;
+        let (world, mut watcher) = self.watched();
+        world.relocate(models, slot, rect, &mut watcher);
+        self.touch(slot);
         // The sprite's own move may yet be undone: its effect is known only at the end of the tick.
         if !self.is_try(&before) {
             self.note_change(&before);
-            let after = *self.state.sprite(slot);
+            let after = *self.world.sprite(slot);
             self.note_change(&after);
         }
         self.wake();
@@ -53,22 +57,22 @@ impl Step<'_> {
     /// Tests whether a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.sleeps
-            && self.rules.shortcuts[sprite.stype.index()].sleeps
+            && self.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
     }
 
     pub(crate) fn note_change(&mut self, sprite: &Sprite) {
         if self.sleeps {
-            self.state.stamp(sprite, self.state.tick);
+            self.schedule.stamp(self.world, sprite, self.world.tick);
         }
     }
 
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
-        let sprite = *self.state.sprite(slot);
+        let sprite = *self.world.sprite(slot);
         self.note_change(&sprite);
-        self.work(self.state.resized.len() / 64);
-        self.state.edit(slot);
-        self.state.set_last(slot, last);
+        self.work(self.world.resized.len() / 64);
+        self.world.edit(slot);
+        self.world.set_last(slot, last);
     }
 
     /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids it.
@@ -87,10 +91,10 @@ impl Step<'_> {
         if self.is_held_up(slot) {
             return false;
         }
-        let Rect { x, y, .. } = self.state.sprite(slot).rect;
+        let Rect { x, y, .. } = self.world.sprite(slot).rect;
         let by = if base < 2 { amount.saturating_neg() } else { amount };
         let (dx, dy) = if base.is_multiple_of(2) { (0, by) } else { (by, 0) };
-        let aim = self.state.sprite(slot).rect.at(x.wrapping_add(dx), y.wrapping_add(dy));
+        let aim = self.world.sprite(slot).rect.at(x.wrapping_add(dx), y.wrapping_add(dy));
         self.go(slot, aim);
         true
     }
@@ -98,13 +102,13 @@ impl Step<'_> {
     /// Tests whether a sprite's cooldown prevents it from moving.
     #[inline(always)]
     fn is_held_up(&self, slot: Slot) -> bool {
-        self.rules.types[self.state.sprite(slot).stype.index()].traits.cooldown > self.age(slot)
+        self.rules.types[self.world.sprite(slot).stype.index()].traits.cooldown > self.age(slot)
     }
 
     /// Moves a sprite to any place, as part of its own movement.
     #[inline(never)]
     fn go(&mut self, slot: Slot, aim: Rect) {
-        let sprite = self.state.sprite(slot);
+        let sprite = self.world.sprite(slot);
         let special = sprite.is(flag::FROZEN) || aim == sprite.rect || aim.h == 0;
         if special {
             self.place(slot, aim);
@@ -112,20 +116,21 @@ impl Step<'_> {
             return;
         }
         // The common case, without separate calls.
-        self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
-        let (from, to) = self.state.locate_move(slot, aim);
+        self.world.sprites[usize::from(slot)].moved_at = self.world.tick;
         if self.sleeps {
-            self.place_noisily(slot, aim, from, to);
-        } else {
-            self.state.relocate_to(self.rules, slot, aim, from, to);
+            return self.place_noisily(slot, aim);
         }
+        let models = self.models;
+        let (world, mut watcher) = self.watched();
+        let move_to = world.locate_move(slot, aim);
+        world.relocate_to(models, slot, aim, move_to, &mut watcher);
     }
 
     /// The rectangle after a displacement; `None` if it does not move.
     #[inline(always)]
     pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
-        let sprite = self.state.sprite(slot);
-        let amount = if amount == 0 { self.state.overrides_of(sprite).speed as i32 } else { amount };
+        let sprite = self.world.sprite(slot);
+        let amount = if amount == 0 { self.world.overrides_of(sprite).speed as i32 } else { amount };
         if amount == 0 || direction.x.abs() + direction.y.abs() == 0.0 {
             return None;
         }
@@ -142,7 +147,7 @@ impl Step<'_> {
 
     /// The displacement of a sprite in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
-        let Sprite { rect, last_corner, .. } = *self.state.sprite(slot);
+        let Sprite { rect, last_corner, .. } = *self.world.sprite(slot);
         Direction {
             x: f64::from(rect.x.wrapping_sub(last_corner.0)),
             y: f64::from(rect.y.wrapping_sub(last_corner.1)),

@@ -10,14 +10,16 @@
 //! rule pairs them with anything that they stand on; nothing looks for their type. An effect that reaches distant sprites
 //! wakes all.
 
-use crate::flight::LONGEST_PERIOD;
-use crate::game::{EffectInfo, Pass, SpriteType, TypeInfo};
+use super::Schedule;
+use super::flight::LONGEST_PERIOD;
+use crate::flat::bytes_of_fields;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::physics;
 use crate::ontology::sprites::is_idle;
-use crate::state::{NONE, Slot, Sprite, State, flag};
-use crate::step::Step;
+use crate::rules::{EffectInfo, Pass, SpriteType, TypeInfo};
+use crate::tick::Step;
+use crate::world::{NONE, Slot, Sprite, World, flag};
 
 /// Values of [`Sprite::activity`]: the events of this tick for the sprite.
 pub(crate) mod mark {
@@ -30,8 +32,6 @@ pub(crate) mod mark {
     /// A bit that is set for sprites that are not updated. Without this bit, other values are one more than the pass that
     /// put the sprite back.
     pub(crate) const SKIPPED: u16 = 0x8000;
-    /// The sprite sleeps. With this bit, other values are the ticks between moves of a sprite in flight (`flight.rs`).
-    pub(crate) const SLEEPING: u16 = SKIPPED;
 }
 
 /// The size of the largest sprite of a game with sleeping sprites, in cells along a side.
@@ -47,6 +47,8 @@ pub(crate) struct Sleeper {
     pub(crate) right: i16,
     pub(crate) bottom: i16,
 }
+
+bytes_of_fields! { Sleeper { slot pass left top right bottom } }
 
 impl Sleeper {
     fn holds(&self, column: i16, row: i16) -> bool {
@@ -128,50 +130,57 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
     (0u16..).zip(types).map(of_type).collect()
 }
 
-impl State {
+impl Schedule {
     /// Notes that the cells of a sprite have changed: sleeping sprites that watch them are to be woken.
-    pub(crate) fn touch(&mut self, slot: Slot) {
-        let sprite = self.sprite(slot);
-        if !sprite.is(flag::MULTI_CELL) {
-            let cell = self.cell_of(sprite);
-            if self.watched[cell] > 0 {
-                self.touched.push(cell as u32);
-            }
-            return;
-        }
-        let mut touched = std::mem::take(&mut self.touched);
-        let sprite = self.sprite(slot);
-        self.covered_by(sprite, |cell| {
-            if self.watched[cell] > 0 {
+    #[inline(never)]
+    fn touch(&mut self, world: &World, slot: Slot) {
+        let Schedule { watched, touched, .. } = self;
+        world.covered_by(world.sprite(slot), |cell| {
+            if watched[cell] > 0 {
                 touched.push(cell as u32);
             }
         });
-        self.touched = touched;
     }
 
-    /// Wakes all sleeping sprites. Between steps only.
-    fn wake_all(&mut self) {
-        for sleeper in self.sleepers.drain(..) {
-            let sprite = &mut self.sprites[usize::from(sleeper.slot)];
-            sprite.activity = mark::NOTHING;
-            self.groups[sprite.stype.index()].skipped -= 1;
-        }
-        self.watched.fill(0);
+    /// Notes a permanent change in the cells that a sprite covers.
+    pub(crate) fn stamp(&mut self, world: &World, sprite: &Sprite, tick: i32) {
+        let stamp = stamp_of(tick);
+        let stamps = &mut self.stamps;
+        world.covered_by(sprite, |cell| stamps[cell] = stamps[cell].max(stamp));
     }
 }
 
 impl Step<'_> {
+    /// Notes that the cells of a sprite have changed.
+    #[inline(always)]
+    pub(crate) fn touch(&mut self, slot: Slot) {
+        if !self.schedule.sleepers.is_empty() {
+            self.schedule.touch(self.world, slot);
+        }
+    }
+
     /// Prepares sleep and flight for a tick: nothing sleeps in a tick in which an executed rule stops the game.
     #[inline]
     pub(crate) fn prepare_shortcuts(&mut self, unoptimised: bool) {
-        self.flies = self.rules.any_fly && !unoptimised;
-        self.sleeps = self.rules.any_sleep && !unoptimised && self.state.avatar != NONE;
-        if !self.sleeps && !self.state.sleepers.is_empty() {
-            self.state.wake_all();
+        self.flies = self.plan.any_fly && !unoptimised;
+        self.sleeps = self.plan.any_sleep && !unoptimised && self.world.avatar != NONE;
+        if !self.sleeps && !self.schedule.sleepers.is_empty() {
+            self.wake_all();
         }
-        if !self.flies && !self.state.flights.is_empty() {
-            self.state.land_all(self.rules);
+        if !self.flies && !self.schedule.flights.is_empty() {
+            self.land_all(self.world.tick);
         }
+    }
+
+    /// Wakes all sleeping sprites. Between steps only.
+    fn wake_all(&mut self) {
+        let Schedule { sleepers, skipped, watched, .. } = &mut *self.schedule;
+        for sleeper in sleepers.drain(..) {
+            let sprite = &mut self.world.sprites[usize::from(sleeper.slot)];
+            sprite.activity = mark::NOTHING;
+            skipped[sprite.stype.index()] -= 1;
+        }
+        watched.fill(0);
     }
 
     /// Wakes and lands sprites before an effect is executed on a sprite.
@@ -187,7 +196,7 @@ impl Step<'_> {
     /// Notes the execution of an effect on a sprite.
     pub(crate) fn note(&mut self, effect: &Effect, free: bool, one: Slot, two: Option<Slot>) {
         let pass = self.pass;
-        let first = &mut self.state.sprites[usize::from(one)].activity;
+        let first = &mut self.world.sprites[usize::from(one)].activity;
         if *first != mark::NOTHING {
             let back = matches!(effect, Effect::StepBack { pixel_perfect: false });
             *first = if back && free && *first == mark::MOVED && pass >= 0 {
@@ -197,7 +206,7 @@ impl Step<'_> {
             };
         }
         if let Some(two) = two {
-            let second = &mut self.state.sprites[usize::from(two)].activity;
+            let second = &mut self.world.sprites[usize::from(two)].activity;
             // Blocking another sprite changes nothing, unless it changes the score.
             let harmless = free && matches!(effect, Effect::StepBack { .. });
             if *second != mark::NOTHING && !harmless {
@@ -221,78 +230,76 @@ impl Step<'_> {
             self.stamp_moved();
         }
         let mut kept = 0;
-        for at in 0..self.state.moved.len() {
-            let slot = self.state.moved[at];
-            let sprite = self.state.sprite(slot);
+        for at in 0..self.world.moved.len() {
+            let slot = self.world.moved[at];
+            let sprite = self.world.sprite(slot);
             let (activity, back) = (sprite.activity, sprite.is_back());
             if activity == mark::MOVED && !back && self.take_off(slot) {
                 continue;
             }
-            let sprite = self.state.sprite(slot);
-            let may_sleep = || self.sleeps && self.rules.shortcuts[sprite.stype.index()].sleeps;
+            let sprite = self.world.sprite(slot);
+            let may_sleep = || self.sleeps && self.plan.shortcuts[sprite.stype.index()].sleeps;
             if activity < mark::DISTURBED && activity != mark::NOTHING && back && may_sleep() {
                 self.try_sleep(slot, activity - 1);
             }
-            self.state.moved[kept] = slot;
+            self.world.moved[kept] = slot;
             kept += 1;
         }
-        self.state.moved.truncate(kept);
+        self.world.moved.truncate(kept);
     }
 
     /// Notes the moves that have not been undone; all other changes were noted when they happened.
     fn stamp_moved(&mut self) {
-        for at in 0..self.state.moved.len() {
-            let slot = self.state.moved[at];
-            let (sprite, last) = (*self.state.sprite(slot), self.state.last(slot));
+        for at in 0..self.world.moved.len() {
+            let slot = self.world.moved[at];
+            let (sprite, last) = (*self.world.sprite(slot), self.world.last(slot));
             if sprite.activity != mark::NOTHING && !sprite.is_back() {
-                self.state.stamp(&sprite, self.state.tick);
-                let (column, row) = self.state.place_of(last);
+                self.schedule.stamp(self.world, &sprite, self.world.tick);
+                let (column, row) = self.world.place_of(last);
                 let before = Sprite { rect: last, flags: sprite.flags | flag::BIG, column, row, ..sprite };
-                self.state.stamp(&before, self.state.tick);
+                self.schedule.stamp(self.world, &before, self.world.tick);
             }
         }
     }
 
     fn try_sleep(&mut self, slot: Slot, pass: u16) {
-        let sprite = *self.state.sprite(slot);
+        let sprite = *self.world.sprite(slot);
         let Some(aim) = physics::aim(self, slot) else { return };
         let around = |a: i32, b: i32, size: i32| (a.min(b), a.max(b).saturating_add(size - 1));
         let (left, right) = around(sprite.rect.x, aim.x, sprite.rect.w);
         let (top, bottom) = around(sprite.rect.y, aim.y, sprite.rect.h);
-        let (left, top) = self.state.place_of(sprite.rect.at(left, top));
-        let (right, bottom) = self.state.place_of(sprite.rect.at(right, bottom));
+        let (left, top) = self.world.place_of(sprite.rect.at(left, top));
+        let (right, bottom) = self.world.place_of(sprite.rect.at(right, bottom));
         if (right - left) > 2 || (bottom - top) > 2 {
             return;
         }
         let sleeper = Sleeper { slot, pass, left, top, right, bottom };
-        let now = stamp_of(self.state.tick);
-        let quiet = self
-            .state
-            .cells_in(&sleeper)
-            .all(|cell| self.state.stamps[cell] < now && self.state.watched[cell] < u8::MAX);
+        let now = stamp_of(self.world.tick);
+        let quiet = sleeper
+            .cells(self.world)
+            .all(|cell| self.schedule.stamps[cell] < now && self.schedule.watched[cell] < u8::MAX);
         // At its place, an effect of the edge might be executed on it, from which its own movement takes it away when it
         // is awake.
         if !quiet || sprite.is(flag::OFF) || self.overlaps_rule_partner(slot) {
             return;
         }
-        for cell in self.state.cells_in(&sleeper) {
-            self.state.watched[cell] += 1;
+        for cell in sleeper.cells(self.world) {
+            self.schedule.watched[cell] += 1;
         }
-        self.state.sprites[usize::from(slot)].activity = mark::SLEEPING;
-        self.state.groups[sprite.stype.index()].skipped += 1;
-        self.state.sleepers.push(sleeper);
+        self.world.sprites[usize::from(slot)].activity = mark::SKIPPED;
+        self.schedule.skipped[sprite.stype.index()] += 1;
+        self.schedule.sleepers.push(sleeper);
     }
 
     /// Tests whether a rule pairs the sprite with anything that it overlaps at its place.
     fn overlaps_rule_partner(&self, slot: Slot) -> bool {
-        let rules = self.rules;
-        let rect = self.state.sprite(slot).rect;
-        let stype = self.state.sprite(slot).stype;
+        let Sprite { rect, stype, .. } = *self.world.sprite(slot);
+        let partners = self.models.bits[stype.index()].partners;
         let mut found = false;
-        self.state.near_rect(rules, rect, |other| {
-            let sprite = self.state.sprite(other);
-            found |=
-                other != slot && rules.contacts.has_rule(stype, sprite.stype) && sprite.rect.intersects(rect);
+        self.world.near_rect(self.models, rect, |other| {
+            let sprite = self.world.sprite(other);
+            let is_partner = partners & self.models.bit(sprite.stype) != 0;
+            found |= other != slot && is_partner && sprite.rect.intersects(rect);
         });
         found
     }
@@ -300,23 +307,23 @@ impl Step<'_> {
     /// Wakes the sleeping sprites around the touched cells.
     #[inline]
     pub(crate) fn wake(&mut self) {
-        if !self.state.touched.is_empty() {
+        if !self.schedule.touched.is_empty() {
             self.wake_touched();
         }
     }
 
     fn wake_touched(&mut self) {
-        while let Some(cell) = self.state.touched.pop() {
-            if self.state.watched[cell as usize] == 0 {
+        while let Some(cell) = self.schedule.touched.pop() {
+            if self.schedule.watched[cell as usize] == 0 {
                 continue;
             }
-            self.work(self.state.sleepers.len() / 64);
-            let stride = (self.state.columns + 2) as u32;
+            self.work(self.schedule.sleepers.len() / 64);
+            let stride = (self.world.columns + 2) as u32;
             let (column, row) = ((cell % stride) as i16, (cell / stride) as i16);
             let mut at = 0;
-            while at < self.state.sleepers.len() {
-                if self.state.sleepers[at].holds(column, row) {
-                    let sleeper = self.state.sleepers.swap_remove(at);
+            while at < self.schedule.sleepers.len() {
+                if self.schedule.sleepers[at].holds(column, row) {
+                    let sleeper = self.schedule.sleepers.swap_remove(at);
                     self.wake_one(sleeper);
                 } else {
                     at += 1;
@@ -328,12 +335,12 @@ impl Step<'_> {
     /// Wakes one sprite. Makes up for its movement in this tick if that is past and its way back is not.
     fn wake_one(&mut self, sleeper: Sleeper) {
         let slot = sleeper.slot;
-        for cell in self.state.cells_in(&sleeper) {
-            self.state.watched[cell] -= 1;
+        for cell in sleeper.cells(self.world) {
+            self.schedule.watched[cell] -= 1;
         }
-        let sprite = &mut self.state.sprites[usize::from(slot)];
+        let sprite = &mut self.world.sprites[usize::from(slot)];
         sprite.activity = mark::NOTHING;
-        self.state.groups[sprite.stype.index()].skipped -= 1;
+        self.schedule.skipped[sprite.stype.index()] -= 1;
         if sprite.is(flag::FREE) {
             return;
         }
@@ -341,7 +348,7 @@ impl Step<'_> {
             && self.pass < i32::from(sleeper.pass)
             && let Some(aim) = physics::aim(self, slot)
         {
-            self.state.sprites[usize::from(slot)].activity = mark::MOVED;
+            self.world.sprites[usize::from(slot)].activity = mark::MOVED;
             self.any_moved = true;
             self.place(slot, aim);
             self.set_age(slot, 0);
@@ -350,7 +357,7 @@ impl Step<'_> {
 
     /// Tests whether a sprite's own update in this tick is past.
     pub(crate) fn has_moved(&self, slot: Slot) -> bool {
-        let Sprite { id, stype, .. } = *self.state.sprite(slot);
+        let Sprite { id, stype, .. } = *self.world.sprite(slot);
         let order = self.rules.types[stype.index()].order.map_or(-1, i32::from);
         self.updating < order || self.updating == order && id < self.updating_id
     }
@@ -362,33 +369,20 @@ impl Step<'_> {
     }
 
     pub(crate) fn wake_sleepers(&mut self) {
-        while let Some(sleeper) = self.state.sleepers.pop() {
+        while let Some(sleeper) = self.schedule.sleepers.pop() {
             self.wake_one(sleeper);
         }
         self.wake();
     }
 }
 
-impl State {
-    fn cells_in(&self, sleeper: &Sleeper) -> impl Iterator<Item = usize> + use<> {
-        let stride = self.columns + 2;
-        let Sleeper { left, top, right, bottom, .. } = *sleeper;
+impl Sleeper {
+    fn cells(&self, world: &World) -> impl Iterator<Item = usize> + use<> {
+        let stride = world.columns + 2;
+        let Sleeper { left, top, right, bottom, .. } = *self;
         (i32::from(top)..i32::from(bottom) + 1).flat_map(move |row| {
             (i32::from(left)..i32::from(right) + 1).map(move |column| (row * stride + column) as usize)
         })
-    }
-
-    /// Notes a permanent change in the cells that a sprite covers.
-    pub(crate) fn stamp(&mut self, sprite: &Sprite, tick: i32) {
-        let stamp = stamp_of(tick);
-        if !sprite.is(flag::MULTI_CELL) {
-            let cell = self.cell_of(sprite);
-            self.stamps[cell] = self.stamps[cell].max(stamp);
-            return;
-        }
-        let mut stamps = std::mem::take(&mut self.stamps);
-        self.covered_by(sprite, |cell| stamps[cell] = stamps[cell].max(stamp));
-        self.stamps = stamps;
     }
 }
 

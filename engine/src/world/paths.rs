@@ -1,8 +1,8 @@
 //! Path finding for games with `obs=` (`spec/01` §8).
 
-use crate::game::Rules;
+use super::{Slot, World};
 use crate::geometry::Direction;
-use crate::state::{Slot, State};
+use crate::rules::Rules;
 use std::sync::{Arc, OnceLock};
 
 /// Marks of cells, the ring around the board included: a cell that paths may lead through,
@@ -107,11 +107,11 @@ impl Paths {
     }
 }
 
-impl State {
+impl World {
     /// Notes the cells that hold an obstacle now, at the start: they stay obstacles. Hidden sprites do not count. If the
     /// avatar has three actions, all paths of the episode go left and right only, even if the avatar changes.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
-        let mut cells = vec![CLOSED; State::cell_count(self.columns, self.rows)];
+        let mut cells = vec![CLOSED; World::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {
             for column in 0..self.columns {
                 cells[self.cell(column + 1, row + 1)] = OPEN;
@@ -176,7 +176,8 @@ mod tests {
         let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
         let level = game.level("A     \n      \n  r   \n      \n      \n").unwrap();
         let state = game.start_with(&level, Chance::from_java(1));
-        let first = |column: i32, row: i32| match state.first_step((20, 40), (10 * column, 10 * row)).0 {
+        let first = |column: i32, row: i32| match state.world.first_step((20, 40), (10 * column, 10 * row)).0
+        {
             Some(crate::Direction::UP) => 'U',
             Some(crate::Direction::LEFT) => 'L',
             Some(crate::Direction::RIGHT) => 'R',
@@ -193,8 +194,8 @@ mod tests {
         let source = "BasicGame obs=rock square_size=49\n  SpriteSet\n    rock > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    r > rock\n  InteractionSet\n    avatar rock > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";
         let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
         let state = game.start_with(&game.level("A r\n").unwrap(), Chance::from_java(1));
-        assert_eq!(state.first_step((0, 0), (49, 0)).0, None, "the same cell");
-        assert_eq!(state.first_step((0, 0), (50, 0)).0, Some(crate::Direction::RIGHT));
+        assert_eq!(state.world.first_step((0, 0), (49, 0)).0, None, "the same cell");
+        assert_eq!(state.world.first_step((0, 0), (50, 0)).0, Some(crate::Direction::RIGHT));
     }
 
     #[test]
@@ -203,7 +204,10 @@ mod tests {
         let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
         let state = game.start_with(&game.level("A  \n").unwrap(), Chance::from_java(1));
         for far in [(i32::MAX, i32::MAX), (i32::MIN, 0), (0, i32::MAX)] {
-            assert_eq!((state.first_step(far, (1, 0)).0, state.first_step((0, 0), far).0), (None, None));
+            assert_eq!(
+                (state.world.first_step(far, (1, 0)).0, state.world.first_step((0, 0), far).0),
+                (None, None)
+            );
         }
     }
 }

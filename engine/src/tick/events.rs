@@ -1,23 +1,24 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
-use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed};
+use super::{Meeting, Step, Watch};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
 use crate::ontology::effects;
-use crate::overlap::{Hit, Hits, Partners, Side};
-use crate::state::{NONE, Slot, Timer, flag, memory};
-use crate::step::{Meeting, Step, Watch};
+use crate::rules::memory;
+use crate::rules::{EffectInfo, Limit, Pass, SpriteType, Timed};
+use crate::world::{Hit, Hits, Partners, Side};
+use crate::world::{NONE, Slot, Timer, flag};
 use smallvec::SmallVec;
 
 impl Step<'_> {
     pub(crate) fn events(&mut self, watch: &mut impl Watch) {
-        if !self.state.timers.is_empty() {
+        if !self.world.timers.is_empty() {
             self.timers(watch);
             if self.stopped.is_some() {
                 return;
             }
         }
-        if self.state.off != 0 || self.rules.undeclared_at_edge {
+        if self.world.off != 0 || self.rules.undeclared_at_edge {
             for &(stype, effect) in &self.rules.edge {
                 self.edge_pass(stype, effect, watch);
                 if self.stopped.is_some() {
@@ -27,9 +28,9 @@ impl Step<'_> {
         }
         let rules = self.rules;
         let (mut from, mut is_tidy) = (0, false);
-        while let Some(number) = self.state.next_possible(from) {
+        while let Some(number) = self.schedule.next_possible(from) {
             if !is_tidy {
-                self.state.tidy_covered(rules);
+                self.world.tidy_covered(self.models);
                 is_tidy = true;
             }
             self.pass = number as i32;
@@ -43,11 +44,11 @@ impl Step<'_> {
 
     /// Runs the effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
     fn timers(&mut self, watch: &mut impl Watch) {
-        while let Some(&Timer { due, timed: number }) = self.state.timers.last() {
-            if due > self.state.tick {
+        while let Some(&Timer { due, timed: number }) = self.world.timers.last() {
+            if due > self.world.tick {
                 return;
             }
-            self.state.timers.pop();
+            self.world.timers.pop();
             self.wake_and_land_all();
             // Counts also if there is no sprite: a timer that repeats at once would never end.
             self.work_of_effect();
@@ -66,7 +67,7 @@ impl Step<'_> {
                 return;
             }
             if timed.repeating {
-                let due = self.state.tick.saturating_add(timed.timer);
+                let due = self.world.tick.saturating_add(timed.timer);
                 self.plan(Timer { due, timed: number });
             }
         }
@@ -74,8 +75,8 @@ impl Step<'_> {
 
     /// Calls [`State::plan`](crate::State::plan), and counts the work of shifting timers in memory.
     pub(crate) fn plan(&mut self, timer: Timer) {
-        self.work(self.state.timers.len() / 64);
-        self.state.plan(timer);
+        self.work(self.world.timers.len() / 64);
+        self.world.plan(timer);
     }
 
     /// Runs a timed effect on every sprite of a type and its relatives; the score change is the line's own, whatever the
@@ -84,10 +85,10 @@ impl Step<'_> {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];
         for &stype in &rules.types[stype.index()].tree {
-            let mut slot = self.state.group(stype).head;
+            let mut slot = self.world.group(stype).head;
             while slot != NONE {
-                if !self.state.sprite(slot).is(flag::KILLED | flag::DISABLED) {
-                    let tail = self.state.group(stype).tail;
+                if !self.world.sprite(slot).is(flag::KILLED | flag::DISABLED) {
+                    let tail = self.world.group(stype).tail;
                     watch.interaction(timed.line);
                     if watch.wants_meetings() {
                         self.tell(watch, timed.line, slot, None);
@@ -95,14 +96,14 @@ impl Step<'_> {
                     self.work_of_effect();
                     effects::execute(self, timed.effect, &info.effect, slot, None);
                     self.credit(info, info.initial_memory(), 1);
-                    if self.state.group(stype).tail != tail {
+                    if self.world.group(stype).tail != tail {
                         self.stop(Limit::SpawnIntoUpdatedType);
                     }
                     if self.stopped.is_some() {
                         return;
                     }
                 }
-                slot = self.state.sprite(slot).next;
+                slot = self.world.sprite(slot).next;
             }
         }
     }
@@ -124,14 +125,14 @@ impl Step<'_> {
         if remembered & memory::APPLY_SCORE == 0 {
             return;
         }
-        if self.state.avatar == NONE {
+        if self.world.avatar == NONE {
             return self.stop(Limit::NoAvatar);
         }
         let (change, fault) = effects::score_change(info, remembered);
         if fault {
             self.message();
         }
-        self.state.score += i64::from(change) * i64::from(times);
+        self.world.score += i64::from(change) * i64::from(times);
     }
 
     fn count(&mut self, amounts: &[Option<i32>], times: i32) {
@@ -140,7 +141,7 @@ impl Step<'_> {
                 self.message();
             }
             let change = amount.unwrap_or(0).wrapping_mul(times);
-            self.state.counters[at] = self.state.counters[at].wrapping_add(change);
+            self.world.counters[at] = self.world.counters[at].wrapping_add(change);
         }
     }
 
@@ -150,25 +151,25 @@ impl Step<'_> {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
         for &stype in &family.tree {
-            if self.state.group(stype).off == 0 {
+            if self.world.group(stype).off == 0 {
                 continue;
             }
-            self.work(1 + usize::from(self.state.group(stype).count));
-            let mut slot = self.state.group(stype).head;
+            self.work(1 + usize::from(self.world.group(stype).count));
+            let mut slot = self.world.group(stype).head;
             while slot != NONE {
-                let sprite = self.state.sprite(slot);
+                let sprite = self.world.sprite(slot);
                 if sprite.is(flag::OFF) && !sprite.is(flag::KILLED | flag::DISABLED) {
-                    let tail = self.state.group(stype).tail;
+                    let tail = self.world.group(stype).tail;
                     self.execute(effect, slot, None, watch);
                     if self.stopped.is_some() {
                         return;
                     }
-                    if self.state.group(stype).tail != tail {
+                    if self.world.group(stype).tail != tail {
                         self.message();
                         break;
                     }
                 }
-                slot = self.state.sprite(slot).next;
+                slot = self.world.sprite(slot).next;
             }
         }
     }
@@ -176,16 +177,16 @@ impl Step<'_> {
     fn pair_pass(&mut self, number: usize, pass: &Pass, watch: &mut impl Watch) {
         let rules = self.rules;
         let (first, second) = (&rules.types[pass.first.index()], &rules.types[pass.second.index()]);
-        let bits = rules.contacts.sides(number);
+        let bits = self.plan.contacts.sides(number);
         let (first, second) = (Side { family: first, bits: bits.0 }, Side { family: second, bits: bits.1 });
         self.work(first.family.tree.len() + second.family.tree.len());
-        if !self.state.shields.is_empty() && effects::is_shielded(self, pass) {
+        if !self.world.shields.is_empty() && effects::is_shielded(self, pass) {
             return;
         }
         // Sprites that this pass makes do not take part in it.
-        let newborn = self.state.next_id;
+        let newborn = self.world.next_id;
         let size = |side: Side<'_>| {
-            side.family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
+            side.family.tree.iter().map(|&t| u32::from(self.world.group(t).count)).sum::<u32>()
         };
         if pass.either_side && size(second) < size(first) {
             self.visit_second_side(pass, first, second, newborn, watch);
@@ -207,18 +208,18 @@ impl Step<'_> {
         let in_batch = self.rules.effects[usize::from(pass.effect)].in_batch;
         for &stype in &first.family.tree {
             let aware = self.rules.types[stype.index()].ground_aware;
-            let own = self.rules.contacts.kinds[stype.index()].own;
-            if !aware && !self.state.may_meet(own, second.bits) {
+            let own = self.models.bit(stype);
+            if !aware && !self.schedule.may_meet(self.world, own, second.bits) {
                 continue;
             }
-            let mut slot = self.state.group(stype).head;
+            let mut slot = self.world.group(stype).head;
             while slot != NONE {
-                let sprite = self.state.sprite(slot);
+                let sprite = self.world.sprite(slot);
                 if sprite.id >= newborn {
                     break;
                 }
                 visited += 1;
-                if !aware && !self.state.may_overlap(own, second, sprite) {
+                if !aware && !self.world.may_overlap(own, second, sprite) {
                     slot = sprite.next;
                     continue;
                 }
@@ -226,7 +227,7 @@ impl Step<'_> {
                 let looked = if aware {
                     self.look_down(slot, second, newborn, &mut hits)
                 } else {
-                    self.state.overlapping(self.rules, second, slot, newborn, &mut hits)
+                    self.world.overlapping(self.models, second, slot, newborn, &mut hits)
                 };
                 self.work(looked);
                 if hits.len() > 1 {
@@ -236,7 +237,7 @@ impl Step<'_> {
                     let once = std::mem::take(&mut hits);
                     self.work(second.family.tree.len() * once.len() / 8);
                     for &stype in &second.family.tree {
-                        let of_type = |hit: &&Hit| self.state.sprite(hit.slot()).stype == stype;
+                        let of_type = |hit: &&Hit| self.world.sprite(hit.slot()).stype == stype;
                         hits.extend(once.iter().filter(of_type).copied());
                     }
                 }
@@ -257,7 +258,7 @@ impl Step<'_> {
                 if self.stopped.is_some() {
                     return;
                 }
-                slot = self.state.sprite(slot).next;
+                slot = self.world.sprite(slot).next;
             }
         }
         self.work(visited);
@@ -276,27 +277,27 @@ impl Step<'_> {
         let mut hits = Hits::new();
         let mut visited = 0;
         for &stype in &second.family.tree {
-            let own = self.rules.contacts.kinds[stype.index()].own;
-            if !self.state.may_meet(own, first.bits) {
+            let own = self.models.bit(stype);
+            if !self.schedule.may_meet(self.world, own, first.bits) {
                 continue;
             }
-            let mut slot = self.state.group(stype).head;
+            let mut slot = self.world.group(stype).head;
             while slot != NONE {
-                let sprite = self.state.sprite(slot);
+                let sprite = self.world.sprite(slot);
                 visited += 1;
-                if !self.state.may_overlap(own, first, sprite) {
+                if !self.world.may_overlap(own, first, sprite) {
                     slot = sprite.next;
                     continue;
                 }
                 hits.clear();
-                let looked = self.state.overlapping(self.rules, first, slot, newborn, &mut hits);
+                let looked = self.world.overlapping(self.models, first, slot, newborn, &mut hits);
                 self.work(looked);
-                let own = self.state.hit(second, slot);
+                let own = self.world.hit(second, slot);
                 pairs.extend(hits.iter().map(|&hit| (hit, own)));
                 if self.stopped.is_some() {
                     return;
                 }
-                slot = self.state.sprite(slot).next;
+                slot = self.world.sprite(slot).next;
             }
         }
         self.work(visited);
@@ -313,12 +314,12 @@ impl Step<'_> {
 
     /// Checks once more before a hit counts: the first sprite is not dead and still there.
     fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut impl Watch) {
-        if self.rules.types[self.state.sprite(one).stype.index()].ground_aware {
+        if self.rules.types[self.world.sprite(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
         }
         self.land_one(one);
         self.land_one(two);
-        let (first, second) = (self.state.sprite(one), self.state.sprite(two));
+        let (first, second) = (self.world.sprite(one), self.world.sprite(two));
         if !first.is(flag::KILLED) && first.rect.intersects(second.rect) {
             self.execute(pass.effect, one, Some(two), watch);
         }
@@ -337,16 +338,16 @@ impl Step<'_> {
             self.note(&info.effect, free, one, two);
         }
         effects::execute(self, effect, &info.effect, one, two);
-        let remembered = self.state.memory[usize::from(effect)];
+        let remembered = self.world.memory[usize::from(effect)];
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
     /// Reports the sprites of an execution that is about to happen.
     #[cold]
     fn tell(&self, watch: &mut impl Watch, line: usize, one: Slot, two: Option<Slot>) {
-        let first = self.state.present(one);
-        let cell = (first.rect.x.div_euclid(self.state.block), first.rect.y.div_euclid(self.state.block));
-        let second = two.map(|two| self.state.sprite(two).stype);
+        let first = self.world.present(one);
+        let cell = (first.rect.x.div_euclid(self.world.block), first.rect.y.div_euclid(self.world.block));
+        let second = two.map(|two| self.world.sprite(two).stype);
         watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
 
@@ -366,38 +367,38 @@ impl Step<'_> {
             }
         }
         let times = effects::execute_batch(self, &info.effect, one, partners);
-        self.credit(info, self.state.memory[usize::from(effect)], times);
+        self.credit(info, self.world.memory[usize::from(effect)], times);
     }
 
     /// The partners of a sprite whose class detects the ground: testing a solid sprite just below it is how it detects
     /// it. Returns the number of cells and sprites that it looked at.
     fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
-        if !self.state.may_stand_on(second, self.state.sprite(slot), GROUND) {
+        if !self.world.may_stand_on(second, self.world.sprite(slot), GROUND) {
             return 1;
         }
-        let rect = self.state.sprite(slot).rect;
+        let rect = self.world.sprite(slot).rect;
         let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
-        let looked = self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);
+        let looked = self.world.overlapping_rect(self.models, second, (slot, around), newborn, hits);
         for hit in hits.iter() {
             self.notice_ground(slot, hit.slot());
         }
-        hits.retain(|hit| self.state.sprite(hit.slot()).rect.intersects(rect));
+        hits.retain(|hit| self.world.sprite(hit.slot()).rect.intersects(rect));
         looked
     }
 
     /// Detects solid ground below a sprite (`spec/02` §2.5).
     fn notice_ground(&mut self, one: Slot, two: Slot) {
-        let (sprite, other) = (*self.state.sprite(one), *self.state.sprite(two));
+        let (sprite, other) = (*self.world.sprite(one), *self.world.sprite(two));
         let solid = self.rules.types[other.stype.index()].traits.solid;
         if sprite.is(flag::ON_GROUND) || !solid {
             return;
         }
         let shifted = sprite.rect.at(sprite.rect.x, sprite.rect.y.wrapping_add(GROUND));
-        let last = self.state.last(one);
-        let below = self.state.last(two).y > last.y.wrapping_add(sprite.rect.h / 2);
+        let last = self.world.last(one);
+        let below = self.world.last(two).y > last.y.wrapping_add(sprite.rect.h / 2);
         let falling = sprite.rect.y > last.y;
         if shifted.intersects(other.rect) && below && falling {
-            self.state.edit_motion(one).set(flag::ON_GROUND, true);
+            self.world.edit_motion(one).set(flag::ON_GROUND, true);
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Overlap queries, answered from the cells that two sprites share (`occupancy.rs`).
 
-use crate::game::{NOT_IN_TREE, Rules, TypeInfo};
+use super::span::Span;
+use super::{Models, NONE, Slot, Sprite, World, flag};
 use crate::geometry::Rect;
-use crate::span::Span;
-use crate::state::{NONE, Slot, Sprite, State, flag};
+use crate::rules::{NOT_IN_TREE, TypeInfo};
 use smallvec::SmallVec;
 
 /// One side of a pass: the types of a tree, and their bits.
@@ -33,10 +33,10 @@ pub(crate) type Hits = SmallVec<[Hit; 8]>;
 /// The slots of the hits.
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
 
-impl State {
+impl World {
     /// Calls `visit` with every sprite that may overlap a rectangle.
-    pub(crate) fn near_rect(&self, rules: &Rules, rect: Rect, mut visit: impl FnMut(Slot)) {
-        let reach = rules.reach.saturating_mul(self.block) - 1;
+    pub(crate) fn near_rect(&self, models: &Models, rect: Rect, mut visit: impl FnMut(Slot)) {
+        let reach = models.reach.saturating_mul(self.block) - 1;
         let left = self.column(rect.x.saturating_sub(reach));
         let right = self.column(rect.x.saturating_add(rect.w - 1));
         let top = self.row(rect.y.saturating_sub(reach));
@@ -50,6 +50,12 @@ impl State {
                 }
             }
         }
+    }
+
+    /// Tests whether types with any of these bits have sprites that are larger than a cell.
+    #[inline(always)]
+    pub(crate) fn is_big(&self, bits: u64) -> bool {
+        self.big_bits & bits != 0
     }
 
     /// The hit of a sprite of a side.
@@ -85,7 +91,7 @@ impl State {
         rows.iter().any(|&cell| (self.masks[cell] | self.masks[cell + width]) & side.bits != 0)
     }
 
-    /// The rest of [`State::may_overlap`]: for sprites in several cells, and for sides with large sprites.
+    /// The rest of [`World::may_overlap`]: for sprites in several cells, and for sides with large sprites.
     fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
         if lies & flag::BIG != 0 {
             return true;
@@ -116,7 +122,7 @@ impl State {
     /// excludes sprites created since that id was next. Returns the number of cells and sprites that it looked at.
     pub(crate) fn overlapping(
         &self,
-        rules: &Rules,
+        models: &Models,
         side: Side<'_>,
         slot: Slot,
         above: u32,
@@ -125,11 +131,11 @@ impl State {
         let sprite = self.sprite(slot);
         let rect = self.rect(sprite);
         if sprite.is(flag::BIG) {
-            return self.overlapping_rect(rules, side, (slot, rect), above, hits);
+            return self.overlapping_rect(models, side, (slot, rect), above, hits);
         }
         let span = self.span(self.cell_of(sprite), sprite.flags);
         if self.span_is_covered(span, side) {
-            return self.overlapping_rect(rules, side, (slot, rect), above, hits);
+            return self.overlapping_rect(models, side, (slot, rect), above, hits);
         }
         // Sprites that lie in several cells may reach over from the cells to the left and above.
         let reached = i32::from(self.multi_cell_bits & side.bits != 0);
@@ -146,13 +152,13 @@ impl State {
     /// The sprites of a side that overlap a rectangle around a sprite, without the sprite itself.
     pub(crate) fn overlapping_rect(
         &self,
-        rules: &Rules,
+        models: &Models,
         side: Side<'_>,
         (slot, rect): (Slot, Rect),
         above: u32,
         hits: &mut Hits,
     ) -> usize {
-        let reach = rules.reach.saturating_mul(self.block) - 1;
+        let reach = models.reach.saturating_mul(self.block) - 1;
         let first_column = self.column(rect.x.saturating_sub(reach));
         let last_column = self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
         let first_row = self.row(rect.y.saturating_sub(reach));

@@ -3,9 +3,9 @@
 //! A sprite holds its earlier corner. Its earlier size equals its size, except for the few sprites that have been resized
 //! since.
 
+use super::{Slot, Sprite, World, flag};
+use crate::flat::bytes_of_fields;
 use crate::geometry::Rect;
-use crate::state::{Slot, Sprite, State, flag};
-use crate::step::Step;
 
 /// The size that a sprite had before it was resized in this tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub(crate) struct Resized {
     pub(crate) w: i32,
     pub(crate) h: i32,
 }
+
+bytes_of_fields! { Resized { slot w h } }
 
 /// The rectangle of a sprite at the start of its own update in this tick.
 #[inline]
@@ -36,7 +38,7 @@ impl Sprite {
     }
 }
 
-impl State {
+impl World {
     /// The rectangle of a sprite at the start of its own update in this tick.
     #[inline]
     pub(crate) fn last(&self, slot: Slot) -> Rect {
@@ -58,6 +60,12 @@ impl State {
         }
     }
 
+    /// Notes that a sprite that is not in the list has moved.
+    pub(crate) fn note_moved(&mut self, slot: Slot) {
+        self.sprites[usize::from(slot)].set(flag::MOVED, true);
+        self.moved.push(slot);
+    }
+
     #[inline(never)]
     fn note_size(&mut self, slot: Slot, resized: bool, Rect { w, h, .. }: Rect) {
         let one = Resized { slot, w, h };
@@ -70,20 +78,18 @@ impl State {
 
     /// Forgets the moves of released sprites.
     pub(crate) fn forget_moved(&mut self) {
-        let State { moved, resized, sprites, .. } = self;
+        let World { moved, resized, sprites, .. } = self;
         let stays = |slot: Slot| !sprites[usize::from(slot)].is(flag::FREE);
         moved.retain(|&slot| stays(slot));
         resized.retain(|one| stays(one.slot));
     }
-}
 
-impl Step<'_> {
     /// Makes the current rectangles the last rectangles. The reference does so for every sprite before its own update;
     /// only sprites that have moved since show a difference, and nothing reads another sprite's last rectangle before the
     /// events.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
-        let State { sprites, moved, resized, .. } = &mut *self.state;
+        let World { sprites, moved, resized, .. } = self;
         let mut frozen = false;
         for &slot in &*moved {
             let sprite = &mut sprites[usize::from(slot)];
@@ -110,9 +116,7 @@ impl Step<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::game::Action;
-    use crate::{Game, Seed};
+    use crate::{Action, Game, Seed, State};
 
     /// A bud that opens becomes a flower of two cells; its last rectangle is a bud's until the next update.
     const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    bud > Immovable\n    flower > Immovable wMult=2\n    avatar > MovingAvatar\n  \
@@ -125,9 +129,10 @@ mod tests {
         let mut state = game.start(&game.level("Ab f \n").unwrap(), Seed::from_text("bud"));
         let flower = game.sprite_type("flower").unwrap();
         let sizes = |state: &State| {
-            state
+            let world = &state.world;
+            world
                 .slots(flower)
-                .map(|slot| (state.sprite(slot).rect.w, state.last(slot).w))
+                .map(|slot| (world.sprite(slot).rect.w, world.last(slot).w))
                 .collect::<Vec<_>>()
         };
         // The first of a type has the size of a cell until its first update.
@@ -135,7 +140,7 @@ mod tests {
         game.step(&mut state, Action::Right);
         assert_eq!(sizes(&state), [(20, 20), (20, 10)]);
         state.recount(&game).unwrap();
-        assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
+        assert_eq!(state.state_hash(), state.state_hash_from_scratch());
         game.step(&mut state, Action::Nil);
         assert_eq!(sizes(&state), [(20, 20), (20, 20)]);
     }

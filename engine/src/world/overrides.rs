@@ -4,10 +4,11 @@
 //! Sprites share the values of their type, and get overrides of their own with the first change. This keeps sprites small
 //! and copies of a state cheap.
 
-use crate::game::{Rules, SpriteType};
+use super::{NONE, Slot, Sprite, World};
+use crate::flat::{Bytes, bytes_of_fields};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
-use crate::state::{NONE, Slot, Sprite, State};
+use crate::rules::{Rules, SpriteType};
 
 /// The rarely changed values of a sprite: those of its type, or a copy of its own (copy on write).
 #[derive(Clone, Copy, Debug)]
@@ -20,11 +21,13 @@ pub(crate) struct Overrides {
     pub(crate) start: i32,
     /// Spawners: the type that they make now; updateSpawnType changes it.
     pub(crate) spawns: SpriteType,
-    /// Index into `State::extras`, or NONE.
+    /// Index into `World::extras`, or NONE.
     pub(crate) extra: u16,
     /// The sprite that owns the overrides; `NONE` for those of a type.
     pub(crate) holder: Slot,
 }
+
+bytes_of_fields! { Overrides { orientation speed health max_health start spawns extra holder } }
 
 /// Further values of the few sprites that turn, fall differently from their type, or pursue one target.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +44,8 @@ pub(crate) struct Extra {
     pub(crate) last_known: Option<(i32, i32)>,
 }
 
+bytes_of_fields! { Extra { holder rotation gravity facing block_time target last_known } }
+
 /// The target of a PathAltChaser. The reference keeps the object: a removed target is pursued at its last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
@@ -49,7 +54,29 @@ pub(crate) enum Target {
     Gone(Rect),
 }
 
-impl State {
+impl Bytes for Target {
+    fn put(self, to: &mut Vec<u8>) {
+        match self {
+            Target::None => 0u8.put(to),
+            Target::Sprite(slot) => (1u8, slot).put(to),
+            Target::Gone(rect) => (2u8, rect).put(to),
+        }
+    }
+
+    fn take(from: &mut &[u8]) -> Target {
+        match u8::take(from) {
+            0 => Target::None,
+            1 => Target::Sprite(Bytes::take(from)),
+            _ => Target::Gone(Bytes::take(from)),
+        }
+    }
+
+    fn same(&self, other: &Target) -> bool {
+        self == other
+    }
+}
+
+impl World {
     /// The overrides of a sprite, scenery included.
     #[inline(always)]
     pub(crate) fn overrides_of(&self, sprite: &Sprite) -> &Overrides {
@@ -87,7 +114,7 @@ impl State {
         }
     }
 
-    /// The rest of [`State::face`], for a changed orientation.
+    /// The rest of [`World::face`], for a changed orientation.
     #[inline(never)]
     pub(crate) fn turn_to(&mut self, slot: Slot, direction: Direction) {
         self.edit_overrides(slot).orientation = direction;
@@ -168,10 +195,10 @@ mod tests {
         let types = game.sprite_types().count();
         let mut overrides = Vec::new();
         for _ in 0..5 {
-            overrides.push(state.overrides.len() - types);
+            overrides.push(state.world.overrides.len() - types);
             game.step(&mut state, Action::Nil);
             state.recount(&game).unwrap();
-            assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
+            assert_eq!(state.state_hash(), state.state_hash_from_scratch());
         }
         // First the car's, then that of the arrow that turns back at the wall, until it is killed. The other arrow is
         // killed at once.

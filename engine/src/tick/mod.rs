@@ -1,20 +1,20 @@
 //! One step of a game: the cycle of `spec/01` §4. The operations of the ontology on sprites are in `population.rs` and
 //! `motion.rs`.
 
-use crate::Seed;
-use crate::chance::Chance;
-use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
+mod events;
+mod motion;
+mod population;
+
+use crate::game::Compiled;
 use crate::geometry::Direction;
-use crate::level::Level;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
 use crate::ontology::sprites::{Mover, UpdateKind, npcs, producers};
 use crate::ontology::traits::Traits;
 use crate::ontology::{avatars, sprites};
-use crate::sleep::mark;
-use crate::state::{Group, NONE, Slot, State, Timer, flag};
-
-/// The length in pixels of the longer side of a board whose game does not set `square_size`.
-const SCREEN: i32 = 800;
+use crate::rules::{Action, Limit, Outcome, Rules, SpriteType};
+use crate::schedule::{Contacting, Plan, Schedule, mark};
+use crate::state::State;
+use crate::world::{Models, NONE, Slot, World, flag};
 
 /// An execution of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,10 @@ impl Watch for () {
 /// A step under way.
 pub(crate) struct Step<'a> {
     pub(crate) rules: &'a Rules,
-    pub(crate) state: &'a mut State,
+    pub(crate) models: &'a Models,
+    pub(crate) plan: &'a Plan,
+    pub(crate) world: &'a mut World,
+    pub(crate) schedule: &'a mut Schedule,
     /// The place in the update order that is being updated; types with a lower place are still to come in this tick.
     pub(crate) updating: i32,
     /// The reason why the step was stopped, if it was.
@@ -75,164 +78,38 @@ pub(crate) struct Step<'a> {
     pub(crate) any_moved: bool,
 }
 
-impl Game {
-    /// The state before the first tick. The seed affects only the game's random numbers.
-    pub fn start(&self, level: &Level, seed: Seed) -> State {
-        self.start_with(level, seed.chance())
-    }
-
-    /// [`Game::start`] with a given random number generator, such as a trace's.
-    pub fn start_with(&self, level: &Level, chance: Chance) -> State {
-        let rules = &*self.0;
-        let (columns, rows) = (level.columns() as i32, level.rows() as i32);
-        let block = rules.square_size.unwrap_or_else(|| 2.max(SCREEN / columns.max(rows)));
-        let mut state = State {
-            tick: -1,
-            score: 0,
-            outcome: Outcome::Ongoing,
-            chance,
-            last_action: Action::Nil,
-            avatar: NONE,
-            next_id: 0,
-            population: 0,
-            messages: rules.messages + level.messages,
-            block,
-            columns,
-            rows,
-            free: NONE,
-            can_end: rules.can_end,
-            sum: [0; 2],
-            memory_hash: 0,
-            memory_is_dirty: true,
-            big: 0,
-            off: 0,
-            multi_cell_bits: 0,
-            big_bits: 0,
-            sprites: Vec::new(),
-            contributions: Vec::new(),
-            hash_classes: Vec::new(),
-            groups: vec![Group::EMPTY; rules.types.len()],
-            cells: vec![NONE; State::cell_count(columns, rows)],
-            masks: Vec::new(),
-            crowds: Vec::new(),
-            covered: Vec::new(),
-            left_behind: 0,
-            vast: 0,
-            together: Vec::new(),
-            meets: Vec::new(),
-            reasons: Vec::new(),
-            possible: Vec::new(),
-            moved: Vec::new(),
-            resized: Vec::new(),
-            dirty: Vec::new(),
-            killed: Vec::new(),
-            held: Vec::new(),
-            memory: rules.effects.iter().map(EffectInfo::initial_memory).collect(),
-            templates: vec![0; rules.types.len()],
-            shields: Vec::new(),
-            pulled: Vec::new(),
-            overrides: rules.base_overrides.clone(),
-            extras: Vec::new(),
-            sleepers: Vec::new(),
-            watched: vec![0; State::cell_count(columns, rows)],
-            stamps: vec![-1; State::cell_count(columns, rows)],
-            flights: Vec::new(),
-            next_due: i32::MAX,
-            census_changed: true,
-            touched: Vec::new(),
-            timers: Vec::new(),
-            paths: None,
-            scenery: None,
-            counters: vec![0; rules.counters],
-            replaced: Vec::new(),
-            jumps: chance,
-        };
-        state.empty_contacts(&rules.contacts);
-        let mut step = Step { updating: -1, ..Step::new(rules, &mut state) };
-        for (at, &symbol) in level.cells().iter().enumerate() {
-            let (column, row) = ((at % level.columns()) as i32, (at / level.columns()) as i32);
-            for &stype in self.places(symbol) {
-                step.add(stype, column * block, row * block);
-            }
-        }
-        step.remove_extra_avatars();
-        step.find_avatar();
-        if let Some(limit) = step.stopped {
-            state.outcome = Outcome::Stopped(limit);
-        }
-        for (at, timed) in rules.timed.iter().enumerate() {
-            if let Some(due) = timed.first_due {
-                state.plan(Timer { due, timed: at as u16 });
-            }
-        }
-        if rules.finds_paths {
-            state.mark_obstacles(rules);
-        }
-        state.settle_hash();
-        state
-    }
-
-    /// Plays one tick. Does nothing once the episode is over; an action that the avatar does not have counts as
-    /// [`Action::Nil`].
-    ///
-    /// Does not allocate once the state's buffers have grown.
-    pub fn step(&self, state: &mut State, action: Action) -> Outcome {
-        self.step_watched(state, action, &mut ())
-    }
-
-    /// [`Game::step`] with an observer of the executed interactions.
-    pub fn step_watched(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
-        self.step_with(state, action, watch, false)
-    }
-
-    /// [`Game::step`] without shortcuts: every sprite is updated in every tick. Tests compare the optimised step with it.
-    #[doc(hidden)]
-    pub fn step_unoptimised(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
-        self.step_with(state, action, watch, true)
-    }
-
-    fn step_with(
-        &self,
-        state: &mut State,
-        action: Action,
-        watch: &mut impl Watch,
-        unoptimised: bool,
-    ) -> Outcome {
-        if state.is_over() {
-            return state.outcome;
-        }
-        let action = if self.allows(state, action) { action } else { Action::Nil };
-        let mut step = Step::new(&self.0, state);
-        step.prepare_shortcuts(unoptimised);
-        step.cycle(action, watch);
-        watch.worked(step.work);
-        state.outcome
-    }
-}
-
 impl<'a> Step<'a> {
-    fn new(rules: &'a Rules, state: &'a mut State) -> Step<'a> {
-        let (updating, updating_id, pass) = (i32::MAX, 0, -1);
+    pub(crate) fn new(game: &'a Compiled, state: &'a mut State) -> Step<'a> {
         Step {
-            rules,
-            state,
-            updating,
-            updating_id,
+            rules: &game.rules,
+            models: &game.models,
+            plan: &game.plan,
+            world: &mut state.world,
+            schedule: &mut state.schedule,
+            updating: i32::MAX,
+            updating_id: 0,
             stopped: None,
             work: 0,
-            pass,
+            pass: -1,
             sleeps: false,
             flies: false,
             any_moved: false,
         }
     }
 
-    fn cycle(&mut self, action: Action, watch: &mut impl Watch) {
-        self.state.tick += 1;
-        self.state.last_action = action;
-        self.state.fly(self.rules);
+    /// The world, and its watcher.
+    #[inline(always)]
+    pub(crate) fn watched(&mut self) -> (&mut World, Contacting<'_>) {
+        let watcher = Contacting { contacts: &self.plan.contacts, schedule: self.schedule };
+        (self.world, watcher)
+    }
+
+    pub(crate) fn cycle(&mut self, action: Action, watch: &mut impl Watch) {
+        self.world.tick += 1;
+        self.world.last_action = action;
+        self.fly();
         self.wake();
-        self.settle_moved();
+        self.world.settle_moved();
         self.update(action);
         if self.stopped.is_none() {
             self.events(watch);
@@ -244,27 +121,27 @@ impl<'a> Step<'a> {
         self.clear();
         self.sleep_or_fly();
         if let Some(limit) = self.stopped {
-            self.state.outcome = Outcome::Stopped(limit);
+            self.world.outcome = Outcome::Stopped(limit);
             return;
         }
         self.terminate();
-        if self.state.messages > MAX_MESSAGES {
-            self.state.messages = 0;
-            if self.state.outcome == Outcome::Ongoing {
-                self.state.outcome = Outcome::Ended;
+        if self.world.messages > MAX_MESSAGES {
+            self.world.messages = 0;
+            if self.world.outcome == Outcome::Ongoing {
+                self.world.outcome = Outcome::Ended;
             }
         }
-        if self.state.tick >= MAX_TICKS && self.state.outcome != Outcome::Won {
+        if self.world.tick >= MAX_TICKS && self.world.outcome != Outcome::Won {
             // The avatar loses: without one, the reference crashes.
-            let gone = self.state.avatar == NONE;
-            self.state.outcome = if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost };
+            let gone = self.world.avatar == NONE;
+            self.world.outcome = if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost };
         }
     }
 
     fn update(&mut self, action: Action) {
-        let avatar = self.state.avatar;
-        if avatar != NONE && !self.state.sprite(avatar).is(flag::DISABLED) {
-            let stype = self.state.sprite(avatar).stype;
+        let avatar = self.world.avatar;
+        if avatar != NONE && !self.world.sprite(avatar).is(flag::DISABLED) {
+            let stype = self.world.sprite(avatar).stype;
             if self.rules.types[stype.index()].traits.oriented_image {
                 self.turn_picture(avatar);
             }
@@ -273,10 +150,11 @@ impl<'a> Step<'a> {
                 return;
             }
         }
-        let rules = self.rules;
-        for mover in &rules.movers {
-            let group = self.state.group(mover.stype);
-            let (head, count, skipped) = (group.head, group.count, group.skipped);
+        let (rules, plan) = (self.rules, self.plan);
+        for mover in &plan.movers {
+            let group = self.world.group(mover.stype);
+            let (head, count) = (group.head, group.count);
+            let skipped = self.schedule.skipped_of(mover.stype);
             if count == 0 {
                 continue;
             }
@@ -293,19 +171,19 @@ impl<'a> Step<'a> {
             let mut slot = head;
             while slot != NONE {
                 if mover.update_kind == UpdateKind::Draws {
-                    slot = producers::pass_over(self.state, traits, mover.threshold, slot);
+                    slot = producers::pass_over(self.world, traits, mover.threshold, slot);
                     if slot == NONE {
                         break;
                     }
                 }
-                let sprite = self.state.sprite(slot);
+                let sprite = self.world.sprite(slot);
                 let idle = match mover.update_kind {
                     UpdateKind::Moves => {
                         mover.may_fly && sprite.activity & mark::SKIPPED != 0
-                            || sprites::stays(sprite, traits, self.state)
+                            || sprites::stays(sprite, traits, self.world)
                     }
                     UpdateKind::Chooses => {
-                        let waits = sprites::waits(sprite, traits, self.state);
+                        let waits = sprites::waits(sprite, traits, self.world);
                         if waits {
                             npcs::choose(self, slot, mover.class);
                             if self.stopped.is_some() {
@@ -328,7 +206,7 @@ impl<'a> Step<'a> {
                         return;
                     }
                 }
-                slot = self.state.sprite(slot).next;
+                slot = self.world.sprite(slot).next;
             }
         }
         self.updating = -1;
@@ -336,7 +214,7 @@ impl<'a> Step<'a> {
 
     #[inline(always)]
     fn update_one(&mut self, slot: Slot, mover: &Mover, traits: &Traits) {
-        self.updating_id = self.state.sprite(slot).id;
+        self.updating_id = self.world.sprite(slot).id;
         if traits.oriented_image {
             self.turn_picture(slot);
         }
@@ -344,7 +222,7 @@ impl<'a> Step<'a> {
             UpdateKind::Moves => sprites::base(self, slot),
             _ => sprites::update(self, slot, mover.class),
         }
-        let sprite = &mut self.state.sprites[usize::from(slot)];
+        let sprite = &mut self.world.sprites[usize::from(slot)];
         let moved = mover.may_fly && self.flies && !sprite.is_back();
         sprite.activity = if moved { mark::MOVED } else { mark::NOTHING };
         self.any_moved |= moved;
@@ -353,17 +231,17 @@ impl<'a> Step<'a> {
     /// Checks the orientation: the reference looks for a picture of the orientation before each update, and throws if
     /// there is none.
     fn turn_picture(&mut self, slot: Slot) {
-        if !Direction::BASE.contains(&self.state.overrides(slot).orientation) {
+        if !Direction::BASE.contains(&self.world.overrides(slot).orientation) {
             self.stop(Limit::UnfitSprite);
         }
     }
 
     /// Finds the player's avatar: the last sprite of an avatar class in update order, without the first drawn type
     /// (`spec/01` §4.2; checked levels have a single avatar).
-    fn find_avatar(&mut self) {
+    pub(crate) fn find_avatar(&mut self) {
         let types = self.rules.order.iter().skip(1).rev();
-        let slots = types.flat_map(|&stype| self.state.slots(stype));
-        let avatar = slots.filter(|&slot| self.state.sprite(slot).is(flag::AVATAR)).last();
+        let slots = types.flat_map(|&stype| self.world.slots(stype));
+        let avatar = slots.filter(|&slot| self.world.sprite(slot).is(flag::AVATAR)).last();
         match avatar {
             Some(slot) if !self.can_be_played(slot) => self.stop(Limit::UnfitSprite),
             Some(slot) => self.control(slot),
@@ -373,44 +251,46 @@ impl<'a> Step<'a> {
     }
 
     /// Removes all avatars but the first made, with a message, as the reference does; checked levels have one.
-    fn remove_extra_avatars(&mut self) {
-        let slots = 0..self.state.sprites.len() as Slot;
-        let counts = |slot: &Slot| self.state.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
+    pub(crate) fn remove_extra_avatars(&mut self) {
+        let slots = 0..self.world.sprites.len() as Slot;
+        let counts = |slot: &Slot| self.world.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
         let avatars: Vec<Slot> = slots.filter(counts).collect();
         let Some((_, extra @ [_, ..])) = avatars.split_first() else { return };
         self.message();
         for &slot in extra {
-            self.state.release(self.rules, slot);
+            let models = self.models;
+            let (world, mut watcher) = self.watched();
+            world.release(models, slot, &mut watcher);
         }
-        self.state.forget_gone();
+        self.world.forget_gone();
     }
 
     /// Removes the sprites that were killed in this tick (`spec/01` §4.10).
     #[inline]
     fn clear(&mut self) {
-        if !self.state.killed.is_empty() {
+        if !self.world.killed.is_empty() {
             self.clear_killed();
         }
         self.wake();
-        self.state.shields.clear();
-        self.state.pulled.clear();
+        self.world.shields.clear();
+        self.world.pulled.clear();
     }
 
     fn terminate(&mut self) {
         // The last result still holds: all terminations but Timeouts count sprites.
-        if !self.state.census_changed && self.state.tick < self.rules.first_timeout {
+        if !self.world.census_changed && self.world.tick < self.rules.first_timeout {
             return;
         }
-        self.state.census_changed = false;
+        self.world.census_changed = false;
         for termination in &self.rules.terminations {
-            if let Some(can_end) = termination.permits(self.rules, self.state) {
+            if let Some(can_end) = termination.permits(self.rules, self.world) {
                 // The terminations before it look again in the next tick.
-                self.state.census_changed |= can_end != self.state.can_end;
-                self.state.can_end = can_end;
+                self.world.census_changed |= can_end != self.world.can_end;
+                self.world.can_end = can_end;
             }
-            if termination.holds(self.rules, self.state) {
-                let won = termination.wins(self.state);
-                self.state.outcome = if won { Outcome::Won } else { Outcome::Lost };
+            if termination.holds(self.rules, self.world) {
+                let won = termination.wins(self.world);
+                self.world.outcome = if won { Outcome::Won } else { Outcome::Lost };
                 return;
             }
         }
@@ -436,13 +316,13 @@ impl<'a> Step<'a> {
 
     /// [`State::add_amount`], with the limit on resources.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
-        self.state.add_amount(holder, resource, change);
-        if self.state.held.len() > MAX_HELD {
+        self.world.add_amount(holder, resource, change);
+        if self.world.held.len() > MAX_HELD {
             self.stop(Limit::Resources);
         }
     }
 
     pub(crate) fn message(&mut self) {
-        self.state.messages = self.state.messages.saturating_add(1);
+        self.world.messages = self.world.messages.saturating_add(1);
     }
 }

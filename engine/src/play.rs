@@ -1,0 +1,86 @@
+//! The start of an episode, and its steps.
+
+use crate::chance::Chance;
+use crate::game::Game;
+use crate::level::Level;
+use crate::rules::{Action, Outcome};
+use crate::schedule::Schedule;
+use crate::seed::Seed;
+use crate::state::State;
+use crate::tick::{Step, Watch};
+use crate::world::{Timer, World};
+
+impl Game {
+    /// The state before the first tick. The seed affects only the game's random numbers.
+    pub fn start(&self, level: &Level, seed: Seed) -> State {
+        self.start_with(level, seed.chance())
+    }
+
+    /// [`Game::start`] with a given random number generator, such as a trace's.
+    pub fn start_with(&self, level: &Level, chance: Chance) -> State {
+        let rules = &*self.0;
+        let world = World::empty(rules, &self.0.models, level, chance);
+        let schedule = Schedule::empty(&self.0.plan, &world);
+        let mut state = State { world, schedule };
+        let block = state.world.block;
+        let mut step = Step { updating: -1, ..Step::new(&self.0, &mut state) };
+        for (at, &symbol) in level.cells().iter().enumerate() {
+            let (column, row) = ((at % level.columns()) as i32, (at / level.columns()) as i32);
+            for &stype in self.places(symbol) {
+                step.add(stype, column * block, row * block);
+            }
+        }
+        step.remove_extra_avatars();
+        step.find_avatar();
+        if let Some(limit) = step.stopped {
+            state.world.outcome = Outcome::Stopped(limit);
+        }
+        for (at, timed) in rules.timed.iter().enumerate() {
+            if let Some(due) = timed.first_due {
+                state.world.plan(Timer { due, timed: at as u16 });
+            }
+        }
+        if rules.finds_paths {
+            state.world.mark_obstacles(rules);
+        }
+        state.settle_hash();
+        state
+    }
+
+    /// Plays one tick. Does nothing once the episode is over; an action that the avatar does not have counts as
+    /// [`Action::Nil`].
+    ///
+    /// Does not allocate once the state's buffers have grown.
+    pub fn step(&self, state: &mut State, action: Action) -> Outcome {
+        self.step_watched(state, action, &mut ())
+    }
+
+    /// [`Game::step`] with an observer of the executed interactions.
+    pub fn step_watched(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
+        self.step_with(state, action, watch, false)
+    }
+
+    /// [`Game::step`] without shortcuts: every sprite is updated in every tick. Tests compare the optimised step with it.
+    #[doc(hidden)]
+    pub fn step_unoptimised(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
+        self.step_with(state, action, watch, true)
+    }
+
+    fn step_with(
+        &self,
+        state: &mut State,
+        action: Action,
+        watch: &mut impl Watch,
+        unoptimised: bool,
+    ) -> Outcome {
+        if state.is_over() {
+            return state.world.outcome;
+        }
+        let action = if self.allows(state, action) { action } else { Action::Nil };
+        let mut step = Step::new(&self.0, state);
+        step.prepare_shortcuts(unoptimised);
+        step.cycle(action, watch);
+        watch.worked(step.work);
+        state.world.outcome
+    }
+}

@@ -1,0 +1,268 @@
+//! The meaning of a game: types, effects, passes and terminations, resolved from its text. Immutable.
+
+mod action;
+mod outcome;
+
+use crate::Digest;
+use crate::diagnostic::Diagnostic;
+use crate::flat::bytes_of_wrapper;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::Effect;
+use crate::ontology::terminations::Termination;
+use crate::ontology::traits::Traits;
+use crate::syntax::Description;
+pub use action::Action;
+pub use outcome::{Limit, Outcome};
+use smallvec::SmallVec;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
+/// A sprite type of one game, by its place in the game's registry: `wall` is 0 and `avatar` is 1 in every game.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SpriteType(pub u16);
+
+bytes_of_wrapper! { SpriteType }
+
+impl SpriteType {
+    /// No type: the value of an undeclared name in games that are loaded as the reference does.
+    pub(crate) const NONE: SpriteType = SpriteType(u16::MAX);
+
+    /// The index into tables with one entry per type.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// A compiled sprite type.
+#[derive(Clone, Debug)]
+pub(crate) struct TypeInfo {
+    pub(crate) name: String,
+    /// `None` for a bare grouping node.
+    pub(crate) class: Option<SpriteClass>,
+    pub(crate) traits: Traits,
+    /// Ancestors from the root down, then the type itself.
+    pub(crate) path: Box<[SpriteType]>,
+    /// Ancestors, the type and its descendants: the types that rules on this type apply to (`spec/01` §1.6.3).
+    pub(crate) tree: Box<[SpriteType]>,
+    /// The place of every type in `tree`, or `NOT_IN_TREE`; indexed by type.
+    pub(crate) rank: Box<[u16]>,
+    /// The place in the update order; `None` for types whose sprites are never updated.
+    pub(crate) order: Option<u16>,
+    /// The flag of its own line (`spec/01` §1.6.4).
+    pub(crate) singleton: bool,
+    /// The number of units of it, as a resource, that a sprite can hold.
+    pub(crate) resource_limit: i32,
+    /// `true` for a leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
+    pub(crate) leaf: bool,
+    /// `true` if a termination may count its sprites.
+    pub(crate) counted: bool,
+    /// `true` if some effect can give speed to sprites that have none.
+    pub(crate) given_speed: bool,
+    /// `true` if a parameter is missing without which the reference crashes when it makes such a sprite.
+    pub(crate) incomplete: bool,
+    /// The number of messages that the reference logs when it makes the first sprite: one for each parameter that the
+    /// class does not have.
+    pub(crate) unknown_parameters: u32,
+    /// `true` if its sprites detect the ground when rules test what they overlap.
+    pub(crate) ground_aware: bool,
+    /// `true` if the first sprite of the type differs from later ones, which are copies: they have the scaled size from
+    /// the start, their unknown parameters have been reported, and they leave walls behind.
+    pub(crate) first_differs: bool,
+    /// The actions besides [`Action::Nil`] with it as the avatar; [`Action::Nil`] alone if there are none.
+    pub(crate) actions: &'static [Action],
+    /// The same actions as a bit mask.
+    pub(crate) keys: u8,
+}
+
+pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
+
+impl TypeInfo {
+    /// The type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3).
+    pub(crate) fn leads_to(&self) -> Option<SpriteType> {
+        use SpriteClass as C;
+        let class = self.class?;
+        let leading = [C::Portal, C::SpawnPoint, C::Chaser, C::PathChaser, C::FlakAvatar, C::Spreader];
+        let has = leading.iter().any(|&other| class.is_a(other));
+        self.traits.stypes.first().copied().filter(|_| has)
+    }
+
+    /// Tests whether its sprites are taken for avatars when a level starts.
+    pub(crate) fn is_like_avatar(&self) -> bool {
+        self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
+    }
+
+    /// Tests whether the tree names a type twice, as it does for a type that is declared below itself (`spec/01` §1.6.3).
+    pub(crate) fn repeats(&self) -> bool {
+        self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
+    }
+
+    pub(crate) fn in_tree(&self, other: SpriteType) -> bool {
+        self.rank[other.index()] != NOT_IN_TREE
+    }
+}
+
+/// One compiled interaction line. All its right-hand sprites share it and its memory.
+#[derive(Clone, Debug)]
+pub(crate) struct EffectInfo {
+    pub(crate) effect: Effect,
+    pub(crate) score_change: i32,
+    pub(crate) apply_score: bool,
+    /// `true` for each of `scoreChange` and `scoreChangeIfKilled` that is not a number: it counts 0 and costs a message
+    /// each time.
+    pub(crate) score_faults: [bool; 2],
+    /// The changes of the game's counters by an execution, if there are any.
+    pub(crate) counting: Option<Box<Counting>>,
+    /// `true` if it runs once on all partners of a sprite together.
+    pub(crate) in_batch: bool,
+    /// `true` if the line also runs by the clock, and its score and counters apply whatever the effect decides as it
+    /// runs.
+    pub(crate) steady: bool,
+    /// Index of the line in the description.
+    pub(crate) line: usize,
+}
+
+/// The memory of an effect between executions (`spec/03` §13), as bits of one byte per effect.
+pub(crate) mod memory {
+    /// The score changes when the effect runs; many effects set this as they go.
+    pub(crate) const APPLY_SCORE: u8 = 1;
+    /// subtractHealthPoints: the last execution killed.
+    pub(crate) const KILLED: u8 = 2;
+    /// `counter` does not count; some effects set this as they go.
+    pub(crate) const NO_COUNT: u8 = 4;
+    /// `counterElse` does not count.
+    pub(crate) const NO_COUNT_ELSE: u8 = 8;
+}
+
+/// `counter` and `counterElse` of a line (`spec/03` §3): an amount for each counter of the game; `None` for a text that
+/// is not a number, which counts 0 and costs a message each time.
+#[derive(Clone, Debug)]
+pub(crate) struct Counting {
+    pub(crate) count: bool,
+    pub(crate) count_else: bool,
+    pub(crate) counter: Box<[Option<i32>]>,
+    pub(crate) counter_else: Box<[Option<i32>]>,
+}
+
+impl EffectInfo {
+    /// The effect alone: without a score, counters or a line of its own.
+    pub(crate) fn of(effect: Effect) -> EffectInfo {
+        EffectInfo {
+            effect,
+            score_change: 0,
+            apply_score: true,
+            score_faults: [false; 2],
+            counting: None,
+            in_batch: false,
+            steady: false,
+            line: 0,
+        }
+    }
+
+    /// The initial memory of the effect; see [`memory`].
+    pub(crate) fn initial_memory(&self) -> u8 {
+        let off = |counts: fn(&Counting) -> bool| self.counting.as_deref().is_some_and(|c| !counts(c));
+        let bits = [
+            (memory::APPLY_SCORE, self.apply_score),
+            (memory::NO_COUNT, off(|counting| counting.count)),
+            (memory::NO_COUNT_ELSE, off(|counting| counting.count_else)),
+        ];
+        bits.into_iter().map(|(bit, on)| if on { bit } else { 0 }).sum()
+    }
+}
+
+/// An effect that runs by the clock: written with TIME, or planned by addTimer (`spec/03` §6).
+#[derive(Clone, Debug)]
+pub(crate) struct Timed {
+    /// The effect, with a memory of its own.
+    pub(crate) effect: u16,
+    /// The type of the sprites on which it runs; `None` to run once, on no sprite.
+    pub(crate) target: Option<SpriteType>,
+    /// The number of ticks from planning to running.
+    pub(crate) timer: i32,
+    pub(crate) repeating: bool,
+    /// The tick of the first run; `None` if addTimer plans it.
+    pub(crate) first_due: Option<i32>,
+    /// The effect whose line sets the score change: this one, or the addTimer.
+    pub(crate) wrapper: u16,
+    pub(crate) score_change: i32,
+    pub(crate) apply_score: bool,
+    pub(crate) line: usize,
+}
+
+/// One pass of the event phase over all pairs of two types (`spec/03` §4.5).
+#[derive(Clone, Debug)]
+pub(crate) struct Pass {
+    pub(crate) first: SpriteType,
+    pub(crate) second: SpriteType,
+    pub(crate) effect: u16,
+    /// The number of the effect's keyword, for shields.
+    pub(crate) keyword: u16,
+    /// `true` if the second tree names a type twice: its sprites are met twice.
+    pub(crate) repeats: bool,
+    /// `true` if hits can be found from the second side: executing the effect moves nothing that a later hit depends on.
+    pub(crate) either_side: bool,
+}
+
+/// The resolved contents of a game file.
+#[derive(Clone, Debug)]
+pub(crate) struct Rules {
+    pub(crate) description: Description,
+    pub(crate) digest: Digest,
+    /// The warnings about the text alone.
+    pub(crate) warnings: Vec<Diagnostic>,
+    /// All warnings, including those about the meaning of the rules; computed on first use.
+    pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
+    /// `true` if the game was loaded as the reference does: its levels are loaded in the same way.
+    pub(crate) as_reference: bool,
+    /// The number of messages that the reference has logged when the rules are loaded.
+    pub(crate) messages: u32,
+    /// The size of a cell in pixels, if the game sets it.
+    pub(crate) square_size: Option<i32>,
+    /// `no_counters=`.
+    pub(crate) counters: usize,
+    /// The flag that lets counters end the game, as the terminations set it: `canEnd=`.
+    pub(crate) can_end: bool,
+    pub(crate) types: Vec<TypeInfo>,
+    /// Drawing order; updates go through it backwards.
+    pub(crate) order: Vec<SpriteType>,
+    /// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it.
+    pub(crate) referenced: Vec<bool>,
+    /// By type: `true` if its sprites are scenery (`scenery.rs`).
+    pub(crate) scenery: Vec<bool>,
+    /// The sprites that each character places, by ASCII code.
+    pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
+    /// Level characters that stand for an undeclared sprite: the reference crashes on a level that uses one.
+    pub(crate) unusable: BTreeSet<char>,
+    pub(crate) effects: Vec<EffectInfo>,
+    /// Edge-of-screen passes, repeats expanded: the type and the effect.
+    pub(crate) edge: Vec<(SpriteType, u16)>,
+    /// `true` if one of them names an undeclared type: the reference crashes in the first tick.
+    pub(crate) undeclared_at_edge: bool,
+    pub(crate) passes: Vec<Pass>,
+    pub(crate) timed: Vec<Timed>,
+    /// `true` if the game has `obs=`, and thereby path finding.
+    pub(crate) finds_paths: bool,
+    /// `obs=`: the types that paths avoid.
+    pub(crate) obstacles: Vec<SpriteType>,
+    pub(crate) terminations: Vec<Termination>,
+    /// `true` if anything can draw random numbers.
+    pub(crate) draws: bool,
+    /// `true` if anything reads the tick, apart from the reference's own limit.
+    pub(crate) reads_tick: bool,
+    /// The first tick in which a Timeout holds.
+    pub(crate) first_timeout: i32,
+    /// `true` if a termination reads the counters.
+    pub(crate) reads_counters: bool,
+    /// `true` if a termination reads the score.
+    pub(crate) reads_score: bool,
+    /// The largest sprite, in cells, rounded up.
+    pub(crate) reach: i32,
+    /// The cooldowns of spawners: spawners that are made later fire at ticks that are multiples of these.
+    pub(crate) clocks: Vec<i32>,
+    /// The ticks before which wizards, those made later included, make no block.
+    pub(crate) wizard_ticks: Vec<i32>,
+    /// `true` if the first sprite of some type can differ from later ones.
+    pub(crate) first_differs: bool,
+    /// The effects whose score may depend on an earlier execution of theirs.
+    pub(crate) remembering: Vec<u16>,
+}

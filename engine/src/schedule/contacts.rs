@@ -1,0 +1,190 @@
+//! The interactions that are currently possible: maintained as sprites appear and disappear, so that a tick looks only at
+//! rules whose two sides share a cell somewhere.
+//!
+//! Every type that takes part in a rule has a bit. Each cell of the board has the bits of the types in it (`occupancy.rs`).
+//! Each pair of bits with a rule counts the cells that contain both. Each pass of the event phase counts its pairs that
+//! share a cell anywhere, and a pass without any is skipped. Sprites larger than a cell are in the masks with one cell only,
+//! so a pass with such a sprite on either side counts as possible too; the cells that they cover are stored separately.
+
+use super::Schedule;
+use crate::rules::Rules;
+use crate::world::{Models, Watcher, World, ones};
+
+/// No pair.
+const NO: u16 = u16::MAX;
+
+/// The fixed tables of one game.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Contacts {
+    bits: usize,
+    /// By two bits: the pair's number.
+    pair: Vec<u16>,
+    /// By pair: the passes that involve it.
+    passes: Vec<Box<[u16]>>,
+    /// By pair: its two bits.
+    ends: Vec<(u8, u8)>,
+    /// By type: the passes that involve it.
+    of_type: Vec<Box<[u16]>>,
+    /// By pass: the bits of its first and second side.
+    sides: Vec<(u64, u64)>,
+    /// Passes that are always possible: for some classes, testing the ground below is an effect in itself.
+    always: Vec<u16>,
+}
+
+impl Contacts {
+    /// Computes the tables. Cost: O(types² + passes × the largest trees).
+    pub(crate) fn of(rules: &Rules, models: &Models) -> Contacts {
+        let (types, bits) = (&rules.types, models.used_bits);
+        let mut contacts = Contacts { bits, pair: vec![NO; bits * bits], ..Contacts::default() };
+        let mut of_pair: Vec<Vec<u16>> = Vec::new();
+        let mut of_type: Vec<Vec<u16>> = vec![Vec::new(); types.len()];
+        for (number, pass) in (0u16..).zip(&rules.passes) {
+            let (first, second) = (&types[pass.first.index()].tree, &types[pass.second.index()].tree);
+            for &stype in first.iter().chain(second) {
+                let passes = &mut of_type[stype.index()];
+                if passes.last() != Some(&number) {
+                    passes.push(number);
+                }
+            }
+            let sides = (models.all(first), models.all(second));
+            for one in ones(sides.0) {
+                for two in ones(sides.1) {
+                    let (low, high) = (one.min(two), one.max(two));
+                    let pair = &mut contacts.pair[low * bits + high];
+                    if *pair == NO {
+                        *pair = of_pair.len() as u16;
+                        of_pair.push(Vec::new());
+                        contacts.ends.push((low as u8, high as u8));
+                    }
+                    let pair = *pair;
+                    contacts.pair[high * bits + low] = pair;
+                    let passes = &mut of_pair[usize::from(pair)];
+                    if passes.last() != Some(&number) {
+                        passes.push(number);
+                    }
+                }
+            }
+            contacts.sides.push(sides);
+            if first.iter().any(|stype| types[stype.index()].ground_aware) {
+                contacts.always.push(number);
+            }
+        }
+        contacts.passes = of_pair.into_iter().map(Vec::into_boxed_slice).collect();
+        contacts.of_type = of_type.into_iter().map(Vec::into_boxed_slice).collect();
+        contacts
+    }
+
+    pub(crate) fn sides(&self, pass: usize) -> (u64, u64) {
+        self.sides[pass]
+    }
+
+    fn pair(&self, one: usize, two: usize) -> usize {
+        usize::from(self.pair[one * self.bits + two])
+    }
+}
+
+impl Schedule {
+    /// Resets the tables to an empty board.
+    pub(crate) fn empty_contacts(&mut self, contacts: &Contacts) {
+        self.together = vec![0; contacts.passes.len()];
+        self.meets = vec![0; contacts.bits];
+        self.reasons = vec![0; contacts.sides.len()];
+        self.possible = vec![0; contacts.sides.len().div_ceil(64)];
+        for &pass in &contacts.always {
+            self.allow(pass);
+        }
+    }
+
+    fn meet_more(&mut self, contacts: &Contacts, pair: usize) {
+        self.together[pair] += 1;
+        if self.together[pair] == 1 {
+            self.toggle_meets(contacts, pair);
+            for &pass in &contacts.passes[pair] {
+                self.allow(pass);
+            }
+        }
+    }
+
+    fn meet_less(&mut self, contacts: &Contacts, pair: usize) {
+        self.together[pair] -= 1;
+        if self.together[pair] == 0 {
+            self.toggle_meets(contacts, pair);
+            for &pass in &contacts.passes[pair] {
+                self.forbid(pass);
+            }
+        }
+    }
+
+    fn toggle_meets(&mut self, contacts: &Contacts, pair: usize) {
+        let (one, two) = contacts.ends[pair];
+        self.meets[usize::from(one)] ^= 1 << two;
+        if one != two {
+            self.meets[usize::from(two)] ^= 1 << one;
+        }
+    }
+
+    /// Tests whether any sprite with this bit may share a cell with any of `others`.
+    #[inline]
+    pub(crate) fn may_meet(&self, world: &World, own: u64, others: u64) -> bool {
+        self.meets[own.trailing_zeros() as usize] & others != 0 || world.is_big(own | others)
+    }
+
+    fn allow(&mut self, pass: u16) {
+        let pass = usize::from(pass);
+        self.reasons[pass] += 1;
+        self.possible[pass / 64] |= 1 << (pass % 64);
+    }
+
+    fn forbid(&mut self, pass: u16) {
+        let pass = usize::from(pass);
+        self.reasons[pass] -= 1;
+        if self.reasons[pass] == 0 {
+            self.possible[pass / 64] &= !(1 << (pass % 64));
+        }
+    }
+
+    /// The first possible pass from `from` on.
+    pub(crate) fn next_possible(&self, from: usize) -> Option<usize> {
+        let mut word = from / 64;
+        let mut bits = self.possible.get(word)? & (u64::MAX << (from % 64));
+        while bits == 0 {
+            word += 1;
+            bits = *self.possible.get(word)?;
+        }
+        Some(word * 64 + bits.trailing_zeros() as usize)
+    }
+}
+
+/// Keeps the counts of a schedule up to date.
+pub(crate) struct Contacting<'a> {
+    pub(crate) contacts: &'a Contacts,
+    pub(crate) schedule: &'a mut Schedule,
+}
+
+impl Watcher for Contacting<'_> {
+    #[inline(never)]
+    fn arrives(&mut self, own: u64, partners: u64) {
+        for other in ones(partners) {
+            self.schedule.meet_more(self.contacts, self.contacts.pair(own.trailing_zeros() as usize, other));
+        }
+    }
+
+    #[inline(never)]
+    fn departs(&mut self, own: u64, partners: u64) {
+        for other in ones(partners) {
+            self.schedule.meet_less(self.contacts, self.contacts.pair(own.trailing_zeros() as usize, other));
+        }
+    }
+
+    fn enlarged(&mut self, stype: usize) {
+        for &pass in &self.contacts.of_type[stype] {
+            self.schedule.allow(pass);
+        }
+    }
+
+    fn reduced(&mut self, stype: usize) {
+        for &pass in &self.contacts.of_type[stype] {
+            self.schedule.forbid(pass);
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! All that a tick may leave out, with the same result (`docs/decisions/0005-foreseen-sprites.md`).
+
+mod contacts;
+mod flight;
+mod sleep;
+
+use crate::flat::flat;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::sprites::{self, Mover, producers};
+use crate::rules::{Rules, SpriteType};
+use crate::world::{Models, World};
+pub(crate) use contacts::{Contacting, Contacts};
+pub(crate) use flight::Flight;
+use sleep::shortcuts;
+pub(crate) use sleep::{Shortcuts, Sleeper, mark};
+
+flat! {
+    /// What the next ticks may leave out.
+    pub(crate) struct Schedule {
+        copied {}
+        numbers {
+            next_due: i32,
+        }
+        buffers {
+            /// By pair of bits: the number of cells that contain both.
+            together: u16,
+            /// By bit: the bits that share a cell with it anywhere.
+            meets: u64,
+            /// By pass: the number of reasons to look at it.
+            reasons: u16,
+            /// The passes with a reason, as a bit set.
+            possible: u64,
+            /// The sleeping sprites (`sleep.rs`).
+            sleepers: Sleeper,
+            /// By cell: the number of sleeping sprites that watch it.
+            watched: u8,
+            /// By cell: the tick of the last permanent change, or the tick up to which a sprite flies there.
+            stamps: i16,
+            /// The sprites in flight (`flight.rs`), and the tick in which the next one is due.
+            flights: Flight,
+            /// By type: the number of sprites that are asleep or in flight.
+            skipped: u16,
+        }
+        scratch {
+            /// Watched cells that a sprite has entered or left, within a step.
+            touched: u32,
+        }
+        shared {}
+    }
+}
+
+/// The shortcuts of a game, derived from its rules.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    /// Types whose update does something, in update order.
+    pub(crate) movers: Vec<Mover>,
+    /// The tables of possible passes, by the types that share cells.
+    pub(crate) contacts: Contacts,
+    /// By type.
+    pub(crate) shortcuts: Vec<Shortcuts>,
+    /// `true` if sprites of some type may sleep.
+    pub(crate) any_sleep: bool,
+    /// `true` if sprites of some type may fly.
+    pub(crate) any_fly: bool,
+}
+
+impl Plan {
+    /// Cost: O(types² + passes × the largest trees).
+    pub(crate) fn of(rules: &Rules, models: &Models) -> Plan {
+        let shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
+        let mover = |&stype: &SpriteType| {
+            let info = &rules.types[stype.index()];
+            let idle = |&class: &SpriteClass| sprites::is_idle(class, info);
+            let class = info.class.filter(|class| !idle(class))?;
+            Some(Mover {
+                stype,
+                class,
+                order: i32::from(info.order?),
+                update_kind: sprites::update_kind(class, &info.traits),
+                may_fly: shortcuts[stype.index()].flies,
+                threshold: producers::threshold(info.traits.prob),
+            })
+        };
+        Plan {
+            movers: rules.order.iter().rev().filter_map(mover).collect(),
+            contacts: Contacts::of(rules, models),
+            any_sleep: shortcuts.iter().any(|of_type| of_type.sleeps),
+            any_fly: shortcuts.iter().any(|of_type| of_type.flies),
+            shortcuts,
+        }
+    }
+}
+
+impl Schedule {
+    /// The schedule of a world without sprites.
+    pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
+        let cells = World::cell_count(world.columns, world.rows);
+        let mut schedule = Schedule {
+            next_due: i32::MAX,
+            together: Vec::new(),
+            meets: Vec::new(),
+            reasons: Vec::new(),
+            possible: Vec::new(),
+            sleepers: Vec::new(),
+            watched: vec![0; cells],
+            stamps: vec![-1; cells],
+            flights: Vec::new(),
+            skipped: vec![0; world.groups.len()],
+            touched: Vec::new(),
+        };
+        schedule.empty_contacts(&plan.contacts);
+        schedule
+    }
+
+    /// The number of sprites of a type that are asleep or in flight.
+    #[inline(always)]
+    pub(crate) fn skipped_of(&self, stype: SpriteType) -> u16 {
+        self.skipped[stype.index()]
+    }
+}

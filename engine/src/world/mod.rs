@@ -1,0 +1,363 @@
+//! The world of an episode: sprites, cells, and the few numbers beside them, as flat arrays without pointers to the rules
+//! (`docs/decisions/0004-state-as-flat-data.md`). It knows of no shortcut of the schedule.
+//!
+//! Sprites live in the slots of one array. Two linked lists (chains) run through the slots: the sprites of one type in
+//! the order of their creation (a group in the reference), and the sprites in one cell of the board (`occupancy.rs`).
+//! Effects read and write sprites only through the methods here, so that the layout can change without them.
+
+mod contribution;
+pub(crate) mod flight;
+mod hash;
+mod models;
+mod moved;
+mod occupancy;
+mod overlap;
+mod overrides;
+mod paths;
+mod scenery;
+mod side_tables;
+mod span;
+mod sprite;
+
+use crate::chance::Chance;
+use crate::flat::{bytes_of_fields, flat};
+use crate::level::Level;
+use crate::limits::MAX_SLOTS;
+use crate::rules::{Action, EffectInfo, Outcome, Rules, SpriteType};
+use contribution::{Contribution, HashClass, Sum};
+pub(crate) use hash::{Mixer, bits, two};
+pub use hash::{SearchKey, StateHash};
+pub(crate) use models::{Models, TypeBits, ones};
+use moved::Resized;
+pub(crate) use overlap::{Hit, Hits, Partners, Side};
+pub(crate) use overrides::{Extra, Overrides, Target};
+use paths::Paths;
+use scenery::Scenery;
+pub(crate) use side_tables::{Held, Replaced};
+pub(crate) use sprite::{Group, NONE, Slot, Sprite, flag};
+
+/// The length in pixels of the longer side of a board whose game does not set `square_size`.
+const SCREEN: i32 = 800;
+
+/// A timer of the time phase: the timed effect, and the tick in which it is due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Timer {
+    pub(crate) due: i32,
+    pub(crate) timed: u16,
+}
+
+bytes_of_fields! { Timer { due timed } }
+
+/// An observer of a world: the types that come to share cells, or stop sharing them.
+pub(crate) trait Watcher {
+    /// A sprite of the type with the bit `own` has come to cover a cell, beside types with the bits `partners`, with which
+    /// rules pair it.
+    fn arrives(&mut self, own: u64, partners: u64);
+
+    /// Such a sprite has stopped covering a cell that such types cover.
+    fn departs(&mut self, own: u64, partners: u64);
+
+    /// A type has its first sprite that is larger than a cell.
+    fn enlarged(&mut self, stype: usize);
+
+    /// A type has no such sprite any more.
+    fn reduced(&mut self, stype: usize);
+}
+
+flat! {
+    /// The world of an episode.
+    pub(crate) struct World {
+        copied {
+            outcome: Outcome,
+            last_action: Action,
+        }
+        numbers {
+            tick: i32,
+            score: i64,
+            chance: Chance,
+            avatar: Slot,
+            next_id: u32,
+            /// The reference's sprite counter, including its drift (`spec/03` §5.1).
+            population: i32,
+            /// Messages logged so far: more than 25 end the game.
+            messages: u32,
+            block: i32,
+            columns: i32,
+            rows: i32,
+            free: Slot,
+            /// The flag that lets counters end the game; StopCounter writes it.
+            can_end: bool,
+            /// The sum of `contributions`, without the growth of sprites in flight.
+            sum: Sum,
+            /// The number of sprites that are larger than a cell.
+            big: u32,
+            /// The number of sprites that are not wholly on the screen.
+            off: u32,
+            /// The bits of the types with sprites that cover more than one cell.
+            multi_cell_bits: u64,
+            /// The bits of the types with sprites that are larger than a cell.
+            big_bits: u64,
+            /// `true` if the counts of `groups` have changed since terminations looked at them.
+            census_changed: bool,
+            /// The number of times that such a sprite has left cells since `covered` was recomputed.
+            left_behind: u32,
+            /// The bits of sprites so large that they count as being everywhere.
+            vast: u64,
+            /// The hash of `memory` and `templates` when last settled.
+            memory_hash: u64,
+            memory_is_dirty: bool,
+            /// The second random stream, for WalkerJumper and for choices that the reference makes without a seed.
+            jumps: Chance,
+        }
+        buffers {
+            sprites: Sprite,
+            /// By slot: the hash contribution of the sprite when the hash was last settled.
+            contributions: Contribution,
+            /// The linear hash classes of the sprites in flight, when the hash was last settled.
+            hash_classes: HashClass,
+            groups: Group,
+            cells: Slot,
+            /// By cell: the bits of the types that cover it (`contacts.rs`).
+            masks: u64,
+            /// By cell: the bits of the types with several sprites in it; empty as long as there are none.
+            crowds: u64,
+            /// By cell: the bits of the large sprites that cover it, or did so recently; empty if there are none.
+            covered: u64,
+            moved: Slot,
+            /// The sprites in `moved` that have another size now, sorted by slot.
+            resized: Resized,
+            dirty: Slot,
+            killed: Slot,
+            /// The resources that sprites hold, sorted by holder and resource.
+            held: Held,
+            memory: u8,
+            /// By type: not 0 if a sprite has been made before; later ones are copies (`spec/02` §1.3).
+            templates: u8,
+            /// This tick's shields, sorted: type, partner, effect keyword (`spec/03` §5.7).
+            shields: (SpriteType, SpriteType, u16),
+            /// Sprites that a pullWithIt effect has carried in this tick, sorted.
+            pulled: (u16, Slot),
+            /// The overridable values of the types, and the overrides of sprites (`overrides.rs`).
+            overrides: Overrides,
+            extras: Extra,
+            /// Scheduled timed effects, the next one last (`spec/03` §6.2).
+            timers: Timer,
+            /// Entries of BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder and place.
+            replaced: Replaced,
+            /// The game's counters.
+            counters: i32,
+        }
+        scratch {}
+        shared {
+            /// The path finding tables (`paths.rs`); `None` without `obs=`.
+            paths: Paths,
+            /// The scenery (`scenery.rs`); `None` if there is none.
+            scenery: Scenery,
+        }
+    }
+}
+
+impl World {
+    /// The world before the first tick, without sprites.
+    pub(crate) fn empty(rules: &Rules, models: &Models, level: &Level, chance: Chance) -> World {
+        let (columns, rows) = (level.columns() as i32, level.rows() as i32);
+        let cells = World::cell_count(columns, rows);
+        World {
+            outcome: Outcome::Ongoing,
+            last_action: Action::Nil,
+            tick: -1,
+            score: 0,
+            chance,
+            avatar: NONE,
+            next_id: 0,
+            population: 0,
+            messages: rules.messages + level.messages,
+            block: rules.square_size.unwrap_or_else(|| 2.max(SCREEN / columns.max(rows))),
+            columns,
+            rows,
+            free: NONE,
+            can_end: rules.can_end,
+            sum: [0; 2],
+            big: 0,
+            off: 0,
+            multi_cell_bits: 0,
+            big_bits: 0,
+            census_changed: true,
+            left_behind: 0,
+            vast: 0,
+            memory_hash: 0,
+            memory_is_dirty: true,
+            jumps: chance,
+            sprites: Vec::new(),
+            contributions: Vec::new(),
+            hash_classes: Vec::new(),
+            groups: vec![Group::EMPTY; rules.types.len()],
+            cells: vec![NONE; cells],
+            masks: vec![0; cells],
+            crowds: Vec::new(),
+            covered: Vec::new(),
+            moved: Vec::new(),
+            resized: Vec::new(),
+            dirty: Vec::new(),
+            killed: Vec::new(),
+            held: Vec::new(),
+            memory: rules.effects.iter().map(EffectInfo::initial_memory).collect(),
+            templates: vec![0; rules.types.len()],
+            shields: Vec::new(),
+            pulled: Vec::new(),
+            overrides: models.of_type.iter().map(|model| model.overrides).collect(),
+            extras: Vec::new(),
+            timers: Vec::new(),
+            replaced: Vec::new(),
+            counters: vec![0; rules.counters],
+            paths: None,
+            scenery: None,
+        }
+    }
+
+    /// Returns `true` once the episode is over.
+    pub(crate) fn is_over(&self) -> bool {
+        !matches!(self.outcome, Outcome::Ongoing)
+    }
+
+    /// The creation number of the player's avatar, disabled or not.
+    pub(crate) fn avatar_id(&self) -> Option<u32> {
+        self.sprites.get(usize::from(self.avatar)).map(|sprite| sprite.id)
+    }
+
+    pub(crate) fn sprite(&self, slot: Slot) -> &Sprite {
+        &self.sprites[usize::from(slot)]
+    }
+
+    pub(crate) fn group(&self, stype: SpriteType) -> &Group {
+        &self.groups[stype.index()]
+    }
+
+    /// The slots of a type's sprites, in order of creation; scenery has none.
+    pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + Clone + '_ {
+        let mut at = self.group(stype).head;
+        std::iter::from_fn(move || {
+            let slot = at;
+            (slot != NONE).then(|| {
+                at = self.sprite(slot).next;
+                slot
+            })
+        })
+    }
+
+    /// The number of sprites of a type and its relatives, including killed and disabled ones.
+    pub(crate) fn count(&self, rules: &Rules, stype: SpriteType) -> i32 {
+        let tree = &rules.types[stype.index()].tree;
+        tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()
+    }
+
+    /// [`World::count`] without disabled sprites: the count for terminations.
+    pub(crate) fn count_live(&self, rules: &Rules, stype: SpriteType) -> i32 {
+        let tree = &rules.types[stype.index()].tree;
+        tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
+    }
+
+    /// A sprite for modification: marks its whole hash contribution as dirty.
+    pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
+        let sprite = self.edit_motion(slot);
+        sprite.flags |= flag::CHANGED;
+        sprite
+    }
+
+    /// A sprite for modification of flags, place, age, time to live, count and heading only.
+    pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
+        let sprite = &mut self.sprites[usize::from(slot)];
+        if sprite.flags & flag::DIRTY == 0 {
+            sprite.flags |= flag::DIRTY;
+            self.dirty.push(slot);
+        }
+        sprite
+    }
+
+    /// Takes a slot out of its chains and frees it. The caller calls [`World::forget_gone`] after the last one.
+    pub(crate) fn release(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
+        let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
+        self.leave_cell(models, slot, watcher);
+        self.census_changed |= models.of_type[stype.index()].counted;
+        let group = &mut self.groups[stype.index()];
+        group.count -= 1;
+        if flags & flag::DISABLED != 0 {
+            group.disabled -= 1;
+        }
+        match previous {
+            NONE => group.head = next,
+            previous => self.sprites[usize::from(previous)].next = next,
+        }
+        match next {
+            NONE => self.groups[stype.index()].tail = previous,
+            next => self.sprites[usize::from(next)].previous = previous,
+        }
+        self.release_side_tables(slot);
+        self.release_overrides(slot);
+        let next = std::mem::replace(&mut self.free, slot);
+        let sprite = self.edit(slot);
+        // It stays in the list of dirty sprites, once.
+        (sprite.next, sprite.flags) = (next, flag::FREE | flag::DIRTY);
+    }
+
+    /// Clears references to slots that have been freed. Pursuers keep the last rectangle of their target.
+    pub(crate) fn forget_gone(&mut self) {
+        self.forget_moved();
+        let World { extras, sprites, .. } = self;
+        for extra in extras {
+            if let Target::Sprite(slot) = extra.target
+                && sprites[usize::from(slot)].is(flag::FREE)
+            {
+                extra.target = Target::Gone(sprites[usize::from(slot)].rect);
+            }
+        }
+    }
+
+    /// Schedules a timer before all others that are due at the same tick (`spec/03` §6.2).
+    pub(crate) fn plan(&mut self, timer: Timer) {
+        let at = self.timers.partition_point(|other| other.due >= timer.due);
+        self.timers.insert(at, timer);
+    }
+
+    /// Takes a slot for `sprite`, at the end of its type's chain; `None` if there is no slot left.
+    pub(crate) fn admit(
+        &mut self,
+        models: &Models,
+        sprite: &Sprite,
+        watcher: &mut impl Watcher,
+    ) -> Option<Slot> {
+        let group = &mut self.groups[sprite.stype.index()];
+        let slot = match self.free {
+            NONE => {
+                let slot =
+                    Slot::try_from(self.sprites.len()).ok().filter(|&slot| usize::from(slot) < MAX_SLOTS)?;
+                self.sprites.push(*sprite);
+                self.contributions.push(Contribution::default());
+                slot
+            }
+            slot => slot,
+        };
+        let tail = std::mem::replace(&mut group.tail, slot);
+        group.count += 1;
+        if tail == NONE {
+            group.head = slot;
+        } else {
+            self.sprites[usize::from(tail)].next = slot;
+        }
+        self.census_changed |= models.of_type[sprite.stype.index()].counted;
+        let place = &mut self.sprites[usize::from(slot)];
+        if self.free == slot {
+            self.free = place.next;
+        }
+        // A slot that was freed in this tick may be in the list of dirty sprites already.
+        let dirty = place.is(flag::DIRTY);
+        *place = *sprite;
+        place.previous = tail;
+        place.flags |= flag::DIRTY | flag::CHANGED;
+        if !dirty {
+            self.dirty.push(slot);
+        }
+        self.enter_cell(models, slot, watcher);
+        Some(slot)
+    }
+}
