@@ -99,7 +99,9 @@ impl State {
                 false => world.enter_cell(models, slot, &mut watcher),
             }
             let sprite = self.world.sprite(slot);
-            watcher.schedule.skipped[sprite.stype.index()] += u16::from(sprite.activity & mark::SKIPPED != 0);
+            if sprite.activity & mark::SKIPPED != 0 {
+                watcher.schedule.skipped[sprite.stype.index()] += 1;
+            }
         }
         state
     }

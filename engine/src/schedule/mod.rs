@@ -32,13 +32,13 @@ flat! {
             possible: u64,
             /// The sleeping sprites (`sleep.rs`).
             sleepers: Sleeper,
-            /// By cell: the number of sleeping sprites that watch it.
+            /// By cell: the number of sleeping sprites that watch it; empty in games without such sprites.
             watched: u8,
             /// By cell: the tick of the last permanent change, or the tick up to which a sprite flies there.
             stamps: i16,
             /// The sprites in flight (`flight.rs`), and the tick in which the next one is due.
             flights: Flight,
-            /// By type: the number of sprites that are asleep or in flight.
+            /// By type: the number of sprites that are asleep or in flight; empty in games without such sprites.
             skipped: u16,
         }
         scratch {
@@ -94,7 +94,9 @@ impl Plan {
 impl Schedule {
     /// The schedule of a world without sprites.
     pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
-        let cells = World::cell_count(world.columns, world.rows);
+        // Games without shortcuts do not pay for them.
+        let cells = if plan.any_sleep { World::cell_count(world.columns, world.rows) } else { 0 };
+        let types = if plan.any_sleep || plan.any_fly { world.groups.len() } else { 0 };
         let mut schedule = Schedule {
             next_due: i32::MAX,
             together: Vec::new(),
@@ -105,7 +107,7 @@ impl Schedule {
             watched: vec![0; cells],
             stamps: vec![-1; cells],
             flights: Vec::new(),
-            skipped: vec![0; world.groups.len()],
+            skipped: vec![0; types],
             touched: Vec::new(),
         };
         schedule.empty_contacts(&plan.contacts);
@@ -115,6 +117,6 @@ impl Schedule {
     /// The number of sprites of a type that are asleep or in flight.
     #[inline(always)]
     pub(crate) fn skipped_of(&self, stype: SpriteType) -> u16 {
-        self.skipped[stype.index()]
+        self.skipped.get(stype.index()).copied().unwrap_or(0)
     }
 }
