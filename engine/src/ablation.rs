@@ -4,8 +4,8 @@
 //! the two games is therefore the same up to the first consequence: the random stream does not shift.
 
 use crate::Digest;
-use crate::game::{Game, Rules};
-use crate::ontology::effects::Effect;
+use crate::game::Game;
+use crate::rules::{EffectInfo, Rules};
 use std::sync::OnceLock;
 
 impl Game {
@@ -19,11 +19,14 @@ impl Game {
         assert!(line < self.description().interactions.len(), "interaction {line} is one of the game's");
         let mut rules = Rules { all_warnings: OnceLock::new(), ..self.0.rules.clone() };
         for info in rules.effects.iter_mut().filter(|info| info.line == line) {
-            let effect = std::mem::replace(&mut info.effect, Effect::KillBoth);
-            info.effect = Effect::Disabled(Box::new(effect));
-            info.score_change = 0;
-            info.apply_score = false;
-            info.counting = None;
+            *info = EffectInfo {
+                apply_score: false,
+                score_faults: info.score_faults,
+                in_batch: info.in_batch,
+                steady: info.steady,
+                line,
+                ..EffectInfo::of(info.effect.disabled())
+            };
         }
         for timed in rules.timed.iter_mut().filter(|timed| timed.line == line) {
             timed.score_change = 0;

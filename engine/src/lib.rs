@@ -54,7 +54,7 @@ pub use limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SOURCE, MAX_SPRITES, M
 pub use lint::{SwappedRule, swapped_rule};
 pub use observe::{AvatarView, Category, Countdown, Event, Observation, SpriteRecord};
 pub use ontology::class::SpriteClass;
-pub use ontology::effects::{NAMES as EFFECTS, ParameterKind, effect_parameters};
+pub use ontology::effects::{EffectFamily, NAMES as EFFECTS, ParameterKind, effect_parameters};
 pub use ontology::terminations::NAMES as TERMINATIONS;
 pub use pack::Packed;
 pub use rules::{Action, Limit, Outcome, SpriteType};

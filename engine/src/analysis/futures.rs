@@ -5,7 +5,6 @@ use super::encounter::{EffectSummary, Encounter, Precondition, Side, timed_effec
 use super::facts::Facts;
 use crate::game::{Rules, SpriteType};
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
 
 /// An over-approximation of the sprites, resources and interactions that are possible from some start: any two types
 /// that can exist at all can meet.
@@ -133,7 +132,7 @@ impl<'a> PossibleFutures<'a> {
                 new = true;
             }
             new |= self.apply(Some(encounter.first), &encounter.effects);
-            if let Effect::AddTimer { timed } = self.rules.effects[usize::from(encounter.effect)].effect {
+            if let Some(timed) = self.rules.effects[usize::from(encounter.effect)].summary.schedules {
                 new |= !std::mem::replace(&mut self.timed[usize::from(timed)], true);
             }
         }
@@ -141,7 +140,7 @@ impl<'a> PossibleFutures<'a> {
             if self.timed[timed] && target.is_none_or(|target| self.can_apply(target)) {
                 new |= self.apply(*target, effects);
                 let effect = self.rules.timed[timed].effect;
-                if let Effect::AddTimer { timed } = self.rules.effects[usize::from(effect)].effect {
+                if let Some(timed) = self.rules.effects[usize::from(effect)].summary.schedules {
                     new |= !std::mem::replace(&mut self.timed[usize::from(timed)], true);
                 }
             }
@@ -253,13 +252,7 @@ fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];
     let mut mark =
         |stype: SpriteType| unlimited.get_mut(stype.index()).into_iter().for_each(|one| *one = true);
-    for info in &rules.effects {
-        match info.effect {
-            Effect::KillIfOtherHasMore { resource, limit, subtract: true } if limit < 0 => mark(resource),
-            Effect::SpawnIf { resource, spend, .. } if spend < 0 => mark(resource),
-            _ => {}
-        }
-    }
+    rules.effects.iter().filter_map(|info| info.summary.overfills).for_each(&mut mark);
     for traits in rules.types.iter().map(|info| &info.traits).filter(|traits| traits.ammo_cost < 0) {
         traits.ammo.iter().for_each(|&ammo| mark(ammo));
     }

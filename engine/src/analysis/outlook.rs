@@ -7,7 +7,7 @@ use super::futures::{PossibleFutures, Start};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::Draws;
 use crate::state::State;
 
 impl Analysis {
@@ -79,7 +79,7 @@ pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<
     let timed = rules.timed.iter().zip(&futures.timed).filter(|(_, live)| **live);
     let mut timed = timed.map(|(timed, _)| (None, timed.effect));
     let mut open = |(second, effect): (Option<SpriteType>, u16)| {
-        effect_draws(rules, futures, state, &rules.effects[usize::from(effect)].effect, second)
+        effect_draws(rules, futures, state, rules.effects[usize::from(effect)].summary.draws, second)
     };
     types.any(|stype| update_draws(rules, futures, state, stype)) || met.any(&mut open) || timed.any(open)
 }
@@ -121,18 +121,15 @@ fn effect_draws(
     rules: &Rules,
     futures: &PossibleFutures<'_>,
     state: Option<&State>,
-    effect: &Effect,
+    draws: Draws,
     second: Option<SpriteType>,
 ) -> bool {
-    match effect {
-        Effect::FlipDirection => true,
-        Effect::AttractGaze { prob, .. }
-        | Effect::Spawn { prob, .. }
-        | Effect::SpawnIf { prob, .. }
-        | Effect::SpawnBeside { prob, .. }
-        | Effect::SpawnBehind { prob, .. } => is_open(*prob),
-        Effect::TransformToRandomChild { options, .. } => options.len() > 1,
-        Effect::TeleportToExit => {
+    match draws {
+        Draws::Nothing => false,
+        Draws::Direction => true,
+        Draws::Chance(prob) | Draws::ChanceIfOriented(prob) => is_open(prob),
+        Draws::OneOf(types) => types > 1,
+        Draws::Exit => {
             // A single exit leaves no choice.
             let single = |exit: SpriteType| {
                 let few = state.is_some_and(|state| state.world.group(exit).count <= 1);
@@ -142,7 +139,6 @@ fn effect_draws(
             let portals = portals.iter().filter(|portal| futures.exists[portal.index()]);
             portals.filter_map(|portal| rules.types[portal.index()].leads_to()).any(|exit| !single(exit))
         }
-        _ => false,
     }
 }
 
@@ -177,11 +173,11 @@ pub(super) fn unseen(
         let Encounter { first, second, effect, .. } = encounter;
         mark(family(*first));
         second.iter().for_each(|second| mark(family(*second)));
-        match &rules.effects[usize::from(*effect)].effect {
-            Effect::TransformIfCount(rule) => mark(family(rule.counted)),
-            Effect::SpawnIfCounterSubTypes { counted, .. } => mark(family(*counted)),
-            _ => {}
-        }
+        let counted = rules.effects[usize::from(*effect)].summary.counts;
+        counted
+            .filter(|&counted| counted != SpriteType::NONE)
+            .into_iter()
+            .for_each(|counted| mark(family(counted)));
         for effect in &encounter.effects {
             if let EffectSummary::BecomeAll(from, _) = effect {
                 mark(&[*from]);

@@ -6,7 +6,7 @@ use super::encounter::{EffectSummary, Encounter};
 use super::facts::Motion;
 use crate::game::{EffectInfo, Rules, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{OrientationRead, Provided};
 
 impl Analysis {
     /// By type: exchanging two of its sprites changes nothing but their identity.
@@ -87,43 +87,18 @@ impl Analysis {
         let mut orientation_irrelevant: Vec<bool> =
             by_itself.map(|(info, facts)| plain(info) && facts.motion == Motion::Still).collect();
         for encounter in &self.encounters {
-            let effect = &rules.effects[usize::from(encounter.effect)].effect;
+            let reads = rules.effects[usize::from(encounter.effect)].summary.reads_orientation;
             let first = &rules.types[encounter.first.index()];
             let second = encounter.second.map(|second| &rules.types[second.index()]);
             for (orientation_irrelevant, at) in orientation_irrelevant.iter_mut().zip(0u16..) {
                 let stype = SpriteType(at);
-                *orientation_irrelevant &= !first.in_tree(stype) || is_blind_to_first(effect);
+                *orientation_irrelevant &= !first.in_tree(stype) || reads != OrientationRead::Either;
                 *orientation_irrelevant &=
-                    !second.is_some_and(|second| second.in_tree(stype)) || is_blind_to_second(effect);
+                    !second.is_some_and(|second| second.in_tree(stype)) || reads == OrientationRead::Neither;
             }
         }
         orientation_irrelevant
     }
-}
-
-/// Returns `true` if the effect does not read the orientation of a first sprite that is not oriented.
-fn is_blind_to_first(effect: &Effect) -> bool {
-    is_blind_to_second(effect) || matches!(effect, Effect::BounceForward)
-}
-
-/// Returns `true` if the effect does not read the orientation of a second sprite that is not oriented.
-fn is_blind_to_second(effect: &Effect) -> bool {
-    matches!(
-        effect,
-        Effect::KillSprite
-            | Effect::KillBoth
-            | Effect::KillAll { .. }
-            | Effect::KillIfHasLess { .. }
-            | Effect::KillIfHasMore { .. }
-            | Effect::KillIfOtherHasMore { .. }
-            | Effect::StepBack { pixel_perfect: false }
-            | Effect::UndoAll { .. }
-            | Effect::CollectResource { .. }
-            | Effect::ChangeResource { .. }
-            | Effect::AddHealthPoints { .. }
-            | Effect::SubtractHealthPoints { .. }
-            | Effect::TransformTo { force_orientation: false, .. }
-    )
 }
 
 /// Returns `true` if the update of such a sprite concerns that sprite alone.
@@ -170,41 +145,27 @@ fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
+fn holds(property: Provided, encounter: &Encounter, info: &EffectInfo) -> bool {
+    match property {
+        Provided::Never => false,
+        Provided::Free => is_free(encounter, info),
+        Provided::Always => true,
+    }
+}
+
 /// Returns `true` if the effect on the first sprite depends on it and its partner alone, and changes nothing else.
 fn is_local_to_first(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
-    let own = match info.effect {
-        Effect::KillSprite
-        | Effect::KillIfHasLess { .. }
-        | Effect::KillIfHasMore { .. }
-        | Effect::KillIfOtherHasMore { subtract: false, .. }
-        | Effect::StepBack { pixel_perfect: false }
-        | Effect::TurnAround
-        | Effect::ReverseDirection
-        | Effect::WrapAround { .. }
-        | Effect::BounceForward
-        | Effect::TransformTo { kill_second: false, .. }
-        | Effect::CollectResource { .. } => true,
-        Effect::UndoAll { .. } => is_free(encounter, info),
-        _ => false,
-    };
+    let own = holds(info.summary.is_local_to_first, encounter, info);
     own && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
 /// Returns `true` if the effect on the first sprite is the same whichever partner comes first.
 fn is_partner_independent(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
-    let once = match info.effect {
-        // The first sprite is gone and meets no other partner.
-        Effect::KillSprite | Effect::TransformTo { kill_second: false, force_orientation: false, .. } => true,
-        Effect::KillIfHasLess { .. }
-        | Effect::KillIfHasMore { .. }
-        | Effect::StepBack { pixel_perfect: false }
-        | Effect::UndoAll { .. } => is_free(encounter, info),
-        _ => false,
-    };
+    let once = holds(info.summary.is_partner_independent, encounter, info);
     once && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
 /// Returns `true` if everything is moved back, whichever sprites met.
 fn is_undo(info: &EffectInfo) -> bool {
-    matches!(info.effect, Effect::UndoAll { .. }) && info.score_change == 0 && info.counting.is_none()
+    info.summary.undoes().is_some() && info.score_change == 0 && info.counting.is_none()
 }

@@ -11,7 +11,7 @@ use super::win_methods::{WinMethod, WinMethods};
 use super::{Analysis, attain};
 use crate::game::SpriteType;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{Effect, SpeedChange};
+use crate::ontology::effects::{SpeedChange, SpeedEffect};
 use serde::{Deserialize, Serialize};
 
 /// The smallest amount of a resource that an exit must require for a collecting game; smaller amounts count as keys.
@@ -127,8 +127,8 @@ impl Analysis {
         // Sprites that stand still until an interaction gives them a speed.
         let sets_off = |encounter: &Encounter| {
             use SpeedChange as How;
-            let effect = &rules.effects[usize::from(encounter.effect)].effect;
-            let Effect::ChangeSpeed { stype, value, how: How::Set | How::Increase } = effect else {
+            let speed = &rules.effects[usize::from(encounter.effect)].summary.speed;
+            let Some(SpeedEffect::OfAll { stype, value, how: How::Set | How::Increase }) = speed else {
                 return false;
             };
             let starts = |stype: &SpriteType| {

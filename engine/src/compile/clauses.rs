@@ -340,7 +340,7 @@ impl<'a> Written<'a> {
         self.score("scoreChange");
         self.flag("applyScore", true);
         self.int("repeat", 1);
-        self.flag("inBatch", matches!(effect, Effect::WallBounce | Effect::WallReverse));
+        self.flag("inBatch", effect.summary().batch.is_some());
         if self.planned.is_some() {
             self.clock();
         }

@@ -5,7 +5,7 @@ use super::{Names, Policy, Setting, too_many};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed, TypeInfo};
 use crate::limits::MAX_INTERACTIONS;
-use crate::ontology::effects::{self, Arguments, Effect, Moves, Undeclared};
+use crate::ontology::effects::{self, Arguments, Moves, Undeclared};
 use crate::syntax::{Description, InteractionLine, Param, Word};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,7 +28,7 @@ impl Program {
         let executed = pairs.chain(self.edge.iter().copied()).chain(timed);
         // An edge pass of an undeclared type stops the game and has no effect.
         let given = executed
-            .filter_map(|(one, effect)| self.effects.get(usize::from(effect))?.effect.gives_speed(one));
+            .filter_map(|(one, effect)| self.effects.get(usize::from(effect))?.summary.gives_speed(one));
         let families = given.filter_map(|stype| types.get(stype.index()));
         families.flat_map(|info| info.tree.iter().copied()).collect()
     }
@@ -36,10 +36,7 @@ impl Program {
     /// Effects whose score depends on an earlier execution: an execution may leave the remembered flags alone, because
     /// the collected sprite is not a resource, or because there is no partner at the edge.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
-        let collects = |index: u16| {
-            let effect = &self.effects[usize::from(index)].effect;
-            matches!(effect, Effect::CollectResource { .. } | Effect::CollectResourceIfHeld { .. })
-        };
+        let collects = |index: u16| self.effects[usize::from(index)].summary.collects();
         let other = |&stype: &SpriteType| {
             let info = &types[stype.index()];
             info.class.is_some() && !info.traits.is_resource
@@ -165,7 +162,7 @@ pub(super) fn program(
         let one_by_one = ground_aware || one.repeats() || repeats;
         for effect in effects {
             let info = &program.effects[usize::from(effect)];
-            let either_side = match info.effect.moves() {
+            let either_side = match info.summary.moves {
                 _ if one_by_one || info.in_batch => false,
                 Moves::Nothing => true,
                 Moves::First => disjoint,
@@ -286,8 +283,7 @@ impl<'a> Reader<'a> {
     /// Compiles the line; `None` if there is no such effect.
     pub(super) fn line(&mut self, at: usize) -> Option<Built> {
         let name = self.line.effect.text.as_str();
-        let effect: Option<Effect> = effects::build(name, self);
-        let Some(effect) = effect else {
+        let Some(built) = effects::build(name, self).map(EffectInfo::of) else {
             self.unknown_effect(&self.line.effect);
             return None;
         };
@@ -297,7 +293,7 @@ impl<'a> Reader<'a> {
         let repeat = self.int("repeat", 1).max(0) as usize;
         let enabled = self.flag("enabled", true);
         let counting = self.counting();
-        let batches = matches!(effect, Effect::WallBounce | Effect::WallReverse);
+        let batches = built.summary.batch.is_some();
         let in_batch = self.flag("inBatch", batches);
         if in_batch && !batches {
             let message = "`inBatch=True` switches an effect off that has no batch form";
@@ -309,15 +305,8 @@ impl<'a> Reader<'a> {
         }
         self.leftovers(name);
         let score_faults = self.score_faults;
-        let info = EffectInfo {
-            score_change,
-            apply_score,
-            score_faults,
-            counting,
-            in_batch,
-            line: at,
-            ..EffectInfo::of(effect)
-        };
+        let info =
+            EffectInfo { score_change, apply_score, score_faults, counting, in_batch, line: at, ..built };
         Some(Built { info, keyword, repeat, enabled })
     }
 

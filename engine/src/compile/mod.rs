@@ -21,6 +21,7 @@ use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::Draws;
 use crate::ontology::sprites as behaviour;
 use crate::ontology::terminations::{Condition, Decision, Termination};
 use crate::syntax::{Description, Param, Word, print_bare};
@@ -140,7 +141,8 @@ fn compile_with(
         order,
         mapping,
         unusable,
-        draws: classes().any(behaviour::draws) || program.effects.iter().any(|info| info.effect.draws()),
+        draws: classes().any(behaviour::draws)
+            || program.effects.iter().any(|info| info.summary.draws != Draws::Nothing),
         first_differs: types.iter().any(|info| info.first_differs),
         remembering: program.remembering(&types),
         effects: program.effects,
@@ -271,8 +273,8 @@ fn report_sprites_that_never_exist(
     for traits in types.iter().map(|info| &info.traits) {
         there.extend(traits.stypes.iter().chain(&traits.ammo).chain(&traits.spawn_behind));
     }
-    for effect in program.effects.iter().map(|info| &info.effect) {
-        there.extend(effect.makes().into_iter().chain(effect.resource()));
+    for summary in program.effects.iter().map(|info| &info.summary) {
+        there.extend(summary.makes().into_iter().chain(summary.resource()));
     }
     for (_, line) in description.sprite_lines() {
         let name = &line.name.text;

@@ -2,6 +2,7 @@
 //!
 //! This is the only place that puts rules into words: prompts, cards and `arcade describe` all read it.
 
+mod fill;
 mod kind;
 mod level;
 mod rules;

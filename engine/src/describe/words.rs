@@ -51,16 +51,6 @@ impl Party {
     pub(super) fn verb<'a>(&self, with_you: &'a str, with_it: &'a str) -> &'a str {
         if self.you { with_you } else { with_it }
     }
-
-    /// The pronoun for a second mention: `you` or `it`.
-    pub(super) fn again(&self) -> &'static str {
-        if self.you { "you" } else { "it" }
-    }
-
-    /// The pronoun with a verb for people and things alike: `you hold`, `it holds`.
-    pub(super) fn again_holds(&self) -> &'static str {
-        if self.you { "you hold" } else { "it holds" }
-    }
 }
 
 /// The types below a type in the SpriteSet that can occur and have sprites; empty for a leaf type.

@@ -7,7 +7,7 @@ use crate::Digest;
 use crate::diagnostic::Diagnostic;
 use crate::flat::bytes_of_wrapper;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{Effect, Summary, TickSummary};
 use crate::ontology::terminations::Termination;
 use crate::ontology::traits::Traits;
 use crate::syntax::Description;
@@ -105,6 +105,8 @@ impl TypeInfo {
 #[derive(Clone, Debug)]
 pub(crate) struct EffectInfo {
     pub(crate) effect: Effect,
+    pub(crate) in_tick: TickSummary,
+    pub(crate) summary: Box<Summary>,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
     /// `true` for each of `scoreChange` and `scoreChangeIfKilled` that is not a number: it counts 0 and costs a message
@@ -146,8 +148,11 @@ pub(crate) struct Counting {
 impl EffectInfo {
     /// The effect alone: without a score, counters or a line of its own.
     pub(crate) fn of(effect: Effect) -> EffectInfo {
+        let summary = effect.summary();
         EffectInfo {
             effect,
+            in_tick: summary.in_tick(),
+            summary: Box::new(summary),
             score_change: 0,
             apply_score: true,
             score_faults: [false; 2],

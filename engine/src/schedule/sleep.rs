@@ -14,7 +14,7 @@ use super::Schedule;
 use super::flight::LONGEST_PERIOD;
 use crate::flat::bytes_of_fields;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{PutBack, TickSummary};
 use crate::ontology::physics;
 use crate::ontology::sprites::is_idle;
 use crate::rules::{EffectInfo, Pass, SpriteType, TypeInfo};
@@ -76,9 +76,8 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
     let any_large = types.iter().any(large);
     let is_put_back = |stype: SpriteType| {
         passes.iter().any(|pass| {
-            let effect = &effects[usize::from(pass.effect)].effect;
-            matches!(effect, Effect::StepBack { pixel_perfect: false })
-                && types[pass.first.index()].in_tree(stype)
+            let puts_back = effects[usize::from(pass.effect)].in_tick.puts_back;
+            puts_back == Some(PutBack::ToLastPlace) && types[pass.first.index()].in_tree(stype)
         })
     };
     let sought = |stype: SpriteType| {
@@ -184,21 +183,21 @@ impl Step<'_> {
     }
 
     /// Wakes and lands sprites before an effect is executed on a sprite.
-    pub(crate) fn prepare(&mut self, effect: &Effect, one: Slot) {
+    pub(crate) fn prepare(&mut self, effect: TickSummary, one: Slot) {
         self.land_one(one);
-        if effect.affects_distant_sprites() {
+        if effect.affects_distant_sprites {
             self.wake_and_land_all();
-        } else if matches!(effect, Effect::ShieldFrom { .. }) {
+        } else if effect.shields {
             self.wake_sleepers();
         }
     }
 
     /// Notes the execution of an effect on a sprite.
-    pub(crate) fn note(&mut self, effect: &Effect, free: bool, one: Slot, two: Option<Slot>) {
+    pub(crate) fn note(&mut self, effect: TickSummary, free: bool, one: Slot, two: Option<Slot>) {
         let pass = self.pass;
         let first = &mut self.world.sprites[usize::from(one)].activity;
         if *first != mark::NOTHING {
-            let back = matches!(effect, Effect::StepBack { pixel_perfect: false });
+            let back = effect.puts_back == Some(PutBack::ToLastPlace);
             *first = if back && free && *first == mark::MOVED && pass >= 0 {
                 pass as u16 + 1
             } else {
@@ -208,7 +207,7 @@ impl Step<'_> {
         if let Some(two) = two {
             let second = &mut self.world.sprites[usize::from(two)].activity;
             // Blocking another sprite changes nothing, unless it changes the score.
-            let harmless = free && matches!(effect, Effect::StepBack { .. });
+            let harmless = free && effect.puts_back.is_some();
             if *second != mark::NOTHING && !harmless {
                 *second = mark::DISTURBED;
             }

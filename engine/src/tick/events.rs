@@ -333,9 +333,9 @@ impl Step<'_> {
         }
         self.work_of_effect();
         if self.flies {
-            self.prepare(&info.effect, one);
+            self.prepare(info.in_tick, one);
             let free = info.score_change == 0 && info.counting.is_none();
-            self.note(&info.effect, free, one, two);
+            self.note(info.in_tick, free, one, two);
         }
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.world.memory[usize::from(effect)];
@@ -360,13 +360,13 @@ impl Step<'_> {
         }
         self.work(EFFECT_WORK * partners.len());
         if self.flies {
-            self.prepare(&info.effect, one);
+            self.prepare(info.in_tick, one);
             for &partner in partners.iter() {
                 self.land_one(partner);
-                self.note(&info.effect, false, one, Some(partner));
+                self.note(info.in_tick, false, one, Some(partner));
             }
         }
-        let times = effects::execute_batch(self, &info.effect, one, partners);
+        let times = effects::execute_batch(self, info, one, partners);
         self.credit(info, self.world.memory[usize::from(effect)], times);
     }
 

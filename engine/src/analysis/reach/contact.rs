@@ -7,32 +7,32 @@ use super::model::Model;
 use crate::game::SpriteType;
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{Effect, SpeedChange};
+use crate::ontology::effects::{Displacement, SpeedChange, SpeedEffect, Spot, Turn};
 
 impl Model<'_> {
     /// Applies the effects on speeds.
     pub(super) fn speed_up(&mut self, meeting: &Meeting<'_>) {
         let rules = self.rules;
-        match meeting.effect(rules) {
-            Effect::ChangeSpeed { stype, value, how } => {
+        match meeting.summary(rules).speed {
+            Some(SpeedEffect::OfAll { stype, value, how }) => {
                 for stype in &rules.types[stype.index()].tree {
                     let own = &mut self.mobility[stype.index()];
                     own.off_grid |= value.fract() != 0.0;
                     match how {
                         SpeedChange::Set => own.top = own.top.max(value.abs()),
-                        SpeedChange::Increase if *value == 0.0 => {}
-                        SpeedChange::Decrease if *value >= 0.0 => {}
+                        SpeedChange::Increase if value == 0.0 => {}
+                        SpeedChange::Decrease if value >= 0.0 => {}
                         SpeedChange::Increase | SpeedChange::Decrease => own.top = f64::INFINITY,
                     }
-                    own.backwards |= *value < 0.0;
+                    own.backwards |= value < 0.0;
                 }
             }
-            Effect::HalfSpeed => {
+            Some(SpeedEffect::Half) => {
                 if let Some(one) = meeting.one {
                     self.mobility[one.index()].off_grid = true;
                 }
             }
-            Effect::WallStop | Effect::WallReverse => {
+            Some(SpeedEffect::AtLeastGravity) => {
                 // The smallest speed after such a collision is gravity.
                 if let Some(one) = meeting.one {
                     let gravity = rules.types[one.index()].traits.gravity.max(0.2);
@@ -41,7 +41,7 @@ impl Model<'_> {
                     own.off_grid = true;
                 }
             }
-            _ => {}
+            Some(SpeedEffect::Force) | None => {}
         }
     }
 
@@ -77,23 +77,21 @@ impl Model<'_> {
     }
 
     pub(super) fn note_forces(&mut self, meeting: &Meeting<'_>) {
-        let effect = meeting.effect(self.rules);
-        if let Effect::TransformToSingleton { stype, take_orientation: true, .. } = effect {
-            self.takes_orientation[stype.index()] = true;
+        let summary = meeting.summary(self.rules);
+        if summary.takes_orientation {
+            for to in summary.becomes() {
+                self.takes_orientation[to.index()] = true;
+            }
         }
-        let forces = matches!(
-            effect,
-            Effect::BounceForward | Effect::WaterPhysics | Effect::WallBounce | Effect::TurnAround
-        );
-        if let (Some(one), true) = (meeting.one, forces) {
+        if let (Some(one), Some(SpeedEffect::Force)) = (meeting.one, summary.speed) {
             self.forced[one.index()] = true;
         }
     }
 
     pub(super) fn note_push(&mut self, meeting: &Meeting<'_>) {
         let carries = matches!(
-            meeting.effect(self.rules),
-            Effect::BounceForward | Effect::PullWithIt { .. } | Effect::TurnAround
+            meeting.summary(self.rules).displacement,
+            Some(Displacement::Pushed | Displacement::Carried { .. } | Displacement::BackAndDown)
         );
         if let (Some(one), true) = (meeting.one, carries) {
             let far = 2 * self.stride(self.carried(one, meeting.two().unwrap_or(one))).0;
@@ -104,133 +102,47 @@ impl Model<'_> {
 
     /// Applies the effect on orientations, and on the ability to move.
     pub(super) fn meet(&mut self, meeting: &Meeting<'_>) {
-        let rules = self.rules;
-        let effect = meeting.effect(rules);
-        if let Effect::TransformToAll { stype, to, force_orientation, .. } = effect {
-            return self.turn(*stype, *to, *force_orientation);
-        }
-        let Some(one) = meeting.one else { return };
+        let summary = meeting.summary(self.rules);
+        let all = summary.becomes_all();
+        let Some(one) = meeting.one else {
+            if let Some((from, to)) = all.filter(|_| !summary.needs_partner) {
+                self.turn(from, to, summary.forces_orientation);
+            }
+            return;
+        };
         let at = one.index();
         let two = meeting.two();
         let partner = two.map_or_else(Mobility::default, |two| self.mobility[two.index()]);
         let own = self.mobility[at];
         let mut new = own;
-        let face = |new: &mut Mobility, facing: Directions| {
-            new.facing = new.facing.with(facing);
-            new.straight = false;
-        };
-        match effect {
-            Effect::ReverseDirection => face(&mut new, own.facing.mirrored()),
-            Effect::TurnAround => {
-                face(&mut new, own.facing.mirrored());
-                // The steps down may start with turns.
-                if self.info(one).traits.rotate_in_place {
-                    face(&mut new, Directions::UP.with(Directions::DOWN));
-                }
-                new.goes_back = true;
-                new.moved = new.moved.with(Directions::DOWN).with(Directions::UP);
-                new.placed |= !self.info(one).traits.stationary;
+        if let Some(turn) = summary.turn {
+            self.face(one, two, turn, &mut new);
+        }
+        if let Some(displacement) = summary.displacement {
+            self.displace(one, two, displacement, &mut new);
+        }
+        if let Some(spot) = summary.spot {
+            let (off_grid, leaves) = match spot {
+                Spot::AtFirst => (own.off_grid, None),
+                Spot::Beside { .. } | Spot::Behind => (partner.off_grid, two),
+            };
+            for stype in summary.spawns() {
+                self.mobility[stype.index()].off_grid |= off_grid;
             }
-            Effect::FlipDirection => face(&mut new, Directions::FOUR),
-            Effect::BounceDirection { .. } => face(&mut new, Directions::ALL),
-            Effect::WallStop | Effect::WallBounce | Effect::WallReverse => {
-                let more =
-                    if own.facing.meets(Directions::ASKEW) { Directions::ALL } else { Directions::UNSET };
-                face(&mut new, own.facing.mirrored().with(more));
-                new.goes_back = true;
-                // Both move back, unless the effect stops only the first one.
-                if let Some(two) = two.filter(|_| !matches!(effect, Effect::WallStop)) {
-                    self.mobility[two.index()].goes_back = true;
-                }
-                new.placed |= matches!(effect, Effect::WallStop) && self.is_scaled(one);
+            // Equivalent to moving back: a sprite that it leaves behind is at its old position.
+            if let Some(two) = leaves {
+                self.mobility[two.index()].goes_back = true;
             }
-            Effect::StepBack { pixel_perfect } => {
-                new.goes_back = true;
-                let flush = *pixel_perfect && two.is_some();
-                new.off_grid |= flush && (!self.is_fixed_now(&partner) || partner.off_grid);
-                new.placed |= flush && self.is_scaled(one);
+        }
+        for to in summary.becomes() {
+            self.turn(one, to, summary.forces_orientation);
+            if summary.takes_orientation {
+                let next = &mut self.mobility[to.index()];
+                next.facing = next.facing.with(partner.facing.mirrored());
             }
-            Effect::Align { orient, .. } => {
-                if *orient {
-                    face(&mut new, partner.facing);
-                }
-                (new.placed, new.moved_any_distance) = (true, true);
-                new.moved = Directions::ALL;
-                new.off_grid |= partner.off_grid;
-            }
-            Effect::AttractGaze { align, .. } => {
-                face(&mut new, partner.facing);
-                if *align {
-                    (new.placed, new.moved_any_distance) = (true, true);
-                    new.moved = Directions::ALL;
-                    new.off_grid |= partner.off_grid;
-                }
-            }
-            Effect::BounceForward => {
-                let pushed = self.pushed(&partner);
-                face(&mut new, pushed.with(Directions::UNSET));
-                // Continuous physics treats a push as a force, which the type's own movement accounts for.
-                if !self.info(one).traits.stationary && !self.info(one).traits.continuous {
-                    new.moved = new.moved.with(pushed);
-                    new.off_grid |= partner.off_grid || pushed.meets(Directions::ASKEW);
-                    self.carry(one, two, &mut new);
-                }
-            }
-            Effect::PullWithIt { pixel_perfect } => {
-                face(&mut new, Directions::UNSET.with(own.facing));
-                new.moved = new.moved.with(partner.moved);
-                new.off_grid |= partner.off_grid || partner.moved.meets(Directions::ASKEW);
-                let onto = *pixel_perfect || self.info(one).traits.off_grid;
-                (new.placed, new.moved_any_distance) = (new.placed | onto, new.moved_any_distance | onto);
-                self.carry(one, two, &mut new);
-            }
-            Effect::TeleportToExit => {
-                let exits = two.map_or(&[][..], |two| &self.exits[two.index()]);
-                for exit in exits.iter().filter(|exit| self.exists[exit.index()]) {
-                    let exit = self.mobility[exit.index()];
-                    face(&mut new, exit.facing);
-                    (new.placed, new.moved_any_distance) = (true, true);
-                    new.moved = Directions::ALL;
-                    new.off_grid |= exit.off_grid;
-                }
-            }
-            Effect::WrapAround { offset } => {
-                (new.placed, new.moved_any_distance) = (true, true);
-                new.moved = Directions::ALL;
-                new.off_grid |= *offset != 0.0;
-            }
-            Effect::Spawn { stype, .. } | Effect::SpawnIf { stype, .. } => self.appear(*stype, own.off_grid),
-            Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => {
-                self.appear(*stype, own.off_grid);
-                self.appear(*otherwise, own.off_grid);
-            }
-            Effect::SpawnBeside { stype, .. } | Effect::SpawnBehind { stype, .. } => {
-                self.appear(*stype, partner.off_grid);
-                // Equivalent to moving back: a sprite that it leaves behind is at its old position.
-                if let Some(two) = two {
-                    self.mobility[two.index()].goes_back = true;
-                }
-            }
-            Effect::TransformTo { stype, force_orientation, .. } => {
-                self.turn(one, *stype, *force_orientation);
-            }
-            Effect::TransformIfCount(rule) => {
-                for to in std::iter::once(rule.stype).chain(rule.otherwise) {
-                    self.turn(one, to, rule.force_orientation);
-                }
-            }
-            Effect::TransformToRandomChild { options, force_orientation, .. } => {
-                options.iter().for_each(|&to| self.turn(one, to, *force_orientation));
-            }
-            Effect::TransformToSingleton { stype, other, take_orientation } => {
-                self.turn(one, *stype, true);
-                self.turn(*stype, *other, true);
-                if *take_orientation {
-                    let next = &mut self.mobility[stype.index()];
-                    next.facing = next.facing.with(partner.facing.mirrored());
-                }
-            }
-            _ => {}
+        }
+        if let Some((from, to)) = all {
+            self.turn(from, to, summary.forces_orientation);
         }
         // The changes that `turn` and `appear` made to the type itself remain.
         let now = &mut self.mobility[at];
@@ -242,6 +154,102 @@ impl Model<'_> {
         now.boundless |= new.boundless;
         now.straight &= new.straight;
         now.goes_back |= new.goes_back;
+    }
+
+    /// Applies a turn of a sprite that meets another one, if there is one.
+    fn face(&self, one: SpriteType, two: Option<SpriteType>, turn: Turn, new: &mut Mobility) {
+        let own = self.of_type(one);
+        let partner = two.map_or_else(Mobility::default, |two| *self.of_type(two));
+        let facing = match turn {
+            Turn::Back => own.facing.mirrored(),
+            Turn::AnyOfFour => Directions::FOUR,
+            Turn::Any => Directions::ALL,
+            Turn::OffWall if own.facing.meets(Directions::ASKEW) => Directions::ALL,
+            Turn::OffWall => own.facing.mirrored().with(Directions::UNSET),
+            Turn::OfPartner => partner.facing,
+            Turn::OfPush => self.pushed(&partner).with(Directions::UNSET),
+            Turn::OfRide => Directions::UNSET.with(own.facing),
+            Turn::OfExit => {
+                let mut exits = self.exits_of(two).peekable();
+                if exits.peek().is_none() {
+                    return;
+                }
+                exits.fold(Directions::NONE, |all, exit| all.with(exit.facing))
+            }
+        };
+        new.facing = new.facing.with(facing);
+        new.straight = false;
+    }
+
+    /// Applies a displacement of a sprite that meets another one, if there is one.
+    fn displace(
+        &mut self,
+        one: SpriteType,
+        two: Option<SpriteType>,
+        displacement: Displacement,
+        new: &mut Mobility,
+    ) {
+        let partner = two.map_or_else(Mobility::default, |two| *self.of_type(two));
+        let traits = &self.info(one).traits;
+        let put = |new: &mut Mobility, off_grid: bool| {
+            (new.placed, new.moved_any_distance) = (true, true);
+            new.moved = Directions::ALL;
+            new.off_grid |= off_grid;
+        };
+        match displacement {
+            Displacement::Back => new.goes_back = true,
+            Displacement::Flush => {
+                new.goes_back = true;
+                let flush = two.is_some();
+                new.off_grid |= flush && (!self.is_fixed_now(&partner) || partner.off_grid);
+                new.placed |= flush && self.is_scaled(one);
+            }
+            Displacement::Stop => {
+                new.goes_back = true;
+                new.placed |= self.is_scaled(one);
+            }
+            Displacement::Apart => {
+                new.goes_back = true;
+                if let Some(two) = two {
+                    self.mobility[two.index()].goes_back = true;
+                }
+            }
+            Displacement::BackAndDown => {
+                // The steps down may start with turns.
+                if traits.rotate_in_place {
+                    new.facing = new.facing.with(Directions::UP).with(Directions::DOWN);
+                    new.straight = false;
+                }
+                new.goes_back = true;
+                new.moved = new.moved.with(Directions::DOWN).with(Directions::UP);
+                new.placed |= !traits.stationary;
+            }
+            Displacement::OppositeEdge { offset } => put(new, offset != 0.0),
+            Displacement::OntoPartner | Displacement::InLine => put(new, partner.off_grid),
+            Displacement::Pushed => {
+                let pushed = self.pushed(&partner);
+                // Continuous physics treats a push as a force, which the type's own movement accounts for.
+                if !traits.stationary && !traits.continuous {
+                    new.moved = new.moved.with(pushed);
+                    new.off_grid |= partner.off_grid || pushed.meets(Directions::ASKEW);
+                    self.carry(one, two, new);
+                }
+            }
+            Displacement::Carried { onto } => {
+                new.moved = new.moved.with(partner.moved);
+                new.off_grid |= partner.off_grid || partner.moved.meets(Directions::ASKEW);
+                let onto = onto || traits.off_grid;
+                (new.placed, new.moved_any_distance) = (new.placed | onto, new.moved_any_distance | onto);
+                self.carry(one, two, new);
+            }
+            Displacement::Exit => self.exits_of(two).for_each(|exit| put(new, exit.off_grid)),
+        }
+    }
+
+    /// The movement of the exits that a sprite leads to.
+    fn exits_of(&self, two: Option<SpriteType>) -> impl Iterator<Item = &Mobility> {
+        let exits = two.map_or(&[][..], |two| &self.exits[two.index()]);
+        exits.iter().filter(|exit| self.exists[exit.index()]).map(|&exit| self.of_type(exit))
     }
 
     /// One type turns into another, which takes over its position, and perhaps its orientation.
@@ -259,10 +267,6 @@ impl Model<'_> {
         }
         // For a moment its last move is that of the old type, and its orientation that of the new one.
         (new.straight, new.moved_any_distance) = (false, true);
-    }
-
-    fn appear(&mut self, stype: SpriteType, off_grid: bool) {
-        self.mobility[stype.index()].off_grid |= off_grid;
     }
 
     /// Accounts for moving with another sprite's speed.

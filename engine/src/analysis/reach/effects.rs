@@ -5,68 +5,96 @@ use super::events::Events;
 use super::meetings::{Meeting, Order};
 use super::mobility::pushes_straight;
 use crate::game::SpriteType;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{Displacement, EffectSummary, Spot, Summary, Turn};
 
 impl Events<'_> {
     /// Applies an effect to the positions of sprites; those that it runs on are met in these cells.
     pub(super) fn run(&mut self, meeting: &Meeting<'_>, one: SpriteType, cells: &Cells) {
         let at = meeting.order;
-        let effect = meeting.effect(self.flood.model.rules);
+        let summary = meeting.summary(self.flood.model.rules);
         let own = self.near(one, cells);
-        self.turn_to(one, cells, effect);
-        match effect {
-            Effect::TurnAround => self.turn_around(one, cells, at),
-            Effect::WrapAround { offset } => self.wrap(one, &own, *offset, at),
-            Effect::Spawn { stype, .. } | Effect::SpawnIf { stype, .. } => self.spawn_in(*stype, &own, at),
-            Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => {
-                self.spawn_in(*stype, &own, at);
-                self.spawn_in(*otherwise, &own, at);
-            }
-            Effect::CloneSprite => self.spawn_in(one, &own, at),
-            Effect::TransformTo { stype, .. } => self.turn(one, *stype, cells, at),
-            Effect::TransformToRandomChild { options, .. } => {
-                options.iter().for_each(|&to| self.turn(one, to, cells, at));
-            }
-            Effect::TransformToAll { stype, to, .. } => self.become_all(*stype, *to, at),
-            _ => {
-                // Timed effects and those at the edge have no partner; without one most effects do nothing.
-                if let Some(two) = meeting.two() {
-                    self.run_on_both(at, (one, two), (cells, &own), effect);
-                }
-            }
+        self.turn_to(one, cells, summary);
+        if !summary.needs_partner && self.run_on_one(at, one, (cells, &own), summary) {
+            return;
+        }
+        // Timed effects and those at the edge have no partner; without one most effects do nothing.
+        if let Some(two) = meeting.two() {
+            self.run_on_both(at, (one, two), (cells, &own), summary);
         }
     }
 
-    /// Applies an effect that needs a partner.
+    /// Applies an effect that needs no partner. Returns `false` if it concerns no positions.
+    fn run_on_one(
+        &mut self,
+        at: Order,
+        one: SpriteType,
+        (cells, own): (&Cells, &Cells),
+        summary: &Summary,
+    ) -> bool {
+        let mut any = true;
+        match summary.displacement {
+            Some(Displacement::BackAndDown) => self.turn_around(one, cells, at),
+            Some(Displacement::OppositeEdge { offset }) => self.wrap(one, own, offset, at),
+            Some(
+                Displacement::Back
+                | Displacement::Flush
+                | Displacement::Stop
+                | Displacement::Apart
+                | Displacement::OntoPartner
+                | Displacement::InLine
+                | Displacement::Pushed
+                | Displacement::Carried { .. }
+                | Displacement::Exit,
+            )
+            | None => any = false,
+        }
+        if summary.spot == Some(Spot::AtFirst) {
+            summary.spawns().for_each(|stype| self.spawn_in(stype, own, at));
+            any = true;
+        }
+        if summary.effects.contains(&EffectSummary::Clone) {
+            self.spawn_in(one, own, at);
+            any = true;
+        }
+        for to in summary.becomes() {
+            self.turn(one, to, cells, at);
+            any = true;
+        }
+        if let Some((from, to)) = summary.becomes_all() {
+            self.become_all(from, to, at);
+            any = true;
+        }
+        any
+    }
+
+    /// Applies an effect to two sprites that meet.
     fn run_on_both(
         &mut self,
         at: Order,
         (one, two): (SpriteType, SpriteType),
         (cells, own): (&Cells, &Cells),
-        effect: &Effect,
+        summary: &Summary,
     ) {
         let model = self.flood.model;
         let partner = self.near(two, cells);
-        match effect {
-            Effect::TransformIfCount(rule) => {
-                for to in std::iter::once(rule.stype).chain(rule.otherwise) {
-                    self.turn(one, to, cells, at);
-                }
-            }
-            Effect::TransformToSingleton { stype, other, .. } => {
-                self.become_all(*stype, *other, at);
-                self.turn(one, *stype, cells, at);
-            }
-            Effect::SpawnBeside { stype, shift, step_back, .. } => {
-                let from = if *step_back { self.touch(two).clone() } else { partner };
-                let beside = self.board().beside(&from, *shift);
-                self.spawn_in(*stype, &beside, at);
-            }
-            Effect::SpawnBehind { stype, .. } => {
-                let from = self.touch(two).clone();
-                self.spawn_in(*stype, &from, at);
-            }
-            Effect::StepBack { pixel_perfect: true } | Effect::WallStop => {
+        if let Some((from, to)) = summary.becomes_all() {
+            self.become_all(from, to, at);
+        }
+        for to in summary.becomes() {
+            self.turn(one, to, cells, at);
+        }
+        let from = match summary.spot {
+            Some(Spot::Beside { shift, of_last_place: false }) => self.board().beside(&partner, shift),
+            Some(Spot::Beside { shift, of_last_place: true }) => self.board().beside(self.touch(two), shift),
+            Some(Spot::Behind) => self.touch(two).clone(),
+            Some(Spot::AtFirst) => own.clone(),
+            None => Cells::default(),
+        };
+        if summary.spot.is_some() {
+            summary.spawns().for_each(|stype| self.spawn_in(stype, &from, at));
+        }
+        match summary.displacement {
+            Some(Displacement::Flush | Displacement::Stop) => {
                 // Flush with a moving sprite, or with one that it was inside of, it may stand where its own movement
                 // would not have taken it.
                 let inside = !cells.shared(self.rest(one)).is_empty();
@@ -75,29 +103,36 @@ impl Events<'_> {
                     self.come_to(one, &flush, at);
                 }
             }
-            Effect::Align { .. } => {
+            Some(Displacement::OntoPartner) => {
                 let more = if model.scales { model.spread(one) } else { 0 };
                 let targets = self.board().around(&partner, more);
                 self.come_to(one, &targets, at);
             }
-            Effect::AttractGaze { align: true, .. } => {
+            Some(Displacement::InLine) => {
                 let targets = self.board().around(cells, 1 + model.rules.reach.max(1));
                 self.come_to(one, &targets, at);
             }
-            Effect::BounceForward => self.push((one, two), own, at),
-            Effect::PullWithIt { pixel_perfect } => {
+            Some(Displacement::Pushed) => self.push((one, two), own, at),
+            Some(Displacement::Carried { onto }) => {
                 self.pull((one, two), own, at);
-                if *pixel_perfect {
+                if onto {
                     self.come_to(one, &partner, at);
                 }
             }
-            Effect::TeleportToExit => {
+            Some(Displacement::Exit) => {
                 for &exit in model.exits[two.index()].iter().filter(|exit| model.exists[exit.index()]) {
                     let targets = self.touch(exit).clone();
                     self.come_to(one, &targets, at);
                 }
             }
-            _ => {}
+            // A sprite that goes back was there before.
+            Some(
+                Displacement::Back
+                | Displacement::Apart
+                | Displacement::BackAndDown
+                | Displacement::OppositeEdge { .. },
+            )
+            | None => {}
         }
     }
 
@@ -127,29 +162,14 @@ impl Events<'_> {
     }
 
     /// Applies an effect to the direction of the sprites that it runs on in these cells.
-    fn turn_to(&mut self, one: SpriteType, cells: &Cells, effect: &Effect) {
+    fn turn_to(&mut self, one: SpriteType, cells: &Cells, summary: &Summary) {
         let model = self.flood.model;
         let own = *model.of_type(one);
-        let turn = |heading: Directions| match effect {
-            Effect::ReverseDirection => heading.mirrored(),
-            Effect::TurnAround if !model.info(one).traits.rotate_in_place => heading.mirrored(),
-            _ => own.facing,
-        };
-        let turns = matches!(
-            effect,
-            Effect::ReverseDirection
-                | Effect::TurnAround
-                | Effect::FlipDirection
-                | Effect::BounceDirection { .. }
-                | Effect::WallStop
-                | Effect::WallBounce
-                | Effect::WallReverse
-                | Effect::Align { .. }
-                | Effect::AttractGaze { .. }
-                | Effect::BounceForward
-                | Effect::PullWithIt { .. }
-                | Effect::TeleportToExit
-        );
+        let rotates = model.info(one).traits.rotate_in_place;
+        let reverses = summary.turn == Some(Turn::Back)
+            && !(rotates && summary.displacement == Some(Displacement::BackAndDown));
+        let turn = |heading: Directions| if reverses { heading.mirrored() } else { own.facing };
+        let turns = summary.turn.is_some() || summary.displacement == Some(Displacement::OntoPartner);
         if !turns || !own.is_steady() {
             return;
         }

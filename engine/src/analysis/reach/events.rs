@@ -5,7 +5,7 @@ use super::cells::{Board, Cells, Directions};
 use super::flood::Flood;
 use super::meetings::{End, Meeting, Order, RemovalScope, With};
 use crate::game::SpriteType;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{Displacement, Gives};
 use std::collections::BTreeMap;
 
 /// An unlimited amount of a resource: more than any rule requires.
@@ -130,16 +130,15 @@ impl<'a> Events<'a> {
                 continue;
             }
             let value = i64::from(self.flood.model.info(one).traits.value);
-            let (resource, giver, each, once) = match *meeting.effect(self.flood.model.rules) {
-                Effect::CollectResource { kill_resource }
-                | Effect::CollectResourceIfHeld { kill_resource, .. } => {
-                    (self.flood.model.info(one).traits.resource, one, value, kill_resource)
+            let (resource, giver, each, once) = match meeting.summary(self.flood.model.rules).gives {
+                Some(Gives::First { used_up }) => {
+                    (self.flood.model.info(one).traits.resource, one, value, used_up)
                 }
-                Effect::ChangeResource { resource, value, kill_resource } => {
+                Some(Gives::Amount { resource, value, used_up }) => {
                     // A sprite that has been used up can be met once more in the same tick.
-                    (resource, two, i64::from(value) * i64::from(meeting.times), kill_resource)
+                    (resource, two, i64::from(value) * i64::from(meeting.times), used_up)
                 }
-                _ => continue,
+                None => continue,
             };
             let cells = self.met(one, two, meeting.order);
             self.flood.work += self.sweep();
@@ -200,15 +199,11 @@ impl<'a> Events<'a> {
         let version =
             |stype: Option<SpriteType>| stype.map_or(0, |stype| self.flood.regions[stype.index()].version);
         let versions = (version(meeting.one), version(meeting.two()));
-        let effect = meeting.effect(self.flood.model.rules);
+        let summary = meeting.summary(self.flood.model.rules);
         // These depend on more than the two regions.
-        let far = matches!(
-            effect,
-            Effect::TeleportToExit
-                | Effect::TransformToAll { .. }
-                | Effect::TransformToSingleton { .. }
-                | Effect::UpdateSpawnType { .. }
-        );
+        let far = summary.displacement == Some(Displacement::Exit)
+            || summary.becomes_all().is_some()
+            || summary.redirects.is_some();
         if (self.seen[at] == versions && !far) || !self.can_be(meeting.precondition) {
             return false;
         }
@@ -238,8 +233,9 @@ impl<'a> Events<'a> {
 
     /// Applies an effect that runs on no particular sprite.
     fn at_large(&mut self, meeting: &Meeting<'_>) {
-        if let Effect::TransformToAll { stype, to, .. } = *meeting.effect(self.flood.model.rules) {
-            self.become_all(stype, to, meeting.order);
+        let summary = meeting.summary(self.flood.model.rules);
+        if let Some((from, to)) = summary.becomes_all().filter(|_| !summary.needs_partner) {
+            self.become_all(from, to, meeting.order);
         }
         self.end(meeting, &Cells::default());
     }

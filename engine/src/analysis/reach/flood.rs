@@ -5,7 +5,7 @@ use super::meetings::{End, Meeting, Order, With};
 use super::mobility::is_stop;
 use super::model::Model;
 use crate::game::SpriteType;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{Displacement, EffectSummary, Precondition, Side};
 
 /// The largest number of cells to examine; beyond it the answer is coarse. Usual levels need tens of thousands.
 const BUDGET: u64 = 1 << 23;
@@ -127,7 +127,7 @@ impl<'a> Flood<'a> {
     /// Records the bars that a meeting creates.
     fn add_bars(&mut self, meeting: &Meeting<'_>, wraps: &[bool]) {
         let model = self.model;
-        let (Some(one), effect) = (meeting.one, meeting.effect(model.rules)) else { return };
+        let (Some(one), summary) = (meeting.one, meeting.summary(model.rules)) else { return };
         if !meeting.certain || meeting.with == With::NoPartner {
             return;
         }
@@ -139,24 +139,29 @@ impl<'a> Flood<'a> {
             }
         };
         let own = model.of_type(one);
-        match effect {
-            Effect::UndoAll { spare } => {
-                let undone = |stype: SpriteType| !spare.contains(&stype) && model.info(stype).order.is_some();
-                if undone(one) {
-                    bar(self, one, meeting.two(), false);
-                }
-                if let Some(two) = meeting.two().filter(|&two| undone(two)) {
-                    bar(self, two, Some(one), false);
-                }
+        if let Some(spare) = summary.undoes() {
+            let undone = |stype: SpriteType| !spare.contains(&stype) && model.info(stype).order.is_some();
+            if undone(one) {
+                bar(self, one, meeting.two(), false);
             }
+            if let Some(two) = meeting.two().filter(|&two| undone(two)) {
+                bar(self, two, Some(one), false);
+            }
+            return;
+        }
+        let flush = matches!(summary.displacement, Some(Displacement::Flush | Displacement::Stop));
+        let wraps_here = matches!(summary.displacement, Some(Displacement::OppositeEdge { .. }))
+            && meeting.with == With::Edge
+            && wraps[one.index()];
+        let kills = summary.effects[..] == [EffectSummary::Kill(Side::First)]
+            && summary.precondition == Precondition::Always;
+        if wraps_here {
+            bar(self, one, None, false);
+        } else if kills && !is_avatar {
+            bar(self, one, meeting.two(), true);
+        } else if is_stop(meeting, summary) && !(flush && own.comes_from_far()) {
             // A sprite that can skip cells, placed flush with its partner, may stand where another one stands.
-            Effect::StepBack { pixel_perfect: true } | Effect::WallStop if own.comes_from_far() => {}
-            Effect::WrapAround { .. } if meeting.with == With::Edge && wraps[one.index()] => {
-                bar(self, one, None, false);
-            }
-            Effect::KillSprite | Effect::KillIfAlive if !is_avatar => bar(self, one, meeting.two(), true),
-            effect if is_stop(meeting, effect) => bar(self, one, meeting.two(), false),
-            _ => {}
+            bar(self, one, meeting.two(), false);
         }
     }
 
@@ -182,13 +187,23 @@ impl<'a> Flood<'a> {
         let mut wraps: Vec<bool> =
             (0..model.exists.len()).map(|at| goes_ahead(SpriteType(at as u16))).collect();
         for meeting in model.meetings {
-            let disturbs = match meeting.effect(model.rules) {
-                Effect::WrapAround { offset } => !(0.0..=1.0).contains(offset),
-                Effect::BounceForward
-                | Effect::PullWithIt { .. }
-                | Effect::Align { .. }
-                | Effect::TurnAround => true,
-                _ => meeting.with == With::Edge,
+            let disturbs = match meeting.summary(model.rules).displacement {
+                Some(Displacement::OppositeEdge { offset }) => !(0.0..=1.0).contains(&offset),
+                Some(
+                    Displacement::Pushed
+                    | Displacement::Carried { .. }
+                    | Displacement::OntoPartner
+                    | Displacement::BackAndDown,
+                ) => true,
+                Some(
+                    Displacement::Back
+                    | Displacement::Flush
+                    | Displacement::Stop
+                    | Displacement::Apart
+                    | Displacement::InLine
+                    | Displacement::Exit,
+                )
+                | None => meeting.with == With::Edge,
             };
             match meeting.one {
                 _ if meeting.with == With::NoPartner => wraps.fill(false),

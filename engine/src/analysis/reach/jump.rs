@@ -20,7 +20,7 @@ use super::meetings::{Meeting, Order, With};
 use super::model::Model;
 use crate::game::SpriteType;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{Displacement, EffectSummary, SpeedEffect};
 
 /// Returns the number of rows that one jump of such a sprite can lift it, if it is subject to gravity.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
@@ -48,35 +48,35 @@ pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
 
 /// Returns `true` if an effect gives a sprite a velocity or a position that is not its own doing.
 fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
-    let effect = meeting.effect(model.rules);
+    let summary = meeting.summary(model.rules);
     // A new sprite may take over an orientation.
-    if effect.makes().contains(&stype) {
+    if summary.makes().contains(&stype) {
         return true;
     }
-    if let Effect::ChangeSpeed { stype: family, .. } = effect {
-        return model.info(*family).in_tree(stype);
+    if let Some(SpeedEffect::OfAll { stype: family, .. }) = summary.speed {
+        return model.info(family).in_tree(stype);
     }
     let own = meeting.one == Some(stype);
-    match effect {
-        Effect::TurnAround
-        | Effect::ReverseDirection
-        | Effect::FlipDirection
-        | Effect::WrapAround { .. }
-        | Effect::Align { .. }
-        | Effect::AttractGaze { .. }
-        | Effect::BounceForward
-        | Effect::PullWithIt { .. }
-        | Effect::TeleportToExit
-        | Effect::BounceDirection { .. }
-        | Effect::WallBounce
-        | Effect::WallReverse
-        | Effect::CloneSprite
-        | Effect::WaterPhysics => own,
+    match summary.displacement {
         // A sprite flush with a moving one is lifted by it.
-        Effect::WallStop | Effect::StepBack { pixel_perfect: true } => {
+        Some(Displacement::Flush | Displacement::Stop) => {
             own && meeting.two().is_some_and(|two| !model.stops_in_order(stype, two))
         }
-        _ => own && meeting.with == With::NoPartner,
+        Some(
+            Displacement::Apart
+            | Displacement::BackAndDown
+            | Displacement::OppositeEdge { .. }
+            | Displacement::OntoPartner
+            | Displacement::InLine
+            | Displacement::Pushed
+            | Displacement::Carried { .. }
+            | Displacement::Exit,
+        ) => own,
+        Some(Displacement::Back) | None => {
+            let forced = summary.turn.is_some() || summary.speed == Some(SpeedEffect::Force);
+            let cloned = summary.effects.contains(&EffectSummary::Clone);
+            own && (forced || cloned || meeting.with == With::NoPartner)
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::super::futures::PossibleFutures;
 use crate::game::{Rules, SpriteType};
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::Summary;
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -109,8 +109,8 @@ impl Meeting<'_> {
         }
     }
 
-    pub(super) fn effect<'r>(&self, rules: &'r Rules) -> &'r Effect {
-        &rules.effects[usize::from(self.effect)].effect
+    pub(super) fn summary<'r>(&self, rules: &'r Rules) -> &'r Summary {
+        &rules.effects[usize::from(self.effect)].summary
     }
 }
 
@@ -126,10 +126,7 @@ pub(super) fn meetings<'a>(
     };
     let live = futures.encounters().iter().enumerate().filter(|(at, _)| futures.live[*at]);
     let timed = rules.timed.iter().zip(timed_effects).zip(&futures.timed).filter(|(_, live)| **live);
-    let shield = |effect: u16| match rules.effects[usize::from(effect)].effect {
-        Effect::ShieldFrom { stype, keyword } => Some((stype, keyword)),
-        _ => None,
-    };
+    let shield = |effect: u16| rules.effects[usize::from(effect)].summary.shield;
     let effects = live.clone().map(|(_, encounter)| encounter.effect);
     let effects = effects.chain(timed.clone().map(|((timed, _), _)| timed.effect));
     let shields: BTreeSet<_> = effects.filter_map(shield).collect();
@@ -160,8 +157,7 @@ pub(super) fn meetings<'a>(
     for (number, encounter) in live {
         let Encounter { first, second, effect, precondition, ref effects, .. } = *encounter;
         let info = &rules.effects[usize::from(effect)];
-        let batches = matches!(info.effect, Effect::WallBounce | Effect::WallReverse);
-        if info.in_batch && !batches {
+        if info.in_batch && info.summary.batch.is_none() {
             // It is never run.
             continue;
         }

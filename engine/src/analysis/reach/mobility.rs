@@ -6,7 +6,7 @@ use super::model::Model;
 use crate::game::SpriteType;
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{EffectSummary, Summary};
 use crate::ontology::sprites::is_idle;
 
 /// The largest number of cells that a sprite may cross in a tick, off the grid's axes; a faster one is assumed to be
@@ -213,16 +213,7 @@ fn is_driven(class: SpriteClass) -> bool {
 }
 
 /// Returns `true` if an effect at the edge, or with a partner, stops every sprite of the type, whatever it holds.
-pub(super) fn is_stop(meeting: &Meeting<'_>, effect: &Effect) -> bool {
-    let partner = !matches!(meeting.with, With::NoPartner);
-    partner
-        && matches!(
-            effect,
-            Effect::StepBack { .. }
-                | Effect::TurnAround
-                | Effect::WallStop
-                | Effect::WallBounce
-                | Effect::WallReverse
-                | Effect::UndoAll { .. }
-        )
+pub(super) fn is_stop(meeting: &Meeting<'_>, summary: &Summary) -> bool {
+    let stops = |effect: &EffectSummary| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_));
+    meeting.with != With::NoPartner && summary.effects.iter().any(stops)
 }

@@ -6,7 +6,7 @@ use super::meetings::Meeting;
 use super::mobility::{Mobility, pushes_straight};
 use crate::game::{Rules, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Effect;
+use crate::ontology::effects::{Displacement, EffectSummary, Redirection};
 use std::collections::BTreeSet;
 
 /// The largest number of meetings processed in all the rounds of the fixed point; usual games take some hundreds.
@@ -68,7 +68,9 @@ impl<'a> Model<'a> {
         };
         let mut exits: Vec<Vec<_>> = rules.types.iter().map(exits).collect();
         for meeting in meetings {
-            let Effect::UpdateSpawnType { stype, spawn_point } = *meeting.effect(rules) else { continue };
+            let Some(Redirection { spawn_point, to: stype }) = meeting.summary(rules).redirects else {
+                continue;
+            };
             for family in &rules.types[spawn_point.index()].tree {
                 let new = !exits[family.index()].contains(&stype);
                 if rules.types[family.index()].class.is_some_and(spawns) && new {
@@ -129,7 +131,7 @@ impl<'a> Model<'a> {
         }
         let undoing = self.meetings.iter().map(|meeting| meeting.effect).collect::<BTreeSet<u16>>();
         for effect in undoing {
-            let Effect::UndoAll { spare } = &self.rules.effects[usize::from(effect)].effect else { continue };
+            let Some(spare) = self.rules.effects[usize::from(effect)].summary.undoes() else { continue };
             for &stype in &types {
                 self.mobility[stype.index()].goes_back |= !spare.contains(&stype);
             }
@@ -162,11 +164,15 @@ impl<'a> Model<'a> {
 
     /// Returns the number of types that a meeting concerns.
     fn size(&self, meeting: &Meeting<'_>) -> usize {
-        match meeting.effect(self.rules) {
-            Effect::TransformToRandomChild { options, .. } => options.len(),
-            Effect::TeleportToExit => meeting.two().map_or(1, |two| self.exits[two.index()].len()),
-            _ => 1,
+        let summary = meeting.summary(self.rules);
+        if summary.displacement == Some(Displacement::Exit) {
+            return meeting.two().map_or(1, |two| self.exits[two.index()].len());
         }
+        let options = summary.effects.iter().find_map(|effect| match effect {
+            EffectSummary::BecomeAny(options) => Some(options.len()),
+            _ => None,
+        });
+        options.unwrap_or(1)
     }
 
     /// Returns the largest number of cells that others can move a sprite of the type in a tick.

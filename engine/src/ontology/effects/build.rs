@@ -1,6 +1,6 @@
 //! Construction of an [`Effect`] from an interaction line: keywords, required and optional parameters (`spec/03` §2).
 
-use super::{Effect, SpeedChange, TransformIfCount};
+use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, TransformIfCount};
 use crate::rules::SpriteType;
 
 /// The parameters of a line, typed on demand. Getters report problems and continue with a default, so that all problems
@@ -120,23 +120,23 @@ effects! {
     "spawnAbove" => beside(args, (0, -1)),
     "spawnBehind" => Effect::SpawnBehind { stype: args.sprite("stype"), prob: args.number("prob", 1.0) },
     "spawnBelow" => beside(args, (0, 1)),
-    "spawnIfCounterSubTypes" => Effect::SpawnIfCounterSubTypes {
+    "spawnIfCounterSubTypes" => Effect::SpawnIfCounterSubTypes(SpawnIfCounterSubTypes {
         stype: args.sprite("stype"),
         otherwise: args.sprite("estype"),
         counted: args.sprite("stypeCount"),
         limit: args.int("limit", 0),
         kinds: args.int("subTypesNum", -1),
-    },
+    }),
     "spawnIfHasLess" | "spawnIfHasMore" => {
         let more = keyword == "spawnIfHasMore";
-        Effect::SpawnIf {
+        Effect::SpawnIf(SpawnIf {
             resource: args.sprite("resource"),
             limit: args.int("limit", 0),
             stype: args.sprite("stype"),
             spend: if more { args.int("spend", 0) } else { 0 },
             prob: args.number("prob", 1.0),
             more,
-        }
+        })
     },
     "spawnLeft" => beside(args, (-1, 0)),
     "spawnRight" => beside(args, (1, 0)),

@@ -6,7 +6,9 @@ mod kill;
 mod motion;
 mod parameters;
 mod resource;
+mod sentences;
 mod spawn;
+mod summary;
 mod transform;
 mod walls;
 
@@ -19,6 +21,12 @@ use crate::world::{Slot, Timer, flag};
 pub use build::NAMES;
 pub(crate) use build::{Arguments, Undeclared, build};
 pub use parameters::{ParameterKind, effect_parameters};
+pub(crate) use sentences::{Sentence, Value};
+pub(crate) use summary::{
+    BatchForm, Displacement, Draws, Gives, Moves, OrientationRead, Provided, PutBack, Redirection,
+    SpeedEffect, Spot, Summary, TickSummary, Turn,
+};
+pub use summary::{EffectFamily, EffectSummary, Precondition, Side};
 
 /// An effect with its parameters, named as in VGDL.
 #[derive(Clone, Debug)]
@@ -96,14 +104,7 @@ pub(crate) enum Effect {
         stype: SpriteType,
         prob: f64,
     },
-    SpawnIf {
-        resource: SpriteType,
-        limit: i32,
-        stype: SpriteType,
-        spend: i32,
-        prob: f64,
-        more: bool,
-    },
+    SpawnIf(SpawnIf),
     SpawnBeside {
         stype: SpriteType,
         shift: (i32, i32),
@@ -156,13 +157,7 @@ pub(crate) enum Effect {
         stype: SpriteType,
         spawn_point: SpriteType,
     },
-    SpawnIfCounterSubTypes {
-        stype: SpriteType,
-        otherwise: SpriteType,
-        counted: SpriteType,
-        limit: i32,
-        kinds: i32,
-    },
+    SpawnIfCounterSubTypes(SpawnIfCounterSubTypes),
     TransformIfCount(Box<TransformIfCount>),
     TransformToSingleton {
         stype: SpriteType,
@@ -180,8 +175,8 @@ pub(crate) enum Effect {
     AddTimer {
         timed: u16,
     },
-    /// Makes the draws of the inner effect, and does nothing else (`ablation.rs`).
-    Disabled(Box<Effect>),
+    /// Makes the draws of the effect with this summary, and does nothing else (`ablation.rs`).
+    Disabled(Box<Summary>),
 }
 
 /// The parameters of transformIfCount.
@@ -196,6 +191,27 @@ pub(crate) struct TransformIfCount {
     pub(crate) force_orientation: bool,
 }
 
+/// The parameters of spawnIfHasMore and spawnIfHasLess.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpawnIf {
+    pub(crate) resource: SpriteType,
+    pub(crate) limit: i32,
+    pub(crate) stype: SpriteType,
+    pub(crate) spend: i32,
+    pub(crate) prob: f64,
+    pub(crate) more: bool,
+}
+
+/// The parameters of spawnIfCounterSubTypes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpawnIfCounterSubTypes {
+    pub(crate) stype: SpriteType,
+    pub(crate) otherwise: SpriteType,
+    pub(crate) counted: SpriteType,
+    pub(crate) limit: i32,
+    pub(crate) kinds: i32,
+}
+
 /// The difference between increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SpeedChange {
@@ -204,112 +220,10 @@ pub(crate) enum SpeedChange {
     Set,
 }
 
-/// The sprites that an effect may move when it runs; decides how a pass may look for hits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Moves {
-    Nothing,
-    First,
-    Anything,
-}
-
 impl Effect {
-    pub(crate) fn moves(&self) -> Moves {
-        match self {
-            Effect::StepBack { .. }
-            | Effect::TurnAround
-            | Effect::WrapAround { .. }
-            | Effect::Align { .. }
-            | Effect::AttractGaze { .. }
-            | Effect::BounceForward
-            | Effect::PullWithIt { .. }
-            | Effect::TeleportToExit
-            | Effect::WallStop => Moves::First,
-            Effect::UndoAll { .. } | Effect::WallBounce | Effect::WallReverse => Moves::Anything,
-            _ => Moves::Nothing,
-        }
-    }
-
-    /// The types of the sprites that it makes.
-    pub(crate) fn makes(&self) -> Vec<SpriteType> {
-        let mut types = self.named_types();
-        types.retain(|&stype| stype != SpriteType::NONE);
-        types
-    }
-
-    fn named_types(&self) -> Vec<SpriteType> {
-        match self {
-            Effect::Spawn { stype, .. }
-            | Effect::SpawnIf { stype, .. }
-            | Effect::SpawnBeside { stype, .. }
-            | Effect::SpawnBehind { stype, .. }
-            | Effect::TransformTo { stype, .. }
-            | Effect::TransformToAll { to: stype, .. }
-            | Effect::UpdateSpawnType { stype, .. } => vec![*stype],
-            Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => vec![*stype, *otherwise],
-            Effect::TransformToSingleton { stype, other, .. } => vec![*stype, *other],
-            Effect::TransformIfCount(rule) => std::iter::once(rule.stype).chain(rule.otherwise).collect(),
-            Effect::TransformToRandomChild { options, .. } => options.to_vec(),
-            _ => Vec::new(),
-        }
-    }
-
-    /// The resource that it changes or tests: such a type need not exist as a sprite.
-    pub(crate) fn resource(&self) -> Option<SpriteType> {
-        let resource = match self {
-            Effect::KillIfHasLess { resource, .. }
-            | Effect::KillIfHasMore { resource, .. }
-            | Effect::KillIfOtherHasMore { resource, .. }
-            | Effect::SpawnIf { resource, .. }
-            | Effect::ChangeResource { resource, .. } => Some(*resource),
-            Effect::CollectResourceIfHeld { held, .. } => Some(*held),
-            _ => None,
-        };
-        resource.filter(|&resource| resource != SpriteType::NONE)
-    }
-
-    /// Tests whether it can change, or read the place of, sprites that take no part in the meeting.
-    pub(crate) fn affects_distant_sprites(&self) -> bool {
-        matches!(
-            self,
-            Effect::KillAll { .. }
-                | Effect::SubtractHealthPoints { stype: Some(_), .. }
-                | Effect::UndoAll { .. }
-                | Effect::ChangeSpeed { .. }
-                | Effect::TransformToAll { .. }
-                | Effect::TransformToSingleton { .. }
-                | Effect::TransformIfCount(_)
-                | Effect::UpdateSpawnType { .. }
-                | Effect::TeleportToExit
-                | Effect::AddTimer { .. }
-        )
-    }
-
-    /// The type that it can give speed to when it is executed on sprites of `one`: sprites with grid physics and without
-    /// speed.
-    pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
-        match self {
-            Effect::ChangeSpeed { stype, .. } => Some(*stype),
-            Effect::WallStop | Effect::WallReverse => Some(one),
-            _ => None,
-        }
-    }
-
-    /// Tests whether executing it can draw random numbers.
-    pub(crate) fn draws(&self) -> bool {
-        if let Effect::Disabled(effect) = self {
-            return effect.draws();
-        }
-        matches!(
-            self,
-            Effect::FlipDirection
-                | Effect::AttractGaze { .. }
-                | Effect::TeleportToExit
-                | Effect::Spawn { .. }
-                | Effect::SpawnIf { .. }
-                | Effect::SpawnBeside { .. }
-                | Effect::SpawnBehind { .. }
-                | Effect::TransformToRandomChild { .. }
-        )
+    /// The effect whose executions make its draws, and have no consequences.
+    pub(crate) fn disabled(&self) -> Effect {
+        Effect::Disabled(Box::new(self.summary()))
     }
 }
 
@@ -343,7 +257,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::WrapAround { offset }, _) => motion::wrap_around(step, one, *offset),
         (Effect::ChangeSpeed { stype, value, how }, _) => motion::change_speed(step, *stype, *value, *how),
         (Effect::Spawn { stype, prob }, _) => spawn::here(step, one, *stype, *prob),
-        (Effect::SpawnIf { .. }, _) => spawn::if_amount(step, index, one, effect),
+        (Effect::SpawnIf(rule), _) => spawn::if_amount(step, index, one, rule),
         (Effect::CloneSprite, _) => spawn::clone(step, one),
         (Effect::TransformTo { stype, kill_second, force_orientation }, _) => {
             transform::to(step, one, two.filter(|_| *kill_second), *stype, *force_orientation);
@@ -367,10 +281,10 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::UpdateSpawnType { stype, spawn_point }, _) => {
             spawn::update_type(step, two, *stype, *spawn_point);
         }
-        (Effect::SpawnIfCounterSubTypes { .. }, _) => spawn::if_counter_subtypes(step, index, one, effect),
+        (Effect::SpawnIfCounterSubTypes(rule), _) => spawn::if_counter_subtypes(step, index, one, rule),
         (Effect::WaterPhysics, _) => step.world.extra(step.rules, one).gravity = 0.2,
         (Effect::AddTimer { timed }, _) => add_timer(step, *timed),
-        (Effect::Disabled(effect), _) => draw_only(step, effect, one, two),
+        (Effect::Disabled(summary), _) => draw_only(step, summary, one, two),
         (_, None) => step.message(),
         (Effect::KillBoth, Some(two)) => {
             step.kill(one);
@@ -425,12 +339,13 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
 }
 
 /// Runs a batch effect on a sprite and all its partners. Returns how often it counts.
-pub(crate) fn execute_batch(step: &mut Step<'_>, effect: &Effect, one: Slot, partners: &mut Partners) -> i32 {
-    match effect {
-        Effect::WallBounce => walls::bounce_batch(step, one, partners),
-        Effect::WallReverse => walls::reverse_batch(step, one, partners),
-        _ => 0,
-    }
+pub(crate) fn execute_batch(
+    step: &mut Step<'_>,
+    info: &EffectInfo,
+    one: Slot,
+    partners: &mut Partners,
+) -> i32 {
+    info.summary.batch.map_or(0, |BatchForm(run)| run(step, one, partners))
 }
 
 /// Runs a timed effect on no sprites at all (`spec/03` §6.4).
@@ -455,27 +370,71 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
         Effect::UpdateSpawnType { stype, spawn_point } => {
             spawn::update_type(step, None, *stype, *spawn_point)
         }
-        _ => step.message(),
+        // These need a sprite.
+        Effect::KillSprite
+        | Effect::KillBoth
+        | Effect::KillIfAlive
+        | Effect::KillIfFromAbove
+        | Effect::KillIfHasLess { .. }
+        | Effect::KillIfHasMore { .. }
+        | Effect::KillIfOtherHasMore { .. }
+        | Effect::KillIfFrontal { .. }
+        | Effect::KillIfSpeed { .. }
+        | Effect::AddHealthPoints { .. }
+        | Effect::StepBack { .. }
+        | Effect::TurnAround
+        | Effect::ReverseDirection
+        | Effect::FlipDirection
+        | Effect::HalfSpeed
+        | Effect::WrapAround { .. }
+        | Effect::Align { .. }
+        | Effect::AttractGaze { .. }
+        | Effect::BounceForward
+        | Effect::PullWithIt { .. }
+        | Effect::TeleportToExit
+        | Effect::Spawn { .. }
+        | Effect::SpawnIf(_)
+        | Effect::SpawnBeside { .. }
+        | Effect::SpawnBehind { .. }
+        | Effect::CloneSprite
+        | Effect::TransformTo { .. }
+        | Effect::TransformToRandomChild { .. }
+        | Effect::CollectResource { .. }
+        | Effect::CollectResourceIfHeld { .. }
+        | Effect::ChangeResource { .. }
+        | Effect::ShieldFrom { .. }
+        | Effect::RemoveScore { .. }
+        | Effect::SpawnIfCounterSubTypes(_)
+        | Effect::TransformIfCount(_)
+        | Effect::TransformToSingleton { .. }
+        | Effect::BounceDirection { .. }
+        | Effect::WallStop
+        | Effect::WallBounce
+        | Effect::WallReverse
+        | Effect::SubtractHealthPoints { .. } => step.message(),
     }
 }
 
 /// Makes the draws of an effect without the consequences, so that the random stream does not shift.
 #[cold]
-fn draw_only(step: &mut Step<'_>, effect: &Effect, one: Slot, two: Option<Slot>) {
-    match (effect, two) {
-        (Effect::FlipDirection, _) => {
+fn draw_only(step: &mut Step<'_>, summary: &Summary, one: Slot, two: Option<Slot>) {
+    if summary.needs_partner && two.is_none() {
+        return;
+    }
+    match summary.draws {
+        Draws::Nothing => {}
+        Draws::Direction => {
             step.world.chance.below(4);
         }
-        (Effect::Spawn { .. } | Effect::SpawnIf { .. }, _)
-        | (Effect::SpawnBeside { .. } | Effect::SpawnBehind { .. }, Some(_)) => {
+        Draws::Chance(_) => {
             step.world.chance.double();
         }
-        (Effect::TransformToRandomChild { options, .. }, _) if !options.is_empty() => {
-            step.world.chance.below(options.len() as i32);
+        Draws::ChanceIfOriented(_) => two.into_iter().for_each(|two| motion::draw_gaze(step, one, two)),
+        Draws::OneOf(0) => {}
+        Draws::OneOf(types) => {
+            step.world.chance.below(types as i32);
         }
-        (Effect::AttractGaze { .. }, Some(two)) => motion::draw_gaze(step, one, two),
-        (Effect::TeleportToExit, Some(two)) => motion::draw_exit(step, two),
-        _ => {}
+        Draws::Exit => two.into_iter().for_each(|two| motion::draw_exit(step, two)),
     }
 }
 
@@ -489,11 +448,10 @@ fn add_timer(step: &mut Step<'_>, timed: u16) {
 
 /// The score change of an execution; `true` if its text is not a number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
-    match info.effect {
-        Effect::SubtractHealthPoints { score_if_killed, .. } if remembered & memory::KILLED != 0 => {
-            (score_if_killed, info.score_faults[1])
-        }
-        _ => (info.score_change, info.score_faults[0]),
+    if remembered & memory::KILLED != 0 {
+        (info.summary.score_if_killed, info.score_faults[1])
+    } else {
+        (info.score_change, info.score_faults[0])
     }
 }
 

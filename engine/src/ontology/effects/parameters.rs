@@ -38,7 +38,7 @@ pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
 
 /// Records the requested parameters, and answers with defaults.
 #[derive(Default)]
-struct Recorder {
+pub(super) struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,
 }
 

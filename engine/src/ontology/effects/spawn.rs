@@ -1,6 +1,6 @@
 //! Effects that make sprites (`spec/03` §7.4). The draw comes first, even if the outcome is certain.
 
-use super::Effect;
+use super::{SpawnIf, SpawnIfCounterSubTypes};
 use crate::ontology::class::SpriteClass;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
@@ -16,8 +16,8 @@ pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64)
 }
 
 /// spawnIfHasMore and spawnIfHasLess; only the first can spend.
-pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, effect: &Effect) {
-    let Effect::SpawnIf { resource, limit, stype, spend, prob, more } = *effect else { return };
+pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, rule: &SpawnIf) {
+    let SpawnIf { resource, limit, stype, spend, prob, more } = *rule;
     step.apply_score(index, false);
     if step.world.chance.double() >= prob {
         return;
@@ -72,8 +72,8 @@ pub(super) fn clone(step: &mut Step<'_>, one: Slot) {
 }
 
 /// Spawns one of two types, depending on the number of sprites and of kinds of a third type.
-pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, effect: &Effect) {
-    let Effect::SpawnIfCounterSubTypes { stype, otherwise, counted, limit, kinds } = *effect else { return };
+pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, rule: &SpawnIfCounterSubTypes) {
+    let SpawnIfCounterSubTypes { stype, otherwise, counted, limit, kinds } = *rule;
     let rules = step.rules;
     let rect = step.world.sprite(one).rect;
     let mut met = false;

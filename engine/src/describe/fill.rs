@@ -1,0 +1,95 @@
+//! The templates of effects with their holes filled.
+
+use super::words::{Party, a, count, list, percent};
+use crate::analysis::Analysis;
+use crate::game::{SpriteType, Timed};
+use crate::ontology::effects::{Sentence, Value};
+
+/// The sentence of an effect for two parties that meet.
+pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
+    let both = Party { you: one.you || two.you, ..one.clone() };
+    let filler =
+        Filler { analysis, sentence, one: Some(one), two: Some(two), both: Some(&both), target: None };
+    filler.fill(sentence.meeting)
+}
+
+/// The sentence of an effect that runs by the clock, on every sprite of a type or on none in particular.
+pub(super) fn by_the_clock(analysis: &Analysis, timed: &Timed) -> String {
+    let sentence = analysis.game().0.effects[usize::from(timed.effect)].effect.sentence();
+    let target = timed.target;
+    Filler { analysis, sentence: &sentence, one: None, two: None, both: None, target }.fill(sentence.alone)
+}
+
+struct Filler<'a> {
+    analysis: &'a Analysis,
+    sentence: &'a Sentence,
+    one: Option<&'a Party>,
+    two: Option<&'a Party>,
+    both: Option<&'a Party>,
+    /// The type on whose sprites the effect runs, if it runs by the clock.
+    target: Option<SpriteType>,
+}
+
+impl Filler<'_> {
+    fn fill(&self, template: &str) -> String {
+        let mut text = String::new();
+        let mut rest = template;
+        while let Some((before, after)) = rest.split_once('{') {
+            let (hole, after) = after.split_once('}').expect("a hole of a template ends");
+            text += before;
+            text += &self.hole(hole);
+            rest = after;
+        }
+        text + rest
+    }
+
+    fn hole(&self, hole: &str) -> String {
+        let (name, forms) = hole.split_once(':').unwrap_or((hole, ""));
+        let party = match name {
+            "one" => self.one,
+            "two" => self.two,
+            "both" => self.both,
+            _ => None,
+        };
+        if let Some(party) = party {
+            return match forms.split_once('|') {
+                Some((with_you, with_it)) => party.verb(with_you, with_it).to_owned(),
+                None => party.name.clone(),
+            };
+        }
+        match name {
+            "alone" => self.fill(self.sentence.alone),
+            "every" => match self.target {
+                Some(stype) => format!("every {}", self.name(stype)),
+                None => "everything".to_owned(),
+            },
+            name => self.value(self.sentence.value(name).expect("a hole of a template has a value")),
+        }
+    }
+
+    fn value(&self, value: &Value) -> String {
+        let rules = &self.analysis.game().0;
+        match value {
+            Value::Name(stype) => self.name(*stype).to_owned(),
+            Value::A(stype) => a(self.name(*stype)),
+            Value::AnyOf(types) => {
+                let names: Vec<String> = types.iter().map(|&stype| a(self.name(stype))).collect();
+                list(&names, "or")
+            }
+            Value::Party(stype) => Party::of(self.analysis, *stype).name,
+            Value::Number(number) => number.to_string(),
+            Value::Decimal(number) => number.to_string(),
+            Value::Count(number, noun) => count(*number, noun),
+            Value::Chance(prob) if *prob < 1.0 => format!(" with a chance of {}", percent(*prob)),
+            Value::Chance(_) => String::new(),
+            Value::Text(text) => text.clone(),
+            Value::Part(part) => self.fill(part),
+            Value::Delay(timed) => count(i64::from(rules.timed[usize::from(*timed)].timer), "tick"),
+            Value::Planned(timed) => by_the_clock(self.analysis, &rules.timed[usize::from(*timed)]),
+        }
+    }
+
+    fn name(&self, stype: SpriteType) -> &str {
+        self.analysis.game().name(stype)
+    }
+}

@@ -1,0 +1,333 @@
+//! The sentence of each effect: a template with named holes, and the values for the holes.
+//!
+//! `engine::describe` fills the holes.
+//!
+//! Two holes are the sprites that meet: `{one}` and `{two}`. `{one:die|disappears}` is a word that agrees with a sprite:
+//! the first form is for the player, the second for anything else; `{both:…|…}` agrees with either. `{every}` is the
+//! sprites on which an effect runs by the clock. All other holes have values of their own.
+
+use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, TransformIfCount};
+use crate::game::SpriteType;
+use smallvec::SmallVec;
+
+/// The words of an effect.
+#[derive(Clone, Debug)]
+pub(crate) struct Sentence {
+    /// The template for two sprites that meet.
+    pub(crate) meeting: &'static str,
+    /// The template for an effect that runs by the clock. `{alone}` in [`Sentence::meeting`] is this one.
+    pub(crate) alone: &'static str,
+    values: SmallVec<[(&'static str, Value); 3]>,
+}
+
+/// The value of a hole.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    /// The name of a type.
+    Name(SpriteType),
+    /// The name of a type with its indefinite article.
+    A(SpriteType),
+    /// One of these types, with articles.
+    AnyOf(Box<[SpriteType]>),
+    /// A type as a party to a meeting.
+    Party(SpriteType),
+    Number(i64),
+    Decimal(f64),
+    /// A number of things.
+    Count(i64, &'static str),
+    /// A probability; certainty is not mentioned.
+    Chance(f64),
+    Text(String),
+    /// A part with holes of its own, or nothing.
+    Part(&'static str),
+    /// The delay of a timed effect.
+    Delay(u16),
+    /// The sentence of a timed effect.
+    Planned(u16),
+}
+
+impl Sentence {
+    fn of(meeting: &'static str) -> Sentence {
+        Sentence { meeting, alone: "something happens to {every}", values: SmallVec::new() }
+    }
+
+    fn alone(self, alone: &'static str) -> Sentence {
+        Sentence { alone, ..self }
+    }
+
+    fn with(mut self, hole: &'static str, value: Value) -> Sentence {
+        self.values.push((hole, value));
+        self
+    }
+
+    /// The part that tells of a partner that goes, too.
+    fn and_gone(self, gone: bool) -> Sentence {
+        self.part("gone", gone, ", and {two} {two:die|disappears}")
+    }
+
+    fn part(self, hole: &'static str, present: bool, part: &'static str) -> Sentence {
+        self.with(hole, Value::Part(if present { part } else { "" }))
+    }
+
+    /// The value of a hole.
+    pub(crate) fn value(&self, hole: &str) -> Option<&Value> {
+        self.values.iter().find(|(name, _)| *name == hole).map(|(_, value)| value)
+    }
+}
+
+impl Effect {
+    /// The row of the effect: its words.
+    pub(crate) fn sentence(&self) -> Sentence {
+        match *self {
+            Effect::KillSprite => Sentence::of("{one} {one:die|disappears} on touching {two}")
+                .alone("{every} disappears"),
+            Effect::KillIfAlive => Sentence::of("{one} {one:die|disappears} on touching {two}"),
+            Effect::KillBoth => Sentence::of("{one} and {two} both {both:die|disappear} when they touch"),
+            Effect::KillAll { stype } => Sentence::of("when {one} {one:touch|touches} {two}, {alone}")
+                .alone("every {type} disappears")
+                .with("type", Value::Name(stype)),
+            Effect::KillIfFromAbove => {
+                Sentence::of("{one} {one:die|disappears} if {two} {two:fall|falls} on {one:you|it} from above")
+            }
+            Effect::KillIfHasLess { resource, limit } => Sentence::of(
+                "{one} {one:die|disappears} on touching {two} unless {one:you hold|it holds} at least {least} {resource}",
+            )
+            .with("least", Value::Number(i64::from(limit) + 1))
+            .with("resource", Value::Name(resource)),
+            Effect::KillIfHasMore { resource, limit } => Sentence::of(
+                "{one} {one:die|disappears} on touching {two} if {one:you hold|it holds} at least {least} {resource}",
+            )
+            .with("least", Value::Number(limit.into()))
+            .with("resource", Value::Name(resource)),
+            Effect::KillIfOtherHasMore { resource, limit, subtract } => Sentence::of(
+                "{one} {one:die|disappears} on touching {two} if {two:you hold|that holds} at least {least} {resource}{spent}",
+            )
+            .with("least", Value::Number(limit.into()))
+            .with("resource", Value::Name(resource))
+            .part("spent", subtract, ", which uses them up"),
+            Effect::KillIfFrontal { frontal: true } => {
+                Sentence::of("{one} {one:die|disappears} on running into {two} head-on")
+            }
+            Effect::KillIfFrontal { frontal: false } => {
+                Sentence::of("{one} {one:die|disappears} on touching {two} unless they meet head-on")
+            }
+            Effect::KillIfSpeed { limit, fast: true } => {
+                Sentence::of("{one} {one:die|disappears} on touching {two} faster than {limit}")
+                    .with("limit", Value::Decimal(limit))
+            }
+            Effect::KillIfSpeed { limit, fast: false } => {
+                Sentence::of("{one} {one:die|disappears} on touching {two} slower than {limit}")
+                    .with("limit", Value::Decimal(limit))
+            }
+            Effect::KillIfNotUpright => {
+                Sentence::of("{one} {one:die|disappears} on touching {two} unless upright")
+            }
+            Effect::RemoveScore { .. } => {
+                Sentence::of("when {one} {one:touch|touches} {two}, the score goes back to 0")
+            }
+            Effect::AddHealthPoints { value, kill_second, .. } => {
+                Sentence::of("{one} {one:gain|gains} {points} on touching {two}{gone}")
+                    .alone("{every} gains {points}")
+                    .with("points", Value::Count(value.into(), "health point"))
+                    .and_gone(kill_second)
+            }
+            Effect::SubtractHealthPoints { value, limit, stype, .. } => {
+                let sentence = match stype {
+                    None => Sentence::of(
+                        "{one} {one:lose|loses} {points} on touching {two}, and {one:die|dies} when {last}",
+                    )
+                    .alone("{every} loses {points}"),
+                    Some(stype) => Sentence::of(
+                        "when {one} {one:touch|touches} {two}, {who} loses {points}, and dies when {last}",
+                    )
+                    .alone("{who} loses {points}")
+                    .with("who", Value::A(stype)),
+                };
+                let last = match limit {
+                    0 => "none is left".to_owned(),
+                    limit => format!("{limit} or fewer are left"),
+                };
+                sentence
+                    .with("points", Value::Count(value.into(), "health point"))
+                    .with("last", Value::Text(last))
+            }
+            Effect::CollectResource { .. } => Sentence::of("{two} {two:collect|collects} {one}"),
+            Effect::CollectResourceIfHeld { held, value, .. } => Sentence::of(
+                "{two} {two:collect|collects} {one} if {two:you hold|it holds} at least {least} {resource}",
+            )
+            .with("least", Value::Number(value.into()))
+            .with("resource", Value::Name(held)),
+            Effect::ChangeResource { resource, value, kill_resource } => {
+                let (template, number) = if value < 0 {
+                    ("{one} {one:lose|loses} {number} {resource} on touching {two}{gone}", value.saturating_neg())
+                } else {
+                    ("{one} {one:gain|gains} {number} {resource} on touching {two}{gone}", value)
+                };
+                Sentence::of(template)
+                    .with("number", Value::Number(number.into()))
+                    .with("resource", Value::Name(resource))
+                    .and_gone(kill_resource)
+            }
+            Effect::Spawn { stype, prob } => {
+                Sentence::of("when {one} {one:touch|touches} {two}, {made} appears there{chance}")
+                    .alone("{made} appears at {every}")
+                    .with("made", Value::A(stype))
+                    .with("chance", Value::Chance(prob))
+            }
+            Effect::SpawnIf(SpawnIf { resource, limit, stype, spend, prob, more }) => Sentence::of(
+                "when {one} {one:touch|touches} {two} and {one:you hold|it holds} {bound} {limit} {resource}, {made} appears \
+                 there{chance}{cost}",
+            )
+            .with("bound", Value::Text(if more { "at least" } else { "at most" }.to_owned()))
+            .with("limit", Value::Number(limit.into()))
+            .with("resource", Value::Name(resource))
+            .with("made", Value::A(stype))
+            .with("chance", Value::Chance(prob))
+            .part("cost", more && spend != 0, ", which costs {spend}")
+            .with("spend", Value::Number(spend.into())),
+            Effect::SpawnBeside { stype, shift, prob, .. } => {
+                let side = match shift {
+                    (0, -1) => "above",
+                    (0, 1) => "below",
+                    (-1, 0) => "to the left of",
+                    _ => "to the right of",
+                };
+                Sentence::of("when {one} {one:touch|touches} {two}, {made} appears {side} {two}{chance}")
+                    .with("made", Value::A(stype))
+                    .with("side", Value::Text(side.to_owned()))
+                    .with("chance", Value::Chance(prob))
+            }
+            Effect::SpawnBehind { stype, prob } => {
+                Sentence::of("when {one} {one:touch|touches} {two}, {made} appears behind {two}{chance}")
+                    .with("made", Value::A(stype))
+                    .with("chance", Value::Chance(prob))
+            }
+            Effect::SpawnIfCounterSubTypes(SpawnIfCounterSubTypes {
+                stype, otherwise, counted, limit, ..
+            }) => Sentence::of(
+                "when {one} {one:touch|touches} {two}, {made} appears there if there are {limit} {counted} of the right kinds, \
+                 else {other}",
+            )
+            .with("made", Value::A(stype))
+            .with("limit", Value::Number(limit.into()))
+            .with("counted", Value::Name(counted))
+            .with("other", Value::A(otherwise)),
+            Effect::CloneSprite => {
+                Sentence::of("when {one} {one:touch|touches} {two}, another one like {one:you|it} appears")
+                    .alone("{every} is doubled")
+            }
+            Effect::UpdateSpawnType { stype, spawn_point } => Sentence::of(
+                "when {one} {one:touch|touches} {two}, every {spawner} makes {made} from then on",
+            )
+            .with("spawner", Value::Name(spawn_point))
+            .with("made", Value::A(stype)),
+            Effect::TransformTo { stype, kill_second, .. } => {
+                Sentence::of("{one} {one:turn|turns} into {to} on touching {two}{gone}")
+                    .alone("{every} turns into {to}")
+                    .with("to", Value::A(stype))
+                    .and_gone(kill_second)
+            }
+            Effect::TransformToAll { stype, to, kill_second, .. } => {
+                Sentence::of("when {one} {one:touch|touches} {two}, {alone}{gone}")
+                    .alone("every {type} turns into {to}")
+                    .with("type", Value::Name(stype))
+                    .with("to", Value::A(to))
+                    .and_gone(kill_second)
+            }
+            Effect::TransformToRandomChild { ref options, kill_second, .. } => {
+                Sentence::of("{one} {one:turn|turns} into {to} on touching {two}{gone}")
+                    .with("to", Value::AnyOf(options.clone()))
+                    .and_gone(kill_second)
+            }
+            Effect::TransformIfCount(ref rule) => {
+                let TransformIfCount { stype, counted, at_least, at_most, otherwise, .. } = **rule;
+                let many = match (at_least, at_most) {
+                    (least, 10_000) => format!("at least {least}"),
+                    (0, most) => format!("at most {most}"),
+                    (least, most) => format!("{least} to {most}"),
+                };
+                let sentence = Sentence::of(
+                    "{one} {one:turn|turns} into {to} on touching {two} if there are {many} {counted}{otherwise}",
+                )
+                .with("to", Value::A(stype))
+                .with("many", Value::Text(many))
+                .with("counted", Value::Name(counted))
+                .part("otherwise", otherwise.is_some(), ", and otherwise into {other}");
+                match otherwise {
+                    Some(other) => sentence.with("other", Value::A(other)),
+                    None => sentence,
+                }
+            }
+            Effect::TransformToSingleton { stype, other, .. } => Sentence::of(
+                "{one} {one:turn|turns} into the {to} on touching {two}, and who was that before becomes {other}",
+            )
+            .with("to", Value::Name(stype))
+            .with("other", Value::A(other)),
+            Effect::StepBack { .. } => Sentence::of("{one} cannot enter {two}"),
+            Effect::UndoAll { .. } => {
+                Sentence::of("{one} cannot enter {two}: when {one} {one:touch|touches} {two}, {alone}")
+                    .alone("every move of that tick is taken back")
+            }
+            Effect::TurnAround => Sentence::of("{one} {one:turn|turns} around at {two}, further down"),
+            Effect::ReverseDirection => {
+                Sentence::of("{one} {one:turn|turns} back at {two}").alone("{every} turns back")
+            }
+            Effect::FlipDirection => {
+                Sentence::of("{one} {one:turn|turns} in a random direction on touching {two}")
+                    .alone("{every} turns in a random direction")
+            }
+            Effect::AttractGaze { prob, .. } => {
+                Sentence::of("{one} {one:turn|turns} to face the way of {two} on touching {two}{chance}")
+                    .with("chance", Value::Chance(prob))
+            }
+            Effect::Align { .. } => {
+                Sentence::of("{one} {one:are|is} put in the place of {two} on touching {two}")
+            }
+            Effect::BounceForward => Sentence::of("{two} {two:push|pushes} {one}"),
+            Effect::PullWithIt { .. } => Sentence::of("{two} {two:carry|carries} {one} along"),
+            Effect::TeleportToExit => {
+                Sentence::of("{one} {one:jump|jumps} to where {two} leads on touching {two}")
+            }
+            Effect::WrapAround { .. } => {
+                Sentence::of("{one} {one:come|comes} in again at the opposite edge on reaching {two}")
+            }
+            Effect::HalfSpeed => {
+                Sentence::of("{one} {one:slow down|slows down} to half speed on touching {two}")
+            }
+            Effect::ChangeSpeed { stype, value, how } => {
+                let alone = match how {
+                    SpeedChange::Increase => "every {type} becomes faster by {value}",
+                    SpeedChange::Decrease => "every {type} becomes slower by {value}",
+                    SpeedChange::Set => "the speed of every {type} becomes {value}",
+                };
+                Sentence::of("when {one} {one:touch|touches} {two}, {alone}")
+                    .alone(alone)
+                    .with("type", Value::Name(stype))
+                    .with("value", Value::Decimal(value))
+            }
+            Effect::WaterPhysics => {
+                Sentence::of("{one} {one:sink|sinks} slowly from then on on touching {two}")
+            }
+            Effect::BounceDirection { .. } => {
+                Sentence::of("{one} {one:bounce|bounces} off {two}, the steeper the further from its middle")
+            }
+            Effect::WallStop => {
+                Sentence::of("{one} {one:stop|stops} at {two}, and can only go along it")
+            }
+            Effect::WallBounce => Sentence::of("{one} {one:bounce|bounces} off {two}"),
+            Effect::WallReverse => Sentence::of("{one} {one:turn|turns} back at {two}"),
+            Effect::AddTimer { timed } => {
+                Sentence::of("when {one} {one:touch|touches} {two}, {delay} later {planned}")
+                    .with("delay", Value::Delay(timed))
+                    .with("planned", Value::Planned(timed))
+            }
+            Effect::ShieldFrom { stype, .. } => Sentence::of(
+                "while {one} {one:touch|touches} {two}, {one:you|it} {one:are|is} safe from {from}",
+            )
+            .with("from", Value::Party(stype)),
+            Effect::Disabled(_) => {
+                Sentence::of("when {one} {one:touch|touches} {two}, nothing happens")
+            }
+        }
+    }
+}
