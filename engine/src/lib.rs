@@ -53,7 +53,7 @@ pub use level::{Level, LevelMapping};
 pub use limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SOURCE, MAX_SPRITES, MAX_TICKS, MAX_WORK};
 pub use lint::{SwappedRule, swapped_rule};
 pub use observe::{AvatarView, Category, Countdown, Event, Observation, SpriteRecord};
-pub use ontology::class::SpriteClass;
+pub use ontology::class::{ClassFamily, SpriteClass};
 pub use ontology::effects::{EffectFamily, NAMES as EFFECTS, ParameterKind, effect_parameters};
 pub use ontology::terminations::NAMES as TERMINATIONS;
 pub use pack::Packed;

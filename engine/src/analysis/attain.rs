@@ -52,7 +52,11 @@ pub(super) fn find_attainable(
     for goal in goals.iter_mut().take(MAX_GOALS) {
         let kinds = match rules.terminations[goal.line].condition {
             Written::MultiSpriteCounterSubTypes { kinds, .. } => Some(kinds),
-            _ => None,
+            Written::SpriteCounter { .. }
+            | Written::SpriteCounterMore { .. }
+            | Written::MultiSpriteCounter { .. }
+            | Written::StopCounter { .. }
+            | Written::Timeout { .. } => None,
         };
         goal.attainable = match changes.attainability(&goal.condition, kinds) {
             // A condition that holds from the start may end the game later, once a StopCounter lets it.

@@ -4,7 +4,7 @@ use super::encounter::{Encounter, Precondition};
 use super::futures::{PossibleFutures, Start};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
+use crate::ontology::class::{ClassFamily, SpriteClass};
 use crate::ontology::traits::Traits;
 
 /// The size of a cell in pixels on a board of the usual size.
@@ -165,19 +165,21 @@ fn motion(class: SpriteClass, traits: &Traits) -> Motion {
     use SpriteClass as C;
     let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
     let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
-    match class {
-        class if class.is_avatar() => Motion::Steered,
+    use ClassFamily as Family;
+    match (class, class.family()) {
+        (_, Family::Avatar) => Motion::Steered,
         _ if traits.stationary => Motion::Still,
         _ if follows => match traits.stypes.first().filter(|target| **target != SpriteType::NONE) {
             Some(&target) if traits.fleeing => Motion::Fleeing(target),
             Some(&target) => Motion::Chasing(target),
             None => Motion::Wandering,
         },
-        C::RandomNPC | C::RandomInertial | C::RandomBomber => Motion::Wandering,
-        C::Walker | C::WalkerJumper => Motion::Straight(traits.orientation),
+        (C::RandomNPC | C::RandomInertial | C::RandomBomber, _) => Motion::Wandering,
+        (_, Family::Walker) => Motion::Straight(traits.orientation),
         // A sprite without a direction of its own moves only if it is given one.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
-        _ => Motion::Still,
+        (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => Motion::Still,
+        (_, Family::Npc | Family::Producer) => Motion::Still,
     }
 }
 
@@ -203,19 +205,22 @@ fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
 
 /// Returns the avatar types that can occur: those that levels place first, then by type.
 pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
+    use ClassFamily as Family;
     use SpriteClass as C;
     let mut avatars: Vec<Avatar> = Vec::new();
     for (info, (fact, at)) in rules.types.iter().zip(facts.iter().zip(0u16..)) {
         let Some(class) = info.class.filter(|class| class.is_avatar() && fact.possible) else { continue };
-        let steering = match class {
-            C::HorizontalAvatar | C::FlakAvatar => Steering::Horizontal,
-            C::VerticalAvatar => Steering::Vertical,
-            C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar => Steering::Ongoing,
-            C::MissileAvatar => Steering::Unsteered,
-            C::NullAvatar | C::AimedAvatar | C::ShootOnlyAvatar => Steering::Fixed,
-            C::SpaceshipAvatar | C::LanderAvatar | C::CarAvatar => Steering::Thrust,
-            C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Steering::Jumping,
-            _ => Steering::FourWay,
+        let steering = match (class, class.family()) {
+            (C::HorizontalAvatar | C::FlakAvatar, _) => Steering::Horizontal,
+            (C::VerticalAvatar, _) => Steering::Vertical,
+            (C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar, _) => Steering::Ongoing,
+            (C::MissileAvatar, _) => Steering::Unsteered,
+            (C::NullAvatar | C::AimedAvatar | C::ShootOnlyAvatar, _) => Steering::Fixed,
+            (C::SpaceshipAvatar | C::LanderAvatar | C::CarAvatar, _) => Steering::Thrust,
+            (C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar, _) => Steering::Jumping,
+            (_, Family::Avatar) => Steering::FourWay,
+            (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => continue,
+            (_, Family::Npc | Family::Walker | Family::Producer) => continue,
         };
         let (shots, mut ammo) = (fact.makes.clone(), info.traits.ammo.to_vec());
         ammo.retain(|&stype| stype != SpriteType::NONE);

@@ -6,7 +6,7 @@ use super::facts::Facts;
 use super::futures::{PossibleFutures, Start};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
+use crate::ontology::class::{ClassFamily, SpriteClass};
 use crate::ontology::effects::Draws;
 use crate::state::State;
 
@@ -96,23 +96,26 @@ fn update_draws(
     let traits = &info.traits;
     // Only leaves of the SpriteSet are updated.
     let (Some(class), Some(_)) = (info.class, info.order) else { return false };
-    match class {
-        C::RandomMissile => {
+    use ClassFamily as Family;
+    match (class, class.family()) {
+        (C::RandomMissile, _) => {
             let unset = |state: &State| {
                 state.world.slots(stype).any(|slot| state.world.overrides(slot).orientation == Direction::NIL)
             };
             let new = traits.orientation == Direction::NIL && futures.made[stype.index()];
             new || state.map_or(traits.orientation == Direction::NIL, unset)
         }
-        C::Spreader => is_open(traits.spread_probability),
-        C::WalkerJumper => is_open(traits.probability),
-        C::RandomBomber => true,
-        C::BomberRandomMissile => {
+        (C::Spreader, _) => is_open(traits.spread_probability),
+        (C::WalkerJumper, _) => is_open(traits.probability),
+        (C::RandomBomber, _) => true,
+        (C::BomberRandomMissile, _) => {
             let first = traits.stypes.first();
             is_open(traits.prob) || traits.stypes.iter().any(|stype| Some(stype) != first)
         }
-        class if class.is_a(C::SpawnPoint) || class == C::SpawnPointMultiSprite => is_open(traits.prob),
-        class => class.is_a(C::RandomNPC) || class.is_a(C::Walker),
+        (C::SpriteProducer, _) => false,
+        (_, Family::Producer) => is_open(traits.prob),
+        (_, Family::Npc | Family::Walker) => true,
+        (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile | Family::Avatar) => false,
     }
 }
 

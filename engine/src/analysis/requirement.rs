@@ -63,7 +63,9 @@ pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
             Condition::AtLeast(_, limit) | Condition::Exactly(_, limit) if limit >= 1 => {
                 (0, Some(count(limit) - 1))
             }
-            _ => continue,
+            Condition::AtMost(..) | Condition::AtLeast(..) | Condition::Exactly(..) | Condition::Tick(_) => {
+                continue;
+            }
         };
         if !types.is_empty() || at_least > 0 {
             list.push(Requirement { types, at_least, at_most, reason: Reason::Goal(at) });

@@ -38,11 +38,14 @@ pub(super) fn references(
     let class = sprite.class;
     let shoots = class.is_a(C::ShootAvatar) || class == C::WizardAvatar;
     // The parameter with the types that a class makes or follows.
-    let (key, many) = match class {
-        C::SpawnPointMultiSprite => ("stypes", true),
-        C::BomberRandomMissile => ("stypeMissile", true),
-        class if class.is_a(C::AlternateChaser) => ("stype1", true),
-        _ => ("stype", shoots),
+    let (key, many) = if class == C::SpawnPointMultiSprite {
+        ("stypes", true)
+    } else if class == C::BomberRandomMissile {
+        ("stypeMissile", true)
+    } else if class.is_a(C::AlternateChaser) {
+        ("stype1", true)
+    } else {
+        ("stype", shoots)
     };
     let stypes = sprite.named(key, many, names, problems);
     if key == "stype1" {

@@ -4,7 +4,7 @@ use super::words::{a, count, list, pace, percent};
 use crate::analysis::{Analysis, Avatar, Motion, Role, Steering};
 use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
+use crate::ontology::class::{ClassFamily, SpriteClass};
 
 /// One line for each type that can occur and does something by itself, without avatars; the last line lists the types
 /// that only stand there.
@@ -134,6 +134,7 @@ pub(super) fn controls(analysis: &Analysis) -> Vec<String> {
 }
 
 fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
+    use ClassFamily as Family;
     use SpriteClass as C;
     let game = analysis.game();
     let info = &game.0.types[avatar.stype.index()];
@@ -146,17 +147,19 @@ fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
         text += &format!(", {}", step(&info.traits));
     }
     let shots: Vec<String> = avatar.shots.iter().map(|&shot| a(game.name(shot))).collect();
-    text += &match class {
+    text += &match (class, class.family()) {
         _ if shots.is_empty() => String::new(),
-        C::OngoingTurningAvatar => format!("; you leave {} behind", list(&shots, "and")),
-        C::WizardAvatar => format!("; the up key puts {} beside you", list(&shots, "and")),
-        C::ShootOnlyAvatar => {
+        (C::OngoingTurningAvatar, _) => format!("; you leave {} behind", list(&shots, "and")),
+        (C::WizardAvatar, _) => format!("; the up key puts {} beside you", list(&shots, "and")),
+        (C::ShootOnlyAvatar, _) => {
             let keys = ["left", "up", "right", "down", "use"].iter().zip(&shots);
             let keys: Vec<String> = keys.map(|(key, shot)| format!("the {key} key shoots {shot}")).collect();
             format!("; {}", keys.join(", "))
         }
-        C::FlakAvatar => format!("; the use key puts {} where you are", shots[0]),
-        _ => format!("; the use key puts {} ahead of you", list(&shots, "or")),
+        (C::FlakAvatar, _) => format!("; the use key puts {} where you are", shots[0]),
+        (_, Family::Avatar) => format!("; the use key puts {} ahead of you", list(&shots, "or")),
+        (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => String::new(),
+        (_, Family::Npc | Family::Walker | Family::Producer) => String::new(),
     };
     if !avatar.ammo.is_empty() {
         let ammo: Vec<&str> = avatar.ammo.iter().map(|&ammo| game.name(ammo)).collect();

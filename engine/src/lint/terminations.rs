@@ -39,7 +39,9 @@ pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
             Condition::MultiSpriteCounter { limit, min, .. } => {
                 sum == i64::from(limit) || min && sum > i64::from(limit)
             }
-            _ => continue,
+            Condition::MultiSpriteCounterSubTypes { .. }
+            | Condition::StopCounter { .. }
+            | Condition::Timeout { .. } => continue,
         };
         if holds && !stypes.iter().any(|&stype| made(stype)) {
             let counts = stypes.iter().map(|&stype| format!("{} `{}`", count(stype), game.name(stype)));
@@ -89,7 +91,7 @@ impl Linter<'_> {
                     }
                     limit <= 0
                 }
-                _ => false,
+                Condition::MultiSpriteCounterSubTypes { .. } | Condition::StopCounter { .. } => false,
             };
             if at_once && (!stoppable || matches!(end.condition, Condition::Timeout { .. })) {
                 let message = "this holds at the start of every level: the game is over in its first tick";

@@ -1,6 +1,6 @@
 //! The avatars: the player's sprite and its reaction to actions (`spec/02` §9).
 
-use super::class::SpriteClass;
+use super::class::{ClassFamily, SpriteClass};
 use super::sprites::walkers::jump;
 use crate::geometry::Direction;
 use crate::ontology::physics::{self, Movement};
@@ -15,18 +15,19 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
     let stype = step.world.sprite(slot).stype;
     let class = step.rules.types[stype.index()].class.expect("an avatar has a class");
     let direction = base(action).map_or(Direction::NONE, |base| Direction::BASE[base]);
-    match class {
-        C::FlakAvatar => {
+    use ClassFamily as Family;
+    match (class, class.family()) {
+        (C::FlakAvatar, _) => {
             if moving(step, slot, action) == Movement::Still && action == Action::Use {
                 flak(step, slot);
             }
         }
-        C::OrientedAvatar => {
+        (C::OrientedAvatar, _) => {
             oriented(step, slot, action);
         }
-        C::ShootAvatar => shooting(step, slot, action),
-        C::ShootOnlyAvatar => shoot_only(step, slot, action),
-        C::OngoingAvatar | C::OngoingShootAvatar => {
+        (C::ShootAvatar, _) => shooting(step, slot, action),
+        (C::ShootOnlyAvatar, _) => shoot_only(step, slot, action),
+        (C::OngoingAvatar | C::OngoingShootAvatar, _) => {
             if direction != Direction::NONE {
                 physics::turn(step, slot, direction);
             }
@@ -35,19 +36,26 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
                 shoot(step, slot);
             }
         }
-        C::OngoingTurningAvatar => ongoing_turning(step, slot, direction),
-        C::MissileAvatar => physics::passive(step, slot),
-        C::AimedAvatar => aimed(step, slot, action),
-        C::SpaceshipAvatar => spaceship(step, slot, action),
-        C::CarAvatar => car(step, slot, action),
-        C::LanderAvatar => lander(step, slot, action),
-        C::BirdAvatar => bird(step, slot, action),
-        C::PlatformerAvatar => {
+        (C::OngoingTurningAvatar, _) => ongoing_turning(step, slot, direction),
+        (C::MissileAvatar, _) => physics::passive(step, slot),
+        (C::AimedAvatar, _) => aimed(step, slot, action),
+        (C::SpaceshipAvatar, _) => spaceship(step, slot, action),
+        (C::CarAvatar, _) => car(step, slot, action),
+        (C::LanderAvatar, _) => lander(step, slot, action),
+        (C::BirdAvatar, _) => bird(step, slot, action),
+        (C::PlatformerAvatar, _) => {
             platformer(step, slot, direction, action);
             step.world.edit_motion(slot).set(flag::ON_GROUND, false);
         }
-        C::WizardAvatar => wizard(step, slot, direction, action),
-        _ => {
+        (C::WizardAvatar, _) => wizard(step, slot, direction, action),
+        (_, Family::Avatar) => {
+            moving(step, slot, action);
+        }
+        // Sprites of other classes that a parameter makes avatars.
+        (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
+            moving(step, slot, action);
+        }
+        (_, Family::Npc | Family::Walker | Family::Producer) => {
             moving(step, slot, action);
         }
     }

@@ -2,9 +2,32 @@
 
 use crate::rules::Action;
 
-/// Declares the classes once: the variant, which is also the VGDL name, and the class that it extends.
+crate::named_enum! {
+    /// The behaviour of sprites of a class by themselves.
+    pub enum ClassFamily {
+        /// None: they lie about, are pushed, lead somewhere or carry.
+        Thing = "thing",
+        /// None, and they can be held.
+        Resource = "resource",
+        /// They go away after a while, or spread.
+        Flicker = "flicker",
+        /// They fly straight on.
+        Missile = "missile",
+        /// They wander, chase or flee.
+        Npc = "npc",
+        /// They walk and fall.
+        Walker = "walker",
+        /// They make others.
+        Producer = "producer",
+        /// They do as the player commands.
+        Avatar = "avatar",
+    }
+}
+
+/// Declares the classes once: the variant, which is also the VGDL name, the class that it extends, its family, and the
+/// parameters that it adds.
 macro_rules! classes {
-    ($($name:ident : $parent:ident, $own:expr;)*) => {
+    ($($name:ident : $parent:ident, $family:ident, $own:expr;)*) => {
         /// A sprite class, named as in VGDL.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs, reason = "the names are VGDL's; docs/ontology says what each does")]
@@ -24,6 +47,12 @@ macro_rules! classes {
                 match self { $(SpriteClass::$name => SpriteClass::$parent),* }
             }
 
+            /// The family of the class. Code that treats only some classes in a way of their own decides by the family
+            /// for all others, so that every class has an answer.
+            pub fn family(self) -> ClassFamily {
+                match self { $(SpriteClass::$name => ClassFamily::$family),* }
+            }
+
             /// The parameters that this class adds to those of its parent.
             pub fn own_parameters(self) -> &'static [&'static str] {
                 match self { $(SpriteClass::$name => &$own),* }
@@ -33,56 +62,56 @@ macro_rules! classes {
 }
 
 classes! {
-    Immovable: Immovable, [];
-    Door: Immovable, [];
-    Passive: Passive, [];
-    Conveyor: Conveyor, [];
-    Resource: Passive, ["value", "limit", "resource_name"];
-    ResourcePack: Resource, [];
-    Flicker: Flicker, ["limit", "age"];
-    OrientedFlicker: Flicker, [];
-    Spreader: Flicker, ["spreadprob", "stype"];
-    Missile: Missile, [];
-    ErraticMissile: Missile, [];
-    RandomMissile: Missile, [];
-    RandomNPC: RandomNPC, ["cons"];
-    RandomInertial: RandomNPC, [];
-    Chaser: RandomNPC, ["stype", "fleeing", "maxDistance"];
-    Fleeing: Chaser, [];
-    LOSChaser: Chaser, [];
-    PathChaser: RandomNPC, ["stype", "fleeing", "maxDistance"];
-    AlternateChaser: RandomNPC, ["stype1", "stype2", "fleeing"];
-    RandomAltChaser: AlternateChaser, ["epsilon"];
-    PathAltChaser: AlternateChaser, ["randomTarget"];
-    RandomPathAltChaser: PathAltChaser, ["epsilon"];
-    Walker: Walker, ["airsteering"];
-    WalkerJumper: Walker, ["probability"];
-    SpriteProducer: SpriteProducer, [];
-    Portal: SpriteProducer, ["stype"];
-    SpawnPoint: SpriteProducer, ["stype", "prob", "total", "spawnorientation", "counter"];
-    Bomber: SpawnPoint, [];
-    RandomBomber: SpawnPoint, [];
-    BomberRandomMissile: SpawnPoint, ["stypeMissile"];
-    SpawnPointMultiSprite: SpriteProducer, ["stypes", "prob", "total", "spawnorientation", "counter"];
-    MovingAvatar: MovingAvatar, [];
-    HorizontalAvatar: MovingAvatar, [];
-    VerticalAvatar: MovingAvatar, [];
-    NullAvatar: MovingAvatar, [];
-    FlakAvatar: HorizontalAvatar, ["stype", "ammo", "minAmmo", "ammoCost"];
-    OrientedAvatar: MovingAvatar, [];
-    ShootAvatar: OrientedAvatar, ["stype", "ammo"];
-    OngoingAvatar: OrientedAvatar, [];
-    OngoingShootAvatar: ShootAvatar, [];
-    OngoingTurningAvatar: OrientedAvatar, ["spawnBehind"];
-    MissileAvatar: OrientedAvatar, [];
-    ShootOnlyAvatar: ShootAvatar, [];
-    AimedAvatar: ShootAvatar, ["angle_diff"];
-    SpaceshipAvatar: ShootAvatar, ["angle_diff"];
-    CarAvatar: OrientedAvatar, ["angle_diff", "facing"];
-    LanderAvatar: OrientedAvatar, ["angle_diff"];
-    BirdAvatar: OrientedAvatar, [];
-    PlatformerAvatar: MovingAvatar, ["ground_speedup_factor", "air_slowdown_factor"];
-    WizardAvatar: PlatformerAvatar, ["stype", "facing_dir", "last_block_time"];
+    Immovable: Immovable, Thing, [];
+    Door: Immovable, Thing, [];
+    Passive: Passive, Thing, [];
+    Conveyor: Conveyor, Thing, [];
+    Resource: Passive, Resource, ["value", "limit", "resource_name"];
+    ResourcePack: Resource, Resource, [];
+    Flicker: Flicker, Flicker, ["limit", "age"];
+    OrientedFlicker: Flicker, Flicker, [];
+    Spreader: Flicker, Flicker, ["spreadprob", "stype"];
+    Missile: Missile, Missile, [];
+    ErraticMissile: Missile, Missile, [];
+    RandomMissile: Missile, Missile, [];
+    RandomNPC: RandomNPC, Npc, ["cons"];
+    RandomInertial: RandomNPC, Npc, [];
+    Chaser: RandomNPC, Npc, ["stype", "fleeing", "maxDistance"];
+    Fleeing: Chaser, Npc, [];
+    LOSChaser: Chaser, Npc, [];
+    PathChaser: RandomNPC, Npc, ["stype", "fleeing", "maxDistance"];
+    AlternateChaser: RandomNPC, Npc, ["stype1", "stype2", "fleeing"];
+    RandomAltChaser: AlternateChaser, Npc, ["epsilon"];
+    PathAltChaser: AlternateChaser, Npc, ["randomTarget"];
+    RandomPathAltChaser: PathAltChaser, Npc, ["epsilon"];
+    Walker: Walker, Walker, ["airsteering"];
+    WalkerJumper: Walker, Walker, ["probability"];
+    SpriteProducer: SpriteProducer, Producer, [];
+    Portal: SpriteProducer, Thing, ["stype"];
+    SpawnPoint: SpriteProducer, Producer, ["stype", "prob", "total", "spawnorientation", "counter"];
+    Bomber: SpawnPoint, Producer, [];
+    RandomBomber: SpawnPoint, Producer, [];
+    BomberRandomMissile: SpawnPoint, Producer, ["stypeMissile"];
+    SpawnPointMultiSprite: SpriteProducer, Producer, ["stypes", "prob", "total", "spawnorientation", "counter"];
+    MovingAvatar: MovingAvatar, Avatar, [];
+    HorizontalAvatar: MovingAvatar, Avatar, [];
+    VerticalAvatar: MovingAvatar, Avatar, [];
+    NullAvatar: MovingAvatar, Avatar, [];
+    FlakAvatar: HorizontalAvatar, Avatar, ["stype", "ammo", "minAmmo", "ammoCost"];
+    OrientedAvatar: MovingAvatar, Avatar, [];
+    ShootAvatar: OrientedAvatar, Avatar, ["stype", "ammo"];
+    OngoingAvatar: OrientedAvatar, Avatar, [];
+    OngoingShootAvatar: ShootAvatar, Avatar, [];
+    OngoingTurningAvatar: OrientedAvatar, Avatar, ["spawnBehind"];
+    MissileAvatar: OrientedAvatar, Avatar, [];
+    ShootOnlyAvatar: ShootAvatar, Avatar, [];
+    AimedAvatar: ShootAvatar, Avatar, ["angle_diff"];
+    SpaceshipAvatar: ShootAvatar, Avatar, ["angle_diff"];
+    CarAvatar: OrientedAvatar, Avatar, ["angle_diff", "facing"];
+    LanderAvatar: OrientedAvatar, Avatar, ["angle_diff"];
+    BirdAvatar: OrientedAvatar, Avatar, [];
+    PlatformerAvatar: MovingAvatar, Avatar, ["ground_speedup_factor", "air_slowdown_factor"];
+    WizardAvatar: PlatformerAvatar, Avatar, ["stype", "facing_dir", "last_block_time"];
 }
 
 impl SpriteClass {
@@ -120,17 +149,19 @@ impl SpriteClass {
     /// The actions that a player may choose besides NIL (`spec/01` §6.4), in the order of [`Action`].
     pub fn actions(self) -> &'static [Action] {
         use Action::{Down, Left, Right, Up, Use};
-        match self {
-            SpriteClass::HorizontalAvatar => &[Left, Right],
-            SpriteClass::VerticalAvatar => &[Up, Down],
-            SpriteClass::NullAvatar => &[Action::Nil],
-            SpriteClass::FlakAvatar | SpriteClass::PlatformerAvatar => &[Left, Right, Use],
-            SpriteClass::WizardAvatar => &[Up, Left, Right, Use],
-            SpriteClass::AimedAvatar => &[Up, Down, Use],
-            SpriteClass::BirdAvatar => &[Use],
-            class if class.is_a(SpriteClass::ShootAvatar) => &[Up, Left, Down, Right, Use],
-            class if class.is_avatar() => &[Up, Left, Down, Right],
-            _ => &[],
+        use ClassFamily as Family;
+        match (self, self.family()) {
+            (SpriteClass::HorizontalAvatar, _) => &[Left, Right],
+            (SpriteClass::VerticalAvatar, _) => &[Up, Down],
+            (SpriteClass::NullAvatar, _) => &[Action::Nil],
+            (SpriteClass::FlakAvatar | SpriteClass::PlatformerAvatar, _) => &[Left, Right, Use],
+            (SpriteClass::WizardAvatar, _) => &[Up, Left, Right, Use],
+            (SpriteClass::AimedAvatar, _) => &[Up, Down, Use],
+            (SpriteClass::BirdAvatar, _) => &[Use],
+            (_, Family::Avatar) if self.is_a(SpriteClass::ShootAvatar) => &[Up, Left, Down, Right, Use],
+            (_, Family::Avatar) => &[Up, Left, Down, Right],
+            (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => &[],
+            (_, Family::Npc | Family::Walker | Family::Producer) => &[],
         }
     }
 }
@@ -146,5 +177,8 @@ mod tests {
         assert_eq!(SpriteClass::Fleeing.parameters(), ["cons", "stype", "fleeing", "maxDistance"]);
         assert_eq!(SpriteClass::from_name("missile"), None);
         assert_eq!(SpriteClass::ALL.len(), 50);
+        assert!(
+            SpriteClass::ALL.iter().all(|class| class.is_avatar() == (class.family() == ClassFamily::Avatar))
+        );
     }
 }

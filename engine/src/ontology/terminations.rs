@@ -64,7 +64,11 @@ impl Termination {
     pub(crate) fn timeout(&self) -> Option<i32> {
         match self.condition {
             Condition::Timeout { limit } => Some(limit),
-            _ => None,
+            Condition::SpriteCounter { .. }
+            | Condition::SpriteCounterMore { .. }
+            | Condition::MultiSpriteCounter { .. }
+            | Condition::MultiSpriteCounterSubTypes { .. }
+            | Condition::StopCounter { .. } => None,
         }
     }
 

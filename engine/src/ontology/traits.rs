@@ -142,7 +142,16 @@ impl Traits {
                     self.orientation = Direction::NIL;
                 }
             }
-            class if class.is_a(C::RandomNPC) => {
+            C::RandomNPC
+            | C::RandomInertial
+            | C::Chaser
+            | C::Fleeing
+            | C::LOSChaser
+            | C::PathChaser
+            | C::AlternateChaser
+            | C::RandomAltChaser
+            | C::PathAltChaser
+            | C::RandomPathAltChaser => {
                 self.speed = 1.0;
                 self.is_npc = true;
                 self.fleeing = class == C::Fleeing;
@@ -197,7 +206,19 @@ impl Traits {
                     self.speed = 0.0;
                 }
             }
-            _ => {}
+            C::Passive | C::SpriteProducer => {}
+            C::MovingAvatar
+            | C::HorizontalAvatar
+            | C::VerticalAvatar
+            | C::NullAvatar
+            | C::FlakAvatar
+            | C::OrientedAvatar
+            | C::ShootAvatar
+            | C::ShootOnlyAvatar
+            | C::OngoingAvatar
+            | C::OngoingShootAvatar
+            | C::OngoingTurningAvatar
+            | C::MissileAvatar => {}
         }
     }
 

@@ -217,7 +217,7 @@ impl GameKind {
         let classes = |family: &[ClassFamily]| {
             let types = game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
             let classes = types.filter_map(|stype| game.class(stype));
-            let of_family = classes.filter(|class| family.contains(&ClassFamily::of(*class)));
+            let of_family = classes.filter(|class| family.contains(&class.family()));
             let names: BTreeSet<&str> = of_family.map(SpriteClass::name).collect();
             names.into_iter().map(str::to_owned).collect::<Vec<String>>()
         };

@@ -1,7 +1,7 @@
 //! The rules of a game as a graph: nodes for types, rules and the objects that level characters place; edges from a
 //! rule to the types that it names.
 
-use crate::game_measures::{ClassFamily, EffectFamily};
+use crate::game_measures::EffectFamily;
 use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
 use std::fmt::Write;
 
@@ -162,7 +162,7 @@ fn labels_of_type(clause: &TypeClause, stands: bool) -> [String; 3] {
     let Some(class) = clause.class.filter(|_| stands) else { return [(); 3].map(|()| "group".to_owned()) };
     let name = class.name();
     [
-        format!("type {}", ClassFamily::of(class).name()),
+        format!("type {}", class.family().name()),
         format!("type {name}{}", spell(&clause.terms, Grain::Medium)),
         format!("type {name}{}", spell(&clause.terms, Grain::Fine)),
     ]

@@ -5,7 +5,7 @@ use super::events::Events;
 use super::meetings::Order;
 use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
+use crate::ontology::class::{ClassFamily, SpriteClass};
 
 impl Events<'_> {
     /// Adds the sprites that types make by themselves.
@@ -55,28 +55,36 @@ impl Events<'_> {
 
     /// Returns the cells where the sprites made by a type appear, with the maker's orientation at that moment.
     fn spawn_cells(&self, maker: SpriteType) -> Vec<(Cells, Directions)> {
+        use ClassFamily as Family;
         use SpriteClass as C;
         let (board, model) = (self.board(), self.flood.model);
         let own = model.of_type(maker);
         let Some(class) = model.info(maker).class else { return Vec::new() };
         let grown = if own.off_grid { model.rules.reach.max(1) } else { 0 };
         let around = |distance: i32| vec![(board.around(self.touch(maker), distance), Directions::ALL)];
-        match class {
+        match (class, class.family()) {
             // These avatars shoot only if they do not move; the others have moved before they shoot.
-            C::ShootAvatar | C::ShootOnlyAvatar if !model.info(maker).traits.continuous => {
+            (C::ShootAvatar | C::ShootOnlyAvatar, _) if !model.info(maker).traits.continuous => {
                 self.ahead(self.rest(maker), own.facing, grown)
             }
-            C::FlakAvatar if !model.info(maker).traits.continuous => {
+            (C::FlakAvatar, _) if !model.info(maker).traits.continuous => {
                 vec![(self.rest(maker).clone(), own.facing)]
             }
-            C::ShootAvatar | C::ShootOnlyAvatar | C::OngoingShootAvatar => {
+            (C::ShootAvatar | C::ShootOnlyAvatar | C::OngoingShootAvatar, _) => {
                 self.ahead(self.touch(maker), own.facing, grown)
             }
-            C::AimedAvatar | C::SpaceshipAvatar => around(1 + grown),
-            C::WizardAvatar => around(2 + grown),
-            C::OngoingTurningAvatar => vec![(self.rest(maker).clone(), own.facing)],
-            C::Spreader => self.ahead(self.touch(maker), Directions::FOUR, grown),
-            _ => vec![(self.touch(maker).clone(), own.facing)],
+            (C::AimedAvatar | C::SpaceshipAvatar, _) => around(1 + grown),
+            (C::WizardAvatar, _) => around(2 + grown),
+            (C::OngoingTurningAvatar, _) => vec![(self.rest(maker).clone(), own.facing)],
+            (C::Spreader, _) => self.ahead(self.touch(maker), Directions::FOUR, grown),
+            (_, Family::Producer | Family::Avatar) => vec![(self.touch(maker).clone(), own.facing)],
+            // These make none.
+            (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
+                vec![(self.touch(maker).clone(), own.facing)]
+            }
+            (_, Family::Npc | Family::Walker) => {
+                vec![(self.touch(maker).clone(), own.facing)]
+            }
         }
     }
 

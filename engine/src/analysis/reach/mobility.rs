@@ -5,7 +5,7 @@ use super::meetings::{Meeting, With};
 use super::model::Model;
 use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
+use crate::ontology::class::{ClassFamily, SpriteClass};
 use crate::ontology::effects::{EffectSummary, Summary};
 use crate::ontology::sprites::is_idle;
 
@@ -68,17 +68,21 @@ impl Mobility {
 impl Model<'_> {
     /// Returns the movement of a type without the influence of others.
     pub(super) fn alone(&self, stype: SpriteType) -> Mobility {
+        use ClassFamily as Family;
         use SpriteClass as C;
         let info = self.info(stype);
         let traits = &info.traits;
         let Some(class) = info.class else { return Mobility::default() };
         let own = self.born(stype);
-        let facing = match class {
+        let facing = match (class, class.family()) {
             // These turn by angles, or lose a component of their orientation when they jump.
-            C::AimedAvatar | C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Directions::ALL,
-            C::Walker | C::WalkerJumper => Directions::ALL,
-            C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar => own.with(Directions::FOUR),
-            _ => own,
+            (C::AimedAvatar | C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar, _) => Directions::ALL,
+            (_, Family::Walker) => Directions::ALL,
+            (C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar, _) => {
+                own.with(Directions::FOUR)
+            }
+            (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => own,
+            (_, Family::Npc | Family::Producer | Family::Avatar) => own,
         };
         let walks = class.is_a(C::RandomNPC) || class.is_a(C::Walker) || class == C::RandomBomber;
         let active = class.is_avatar() || walks;
@@ -110,6 +114,7 @@ impl Model<'_> {
 
     /// Computes the directions and distances that a type's own update moves its sprites.
     pub(super) fn move_by_itself(&mut self, stype: SpriteType) {
+        use ClassFamily as Family;
         use SpriteClass as C;
         let info = self.info(stype);
         let traits = &info.traits;
@@ -121,17 +126,17 @@ impl Model<'_> {
         let walker = class.is_a(C::Walker);
         let passive = if class.is_avatar() { always || traits.off_grid } else { always || drifts };
         let passive = passive && (class.is_avatar() || !is_idle(class, info));
-        let steered = match class {
-            C::HorizontalAvatar | C::FlakAvatar => Directions::LEFT.with(Directions::RIGHT),
-            C::VerticalAvatar => Directions::UP.with(Directions::DOWN),
-            C::NullAvatar | C::ShootOnlyAvatar => Directions::NONE,
-            C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar => Directions::ANY,
-            C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Directions::ANY,
+        let steered = match (class, class.family()) {
+            (C::HorizontalAvatar | C::FlakAvatar, _) => Directions::LEFT.with(Directions::RIGHT),
+            (C::VerticalAvatar, _) => Directions::UP.with(Directions::DOWN),
+            (C::NullAvatar | C::ShootOnlyAvatar, _) => Directions::NONE,
+            (C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar, _) => Directions::ANY,
+            (C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar, _) => Directions::ANY,
             _ if always => Directions::NONE,
-            class if class.is_avatar() => Directions::FOUR,
-            class if class.is_a(C::RandomNPC) || class == C::RandomBomber => Directions::FOUR,
-            C::Walker | C::WalkerJumper => Directions::ANY,
-            _ => Directions::NONE,
+            (C::RandomBomber, _) | (_, Family::Avatar | Family::Npc) => Directions::FOUR,
+            (_, Family::Walker) => Directions::ANY,
+            (_, Family::Thing | Family::Resource | Family::Flicker) => Directions::NONE,
+            (_, Family::Missile | Family::Producer) => Directions::NONE,
         };
         // Parents are never updated; the player's avatar always is.
         let updated = info.order.is_some() || class.is_avatar();

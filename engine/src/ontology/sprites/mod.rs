@@ -5,7 +5,7 @@ mod plain;
 pub(crate) mod producers;
 pub(in crate::ontology) mod walkers;
 
-use super::class::SpriteClass;
+use super::class::{ClassFamily, SpriteClass};
 use super::traits::Traits;
 use crate::ontology::physics;
 use crate::rules::{SpriteType, TypeInfo};
@@ -19,10 +19,13 @@ pub(crate) const NO_HEADING: u32 = 4;
 pub(crate) fn is_idle(class: SpriteClass, info: &TypeInfo) -> bool {
     use SpriteClass as C;
     let traits = &info.traits;
-    match class {
-        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => {}
-        C::Portal | C::SpriteProducer => {}
-        class => return class.is_avatar(),
+    use ClassFamily as Family;
+    match (class, class.family()) {
+        (_, Family::Thing | Family::Resource) | (C::SpriteProducer, _) => {}
+        (_, Family::Avatar) => return true,
+        (_, Family::Flicker | Family::Missile | Family::Npc | Family::Walker | Family::Producer) => {
+            return false;
+        }
     }
     let stands = traits.speed == 0.0 && !traits.continuous && !info.given_speed;
     let stays = traits.is_static || traits.only_active || stands;
@@ -83,16 +86,18 @@ pub(crate) enum UpdateKind {
 
 /// The kind of update of a type.
 pub(crate) fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
+    use ClassFamily as Family;
     use SpriteClass as C;
-    match class {
+    match (class, class.family()) {
         _ if traits.oriented_image => UpdateKind::Other,
-        C::SpawnPoint | C::Bomber => UpdateKind::Draws,
-        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => {
-            UpdateKind::Moves
+        (C::SpawnPoint | C::Bomber, _) => UpdateKind::Draws,
+        (_, Family::Thing | Family::Resource) => UpdateKind::Moves,
+        (C::SpriteProducer | C::Missile | C::ErraticMissile, _) => UpdateKind::Moves,
+        (_, Family::Npc) if !traits.rotate_in_place => UpdateKind::Chooses,
+        (_, Family::Flicker | Family::Missile | Family::Npc | Family::Walker | Family::Producer) => {
+            UpdateKind::Other
         }
-        C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => UpdateKind::Moves,
-        class if class.is_a(C::RandomNPC) && !traits.rotate_in_place => UpdateKind::Chooses,
-        _ => UpdateKind::Other,
+        (_, Family::Avatar) => UpdateKind::Other,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::NO_HEADING;
 use crate::geometry::{Direction, Rect};
-use crate::ontology::class::SpriteClass;
+use crate::ontology::class::{ClassFamily, SpriteClass};
 use crate::ontology::physics;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
@@ -56,15 +56,19 @@ fn wanders(class: SpriteClass) -> bool {
 
 #[inline(never)]
 fn pursue(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
+    use ClassFamily as Family;
     use SpriteClass as C;
-    match class {
-        C::LOSChaser => los_chaser(step, slot),
-        C::PathChaser => path_chaser(step, slot),
-        C::AlternateChaser => alternate_chaser(step, slot),
-        C::RandomAltChaser => or_random(step, slot, alternate_chaser),
-        C::PathAltChaser => path_alt_chaser(step, slot),
-        C::RandomPathAltChaser => or_random(step, slot, path_alt_chaser),
-        _ => chaser(step, slot),
+    match (class, class.family()) {
+        (C::LOSChaser, _) => los_chaser(step, slot),
+        (C::PathChaser, _) => path_chaser(step, slot),
+        (C::AlternateChaser, _) => alternate_chaser(step, slot),
+        (C::RandomAltChaser, _) => or_random(step, slot, alternate_chaser),
+        (C::PathAltChaser, _) => path_alt_chaser(step, slot),
+        (C::RandomPathAltChaser, _) => or_random(step, slot, path_alt_chaser),
+        (_, Family::Npc) => chaser(step, slot),
+        // Only characters are updated here.
+        (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => chaser(step, slot),
+        (_, Family::Walker | Family::Producer | Family::Avatar) => chaser(step, slot),
     }
 }
 

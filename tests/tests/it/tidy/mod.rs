@@ -6,6 +6,7 @@
 mod citations;
 mod clocks;
 mod dependencies;
+mod rows;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;

@@ -1,0 +1,127 @@
+//! One row for each word of VGDL: few files name an effect, and no match over effects, sprite classes or conditions
+//! falls through.
+
+use std::collections::BTreeMap;
+
+use tests::{read, rust_files};
+
+use super::report;
+
+/// The file that declares the effects.
+const EFFECTS: &str = "engine/src/ontology/effects/mod.rs";
+
+/// The most files that may name an effect: where it is declared and executed, built, summarised and told.
+const FILES: usize = 4;
+
+/// The enums over which a match lists every variant, with their short names.
+const EXHAUSTIVE: [&str; 5] = ["Effect::", "SpriteClass::", "C::", "Condition::", "Written::"];
+
+/// The lines of a file before its tests.
+fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    (1..).zip(text.lines()).take_while(|(_, line)| *line != "#[cfg(test)]")
+}
+
+/// The variants of the enum of effects.
+fn effects() -> Vec<String> {
+    let text = read(EFFECTS);
+    let body = text.lines().skip_while(|line| *line != "pub(crate) enum Effect {").skip(1);
+    let body = body.take_while(|line| *line != "}");
+    let variants =
+        body.filter_map(|line| line.strip_prefix("    ").filter(|line| line.starts_with(char::is_uppercase)));
+    let name = |line: &str| line.split(|letter: char| !letter.is_alphanumeric()).next().map(str::to_owned);
+    variants.filter_map(name).collect()
+}
+
+#[test]
+fn few_files_name_an_effect() {
+    let variants = effects();
+    assert!(variants.len() > 50, "{EFFECTS} declares the effects: {variants:?}");
+    let mut naming: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (file, text) in rust_files() {
+        let file = file.display().to_string();
+        if !file.starts_with("engine/src/") || file.contains("/tests") {
+            continue;
+        }
+        let code: String = code(&text).flat_map(|(_, line)| [line, "\n"]).collect();
+        let words = code.split("Effect::").skip(1);
+        let words: Vec<&str> =
+            words.filter_map(|rest| rest.split(|letter: char| !letter.is_alphanumeric()).next()).collect();
+        for variant in variants.iter().filter(|variant| words.contains(&variant.as_str())) {
+            naming.entry(variant).or_default().push(file.clone());
+        }
+    }
+    let crowded = naming.iter().filter(|(_, files)| files.len() > FILES);
+    report(
+        crowded
+            .map(|(variant, files)| {
+                format!(
+                    "{}:1: `Effect::{variant}` is named in {} files, and at most {FILES} may; ask its summary instead: {}",
+                    files[FILES],
+                    files.len(),
+                    files.join(", ")
+                )
+            })
+            .collect(),
+    );
+}
+
+/// The lines with an arm for everything else in a match over one of these enums. The code is formatted: the arms are
+/// indented by one step more than the match.
+fn fall_throughs(text: &str) -> Vec<usize> {
+    let lines: Vec<(usize, &str)> = code(text).collect();
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    let mut found = Vec::new();
+    for (at, (_, line)) in lines.iter().enumerate() {
+        let opens =
+            line.trim_end().ends_with('{') && line.contains("match ") && !line.trim_start().starts_with("//");
+        if !opens {
+            continue;
+        }
+        let arms = lines[at + 1..].iter().take_while(|(_, arm)| arm.is_empty() || indent(arm) > indent(line));
+        let arms: Vec<(usize, &str)> = arms
+            .filter(|(_, arm)| indent(arm) == indent(line) + 4)
+            .map(|(number, arm)| (*number, arm.trim_start().trim_start_matches("| ")))
+            .collect();
+        if !arms.iter().any(|(_, arm)| EXHAUSTIVE.iter().any(|name| arm.starts_with(name))) {
+            continue;
+        }
+        let takes_all = |arm: &str| {
+            let pattern = arm.split(" =>").next().unwrap_or(arm);
+            arm.contains(" =>") && pattern.chars().all(|letter| letter.is_lowercase() || letter == '_')
+        };
+        found.extend(arms.iter().filter(|(_, arm)| takes_all(arm)).map(|(number, _)| *number));
+    }
+    found
+}
+
+#[test]
+fn matches_over_the_words_of_vgdl_list_every_variant() {
+    let mut problems = Vec::new();
+    for (file, text) in rust_files() {
+        if file.starts_with("engine/src") {
+            problems.extend(fall_throughs(&text).into_iter().map(|line| {
+                format!(
+                    "{}:{line}: an arm for everything else, in a match over effects, sprite classes or conditions; list \
+                     the variants, or match the family of the class as well",
+                    file.display()
+                )
+            }));
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn arms_for_everything_else_are_found() {
+    let check = |arms: &str, expected: &[usize]| {
+        let text = format!("fn f() {{\n    match effect {{\n{arms}    }}\n}}\n");
+        assert_eq!(fall_throughs(&text), expected, "{text}");
+    };
+    check("        Effect::KillSprite => 1,\n        _ => 2,\n", &[4]);
+    check(
+        "        C::Missile\n        | C::Walker => {\n            1\n        }\n        class => 2,\n",
+        &[7],
+    );
+    check("        Effect::KillSprite => 1,\n        _ if free => 2,\n        Effect::KillBoth => 3,\n", &[]);
+    check("        Some(stype) => 1,\n        _ => 2,\n", &[]);
+}
