@@ -3,7 +3,7 @@
 use super::words::{Party, a, count, list, percent};
 use crate::analysis::Analysis;
 use crate::game::{SpriteType, Timed};
-use crate::ontology::effects::{Sentence, Value};
+use crate::ontology::effects::{CHANCE, Sentence, Value};
 
 /// The sentence of an effect for two parties that meet.
 pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
@@ -80,10 +80,11 @@ impl Filler<'_> {
             Value::Number(number) => number.to_string(),
             Value::Decimal(number) => number.to_string(),
             Value::Count(number, noun) => count(*number, noun),
-            Value::Chance(prob) if *prob < 1.0 => format!(" with a chance of {}", percent(*prob)),
+            Value::Chance(prob) if *prob < 1.0 => format!("{CHANCE}{}", percent(*prob)),
             Value::Chance(_) => String::new(),
             Value::Text(text) => text.clone(),
-            Value::Part(part) => self.fill(part),
+            Value::Part { text, present: true } => self.fill(text),
+            Value::Part { present: false, .. } => String::new(),
             Value::Delay(timed) => count(i64::from(rules.timed[usize::from(*timed)].timer), "tick"),
             Value::Planned(timed) => by_the_clock(self.analysis, &rules.timed[usize::from(*timed)]),
         }

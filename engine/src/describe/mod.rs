@@ -7,9 +7,11 @@ mod kind;
 mod level;
 mod rules;
 mod sprites;
+mod template;
 mod words;
 
 pub use level::{hindered_wins, level};
+pub use template::{Part, Template, templates};
 
 use crate::analysis::Analysis;
 use crate::game::Game;

@@ -21,7 +21,7 @@ use crate::world::{Slot, Timer, flag};
 pub use build::NAMES;
 pub(crate) use build::{Arguments, Undeclared, build};
 pub use parameters::{ParameterKind, effect_parameters};
-pub(crate) use sentences::{Sentence, Value};
+pub(crate) use sentences::{CHANCE, Sentence, Value, sentences};
 pub(crate) use summary::{
     BatchForm, Displacement, Draws, Gives, Moves, OrientationRead, Provided, PutBack, Redirection,
     SpeedEffect, Spot, Summary, TickSummary, Turn,

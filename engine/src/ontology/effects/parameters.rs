@@ -40,12 +40,20 @@ pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
 #[derive(Default)]
 pub(super) struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,
+    /// `true` to answer with other values: flags that are set, negative numbers, types that may be absent.
+    contrary: bool,
+}
+
+impl Recorder {
+    pub(super) fn contrary(contrary: bool) -> Recorder {
+        Recorder { contrary, ..Recorder::default() }
+    }
 }
 
 impl Arguments for Recorder {
     fn int(&mut self, key: &'static str, default: i32) -> i32 {
         self.asked.push((key, ParameterKind::Int));
-        default
+        if self.contrary { -1 } else { default }
     }
 
     fn number(&mut self, key: &'static str, default: f64) -> f64 {
@@ -55,7 +63,7 @@ impl Arguments for Recorder {
 
     fn flag(&mut self, key: &'static str, default: bool) -> bool {
         self.asked.push((key, ParameterKind::Flag));
-        default
+        self.contrary || default
     }
 
     fn score(&mut self, key: &'static str) -> i32 {
@@ -79,7 +87,7 @@ impl Arguments for Recorder {
 
     fn optional_sprite(&mut self, key: &'static str, _: Undeclared) -> Option<SpriteType> {
         self.asked.push((key, ParameterKind::OptionalSprite));
-        None
+        self.contrary.then_some(SpriteType::NONE)
     }
 
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType> {

@@ -1,12 +1,13 @@
 //! The sentence of each effect: a template with named holes, and the values for the holes.
 //!
-//! `engine::describe` fills the holes.
+//! `engine::describe` fills the holes, and lists the templates for programs that read such sentences.
 //!
 //! Two holes are the sprites that meet: `{one}` and `{two}`. `{one:die|disappears}` is a word that agrees with a sprite:
 //! the first form is for the player, the second for anything else; `{both:…|…}` agrees with either. `{every}` is the
 //! sprites on which an effect runs by the clock. All other holes have values of their own.
 
-use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, TransformIfCount};
+use super::parameters::Recorder;
+use super::{Effect, NAMES, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
 use crate::game::SpriteType;
 use smallvec::SmallVec;
 
@@ -19,6 +20,9 @@ pub(crate) struct Sentence {
     pub(crate) alone: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
+
+/// The text with which a probability starts.
+pub(crate) const CHANCE: &str = " with a chance of ";
 
 /// The value of a hole.
 #[derive(Clone, Debug)]
@@ -38,8 +42,11 @@ pub(crate) enum Value {
     /// A probability; certainty is not mentioned.
     Chance(f64),
     Text(String),
-    /// A part with holes of its own, or nothing.
-    Part(&'static str),
+    /// A part with holes of its own, if it is `present`.
+    Part {
+        text: &'static str,
+        present: bool,
+    },
     /// The delay of a timed effect.
     Delay(u16),
     /// The sentence of a timed effect.
@@ -66,13 +73,47 @@ impl Sentence {
     }
 
     fn part(self, hole: &'static str, present: bool, part: &'static str) -> Sentence {
-        self.with(hole, Value::Part(if present { part } else { "" }))
+        self.with(hole, Value::Part { text: part, present })
+    }
+
+    /// The text with which the value of a hole starts, if the value can be nothing at all.
+    pub(crate) fn optional_start(&self, hole: &str) -> Option<&'static str> {
+        match self.value(hole)? {
+            Value::Chance(_) => Some(CHANCE),
+            Value::Part { text, .. } => text.split('{').next(),
+            Value::Name(_)
+            | Value::A(_)
+            | Value::AnyOf(_)
+            | Value::Party(_)
+            | Value::Number(_)
+            | Value::Decimal(_)
+            | Value::Count(..)
+            | Value::Text(_)
+            | Value::Delay(_)
+            | Value::Planned(_) => None,
+        }
     }
 
     /// The value of a hole.
     pub(crate) fn value(&self, hole: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| *name == hole).map(|(_, value)| value)
     }
+}
+
+/// The sentences of all effects, each template for meetings once, with the summary of an effect that has it.
+pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
+    let mut found: Vec<(Sentence, Summary)> = Vec::new();
+    for contrary in [false, true] {
+        for keyword in NAMES {
+            let effect = build(keyword, &mut Recorder::contrary(contrary));
+            let effect = effect.expect("every keyword builds an effect");
+            let sentence = effect.sentence();
+            if !found.iter().any(|(other, _)| other.meeting == sentence.meeting) {
+                found.push((sentence, effect.summary()));
+            }
+        }
+    }
+    found
 }
 
 impl Effect {

@@ -1,7 +1,11 @@
 //! The meaning of the rules' sentences for choosing a target. Only sentences written by `engine::describe` are read.
 
+use engine::EffectFamily;
+use engine::analysis::{EffectSummary, Precondition, Side};
+use engine::describe::{Part, Template, templates};
 use itertools::Itertools;
 use regex::{Captures, Regex};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
@@ -66,6 +70,8 @@ enum Subject {
     Block,
     /// The first is removed by touching the second.
     End,
+    /// The first is removed by touching the second, if the two move in some way.
+    MayEnd,
     EndBoth,
     /// The second pushes the first.
     Push,
@@ -75,38 +81,98 @@ enum Subject {
     Motion,
 }
 
-/// The patterns of the sentences, in the words of `engine::describe`. The first match counts.
-static SENTENCES: LazyLock<Vec<(Regex, Subject)>> = LazyLock::new(|| {
-    use Subject::{Block, Change, End, EndBoth, Group, Lose, Motion, Push, Win};
-    let need = r"(?: (?P<when>if|unless) you hold at least (?P<least>\d+) (?P<resource>\S+?)(?:,.*)?)?";
-    let touching = "(?P<one>.+?) (?:die|dies|disappear|disappears) on";
-    let all: [(String, Subject); 16] = [
-        (r"^Any (?P<one>\S+) means (?P<two>.+)$".into(), Group),
-        (r"^You win when (?:no (?P<one>.+) is left|at most \d+ (?P<two>.+) are left)$".into(), Win),
-        (r"^You lose when no (?P<one>.+) is left$".into(), Lose),
-        (r"^(?P<one>.+) cannot enter (?P<two>.+?)(?:: .*)?$".into(), Block),
-        (format!("^{touching} touching (?P<two>.+?){need}$"), End),
-        (format!("^{touching} touching (?P<two>.+?) unless .*$"), End),
-        (format!("^{touching} running into (?P<two>.+) head-on$"), End),
-        (r"^(?P<one>you) die if (?P<two>.+) falls on you from above$".into(), End),
-        (r"^(?P<one>.+) and (?P<two>.+) both (?:die|disappear) when they touch$".into(), EndBoth),
-        (r"^(?P<one>.+) loses? \d+ health points? on touching (?P<two>.+), and .*$".into(), End),
-        (format!("^(?P<two>.+?) collects? (?P<one>.+?){need}$"), End),
-        (r"^(?P<two>.+) push(?:es)? (?P<one>.+)$".into(), Push),
-        (r"^(?P<one>.+) turns? into .+ on touching (?P<two>.+?)(?:, and .*)?$".into(), Change),
-        (r"^(?P<one>.+) gains? \d+ .+ on touching (?P<two>.+?)(?:, and .*)?$".into(), Change),
-        (r"^when (?P<one>.+?) touch(?:es)? (?P<two>.+?)(?: and .*)?, .+$".into(), Change),
-        (
-            r"^the (?P<one>\S+) (?:moves (?:straight|up|left|down|right)|wanders|chases|flees).*$".into(),
-            Motion,
-        ),
+/// The patterns of the sentences; the first match counts. Those about meetings come from the templates of
+/// `engine::describe`, those with more text of their own first: they are the more special ones.
+static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
+    use Subject::{Group, Lose, Motion, Win};
+    let others = [
+        (r"^Any (?P<one>\S+) means (?P<two>.+)$", Group),
+        (r"^You win when (?:no (?P<one>.+) is left|at most \d+ (?P<two>.+) are left)$", Win),
+        (r"^You lose when no (?P<one>.+) is left$", Lose),
+        (r"^the (?P<one>\S+) (?:moves (?:straight|up|left|down|right)|wanders|chases|flees).*$", Motion),
     ];
-    let compile = |(pattern, subject): (String, Subject)| {
+    let others = others.map(|(pattern, subject)| (pattern.to_owned(), Some(subject)));
+    let mut meetings = templates();
+    meetings.sort_by_key(|template| {
+        let length = |part: &Part| if let Part::Text(text) = part { text.len() } else { 0 };
+        Reverse(template.parts.iter().map(length).sum::<usize>())
+    });
+    let meetings = meetings.iter().map(|template| (pattern(template), subject(template)));
+    let compile = |(pattern, subject): (String, Option<Subject>)| {
         let regex = regex::RegexBuilder::new(&pattern).case_insensitive(true).build();
         (regex.expect("a pattern of ours"), subject)
     };
-    all.into_iter().map(compile).collect()
+    others.into_iter().chain(meetings).map(compile).collect()
 });
+
+/// Returns the pattern of a template: the two sprites are `one` and `two`, the condition on a resource is `holds`,
+/// `least` and `resource`.
+fn pattern(template: &Template) -> String {
+    let mut named = BTreeSet::new();
+    let mut group = |name: &'static str, pattern: &str| {
+        if named.insert(name) { format!("(?P<{name}>{pattern})") } else { format!("(?:{pattern})") }
+    };
+    let part = |part: &Part| match *part {
+        Part::Text(text) => regex::escape(text),
+        Part::First => group("one", ".+?"),
+        Part::Second => group("two", ".+?"),
+        Part::Agreeing { with_you, with_it } => {
+            let forms = format!("{}|{}", regex::escape(with_you), regex::escape(with_it));
+            if with_you == YOU_HOLD { group("holds", &forms) } else { format!("(?:{forms})") }
+        }
+        Part::Value { name: "least", .. } => group("least", r"-?\d+"),
+        Part::Value { name: "resource", .. } => group("resource", r"[^\s,]+"),
+        Part::Value { optional_start: Some(start), .. } => format!("(?:{}.*)?", regex::escape(start)),
+        Part::Value { optional_start: None, .. } => ".+?".to_owned(),
+    };
+    format!("^{}$", template.parts.iter().map(part).collect::<String>())
+}
+
+/// Returns the subject of a template, by what its effects do; `None` if it does not matter for choosing a target.
+fn subject(template: &Template) -> Option<Subject> {
+    use EffectSummary as Does;
+    let does = |wanted: fn(&Does) -> bool| template.effects.iter().any(wanted);
+    let kills_first = does(|effect| matches!(effect, Does::Kill(Side::First) | Does::Collect));
+    let wounds = does(|effect| matches!(effect, Does::Health { of: None, by, .. } if *by < 0));
+    if template.family == EffectFamily::Block {
+        Some(Subject::Block)
+    } else if kills_first && does(|effect| *effect == Does::Kill(Side::Second)) {
+        Some(Subject::EndBoth)
+    } else if kills_first && template.precondition == Precondition::Movement {
+        Some(Subject::MayEnd)
+    } else if kills_first || wounds {
+        Some(Subject::End)
+    } else if does(|effect| *effect == Does::Push) {
+        Some(Subject::Push)
+    } else {
+        let changes = |effect: &Does| match effect {
+            Does::Change { by, .. } => *by > 0,
+            Does::Speed(of) => of.is_some(),
+            Does::KillAll(_)
+            | Does::Become(_)
+            | Does::BecomeAny(_)
+            | Does::BecomeAll(..)
+            | Does::Make(_)
+            | Does::Clone
+            | Does::Health { .. } => true,
+            Does::Kill(_)
+            | Does::Stop
+            | Does::Undo(_)
+            | Does::Turn
+            | Does::Push
+            | Does::Carry
+            | Does::Teleport
+            | Does::Wrap
+            | Does::Collect
+            | Does::Shield { .. } => false,
+        };
+        // What happens elsewhere or later is not among the effects.
+        (template.effects.is_empty() || template.effects.iter().any(changes)).then_some(Subject::Change)
+    }
+}
+
+/// The words for the player's resources, in sentences with a condition on them.
+const YOU_HOLD: &str = "you hold";
 
 /// The effect of the use key in the description of the keys.
 static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
@@ -121,7 +187,9 @@ impl<'a> Beliefs<'a> {
         let fits = |sentence: &&'a str| {
             // The text after the first full stop is about points.
             let first = sentence.split_once(". ").map_or(*sentence, |(first, _)| first).trim_end_matches('.');
-            SENTENCES.iter().find_map(|(regex, subject)| Some((*subject, regex.captures(first)?)))
+            let (subject, found) =
+                SENTENCES.iter().find_map(|(regex, subject)| Some((*subject, regex.captures(first)?)))?;
+            Some((subject?, found))
         };
         let mut read: Vec<(Subject, Captures<'a>)> = sentences.iter().filter_map(fits).collect();
         // Groups have to be known before other sentences are read.
@@ -137,6 +205,11 @@ impl<'a> Beliefs<'a> {
                 Subject::Push if two_is_me => beliefs.pushed.extend(one),
                 Subject::Block | Subject::Push => {}
                 Subject::End => beliefs.end(&found),
+                // What may kill is to be avoided, and what may be removed is no target.
+                Subject::MayEnd if one_is_me => {
+                    beliefs.kills.extend(two.into_iter().map(|name| (name, None)))
+                }
+                Subject::MayEnd => {}
                 Subject::EndBoth => beliefs.end_both(&found),
                 Subject::Change => {
                     beliefs.changes.extend(two.into_iter().filter(|_| one_is_me));
@@ -170,10 +243,15 @@ impl<'a> Beliefs<'a> {
     }
 
     fn end(&mut self, found: &Captures<'a>) {
-        let need = found.name("resource").map(|resource| ResourceCondition {
+        let holder = found.name("holds").map(|holds| holds.as_str());
+        if holder.is_some_and(|holder| !holder.eq_ignore_ascii_case(YOU_HOLD)) {
+            // The resources of others are not shown.
+            return;
+        }
+        let need = found.name("resource").filter(|_| holder.is_some()).map(|resource| ResourceCondition {
             resource: resource.as_str(),
             least: found.name("least").and_then(|least| least.as_str().parse().ok()).unwrap_or(1),
-            not: found.name("when").is_some_and(|when| when.as_str() == "unless"),
+            not: found.get(0).is_some_and(|all| all.as_str().contains(" unless ")),
         });
         let (goes, by) = (self.names(found, "one"), self.names(found, "two"));
         if self.is_me(found, "one") {

@@ -1,0 +1,76 @@
+//! The templates of the sentences about meetings, for programs that read such sentences.
+
+use crate::analysis::{EffectSummary, Precondition};
+use crate::ontology::effects::{EffectFamily, Sentence, Summary, sentences};
+
+/// A template of the sentences of [`Guide::meetings`](super::Guide::meetings).
+///
+/// ```
+/// use infinite_arcade_engine::describe::{Part, templates};
+/// let blocks = templates().into_iter().find(|template| template.family.name() == "block").unwrap();
+/// assert_eq!(blocks.parts[0], Part::First);
+/// assert_eq!(blocks.parts[1], Part::Text(" cannot enter "));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Template {
+    /// The parts, in order.
+    pub parts: Vec<Part>,
+    /// The family of the effects that it tells of.
+    pub family: EffectFamily,
+    /// What such an effect does. The types in it stand for any.
+    pub effects: Vec<EffectSummary>,
+    /// The condition of the effects, with any type and amount.
+    pub precondition: Precondition,
+}
+
+/// A part of a template.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Text as it is.
+    Text(&'static str),
+    /// The sprite acted upon.
+    First,
+    /// Its partner.
+    Second,
+    /// A word that agrees with a sprite: one form for the player, and one for all others.
+    Agreeing {
+        /// The form for the player.
+        with_you: &'static str,
+        /// The form for all others.
+        with_it: &'static str,
+    },
+    /// Another value.
+    Value {
+        /// The name of the value: `least` and `resource` for the amount of a resource that somebody holds.
+        name: &'static str,
+        /// The text with which the value starts, if it can be nothing at all.
+        optional_start: Option<&'static str>,
+    },
+}
+
+/// Returns the templates of the sentences about meetings, each once.
+pub fn templates() -> Vec<Template> {
+    let template = |(sentence, summary): (Sentence, Summary)| {
+        let mut parts = Vec::new();
+        let mut rest = sentence.meeting;
+        while let Some((before, after)) = rest.split_once('{') {
+            let (hole, after) = after.split_once('}').expect("a hole of a template ends");
+            parts.extend((!before.is_empty()).then_some(Part::Text(before)));
+            parts.push(match (hole, hole.split_once(':').and_then(|(_, forms)| forms.split_once('|'))) {
+                (_, Some((with_you, with_it))) => Part::Agreeing { with_you, with_it },
+                ("one", None) => Part::First,
+                ("two", None) => Part::Second,
+                (name, None) => Part::Value { name, optional_start: sentence.optional_start(name) },
+            });
+            rest = after;
+        }
+        parts.extend((!rest.is_empty()).then_some(Part::Text(rest)));
+        Template {
+            parts,
+            family: summary.family,
+            effects: summary.effects.into_vec(),
+            precondition: summary.precondition,
+        }
+    };
+    sentences().into_iter().map(template).collect()
+}
