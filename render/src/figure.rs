@@ -382,7 +382,7 @@ mod tests {
         check("food/honeyLoaf", Glyph::Gem, "bread");
         check("food/wug", Glyph::Gem, "apple");
         check("lever/churchBell", Glyph::Switch, "bell");
-        check("pit/mousehole", Glyph::Hazard, "hole");
+        check("pit/floorHole", Glyph::Hazard, "hole");
         check("gate/open/portcullis", Glyph::Neutral, "opendoor");
         check("oryx/cheese2", Glyph::Gem, "cheese");
         check("oryx/wug1", Glyph::Gem, "a gem");

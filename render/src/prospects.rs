@@ -2,7 +2,7 @@
 
 use crate::figure::Form;
 use crate::glyph::Glyph;
-use engine::analysis::{Condition, Goal, Harm, Motion};
+use engine::analysis::{Condition, EffectSummary, Goal, Harm, Key, Motion};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
 /// The facts about a game that captions are made of.
@@ -119,6 +119,43 @@ fn names(game: &Game, goal: &Goal) -> String {
     given.join("+")
 }
 
+/// The most names in a meaning.
+const NAMED: usize = 3;
+
+/// Returns the types that something opens, or that are paid for with it.
+fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let gives = |givers: &[(SpriteType, i32)]| givers.iter().any(|(giver, _)| *giver == stype);
+    let locks = analysis.locks().iter().filter(|lock| gives(&lock.givers)).map(|lock| lock.stype);
+    let resources = analysis.resources().iter();
+    let resources = resources.filter(|resource| resource.stype == stype || gives(&resource.givers));
+    locks.chain(resources.flat_map(|resource| resource.takers.iter().map(|(taker, _)| *taker))).collect()
+}
+
+/// Returns the types that all go or change when the avatar touches a type.
+fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let avatars = analysis.avatars().iter();
+    let opened = avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied());
+    opened.chain(uses(analysis, stype)).collect()
+}
+
+/// Returns what the avatar has from a thing that no rule requires.
+fn gain(analysis: &Analysis, stype: SpriteType) -> String {
+    let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
+    let is_met = |second: Option<SpriteType>| second.is_some_and(|second| analysis.applies(second, stype));
+    let mut encounters = analysis.encounters().iter();
+    if let Some(becomes) = touches().find_map(|touch| touch.becomes) {
+        return format!("makes you {}", analysis.game().name(becomes));
+    }
+    if encounters.any(|encounter| is_met(encounter.second) && encounter.effects.iter().any(heals)) {
+        return "changes your health".to_owned();
+    }
+    match touches().map(|touch| touch.score).max() {
+        Some(score) if score > 0 => "take it for points".to_owned(),
+        _ => Glyph::Gem.meaning().to_owned(),
+    }
+}
+
 /// Returns the meaning of a type in legends: of its glyph, with its movement and harm.
 pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
     let glyph = Glyph::of(analysis, stype);
@@ -142,6 +179,13 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         Harm::None if matches!(glyph, Glyph::Enemy | Glyph::Charger) => "harms",
         Harm::None => "harmless",
     };
+    let named = |verb: &str, types: &[SpriteType]| {
+        let mut names: Vec<&str> = types.iter().map(|&other| game.name(other)).collect();
+        names.sort_unstable();
+        names.dedup();
+        names.truncate(NAMED);
+        if names.is_empty() { glyph.meaning().to_owned() } else { format!("{verb} {}", names.join(", ")) }
+    };
     let blocks = || {
         let avatars = analysis.avatars();
         !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
@@ -157,6 +201,19 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),
         Glyph::Wall if !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
         Glyph::Ward if analysis.facts(stype).fleeting => "soon gone".to_owned(),
+        Glyph::Ward if analysis.aims().protect.contains(&stype) => "too few left, and you lose".to_owned(),
+        Glyph::Ward => "others can spoil it".to_owned(),
+        Glyph::Switch => named("touch it to change", &changed(analysis, stype)),
+        Glyph::Key | Glyph::Token => named("needed for", &uses(analysis, stype)),
+        Glyph::Gem => gain(analysis, stype),
+        Glyph::Gate => match analysis.locks().iter().find(|lock| lock.stype == stype).map(|lock| &lock.key) {
+            Some(Key::Resource { resource, amount: 1, .. }) => format!("needs {}", game.name(*resource)),
+            Some(Key::Resource { resource, amount, .. }) => {
+                format!("needs {amount} {}", game.name(*resource))
+            }
+            Some(Key::Switch(switch, _)) => format!("opened by {}", game.name(*switch)),
+            _ => glyph.meaning().to_owned(),
+        },
         _ => glyph.meaning().to_owned(),
     }
 }
