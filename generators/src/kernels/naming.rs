@@ -18,7 +18,7 @@ const VAGUE: &[&str] = &[
     "shoot", "side", "step", "stick", "strip", "stroke", "stub", "tip", "waste",
 ];
 
-/// The longest name of two words.
+/// The longest name of two words: a chandelier that is lit is `lit`.
 const LONGEST: usize = 12;
 
 /// Draws the names of the types of a game, by their names in the kernel. Types without a noun and `wall` keep theirs.
@@ -77,11 +77,10 @@ impl Names<'_> {
         // The noun of a state is the adjective and the noun of the thing.
         let thing = noun.strip_prefix(adjective).unwrap_or(noun);
         let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
-        let both = [thing, joined(of)].map(|thing| format!("{adjective}{thing}"));
-        let both = both.into_iter().min_by_key(|both| both.len() > LONGEST).expect("there are two");
-        // A kernel has its own word for some states: a follower, the ashes of something.
+        let both = format!("{adjective}{thing}");
+        // A kernel has its own word for some states: a follower, the ashes of something, `dazed`.
         let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
-        let tells_more = is_word && stype != adjective && !vocabulary::is_role(stype);
+        let tells_more = is_word && !vocabulary::is_role(stype);
         let first = match (of, adjective) {
             ("exit", "open") => "exit",
             ("hero", _) => adjective,
@@ -120,9 +119,11 @@ mod tests {
             ("dazed", state("bear", "dazed"), "dazedIceBear"),
             ("exit", role("exit"), "boathouse"),
             ("fuel", role("fuel"), "oilCan"),
+            ("globe", role("lamp"), "chandelier"),
             ("hunter", role("hunter"), "polarBear"),
             ("other", role("beast"), "polarbear"),
             ("litLamp", state("lamp", "lit"), "litFairLamp"),
+            ("litGlobe", state("globe", "lit"), "litChandelier"),
             ("openExit", state("exit", "open"), "openBoathouse"),
             ("wokenBear", state("bear", "woken"), "wokenIceBear"),
         ];
@@ -133,12 +134,13 @@ mod tests {
         let names = names(&nouns, castings, BTreeSet::new(), &mut Seed::from_text("names").sampler());
         let expect = [
             ("bear", "bear"),
-            ("dazed", "dazedbear"),
+            ("dazed", "dazed"),
             ("exit", "boathouse"),
             ("fuel", "oilcan"),
             ("hunter", "polarbear"),
             ("other", "polarbear2"),
             ("litLamp", "litlamp"),
+            ("litGlobe", "lit"),
             ("openExit", "exit"),
             ("wokenBear", "wokenbear"),
         ];
