@@ -20,8 +20,10 @@ pub(super) struct GameGate<'a> {
     panel: Panel,
 }
 
-/// The ticks that a game lasts, as a multiple of the longest win that is known of its levels.
-const TIME_PER_WIN: f64 = 1.7;
+/// The time limits of games, in ticks: round numbers, as authors choose them.
+const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
+/// The least time limit, as a multiple of the longest win that is known of the levels.
+const TIME_PER_WIN: f64 = 2.5;
 
 /// The reason for turning down a game in which too little happens.
 const MEAGRE: &str = "meagre";
@@ -76,8 +78,7 @@ impl<'a> GameGate<'a> {
             .filter_map(|found| found.report.witness.as_ref())
             .map(|win| win.actions.len())
             .max()?;
-        let ticks = (longest as f64 * TIME_PER_WIN / 10.0).ceil() as u32 * 10;
-        let (candidate, _) = build(&genome.timed(ticks))?;
+        let (candidate, _) = build(&genome.timed(time_limit(longest)))?;
         let again = found.iter().map(|found| levels.again(&candidate.game, found, tally));
         let Some(found) = again.collect::<Option<Vec<_>>>() else {
             tally.game_rejected("time limit");
@@ -117,6 +118,13 @@ impl<'a> GameGate<'a> {
         let form = GameForm::of(&candidate.game);
         form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
     }
+}
+
+/// The time limit of a game whose longest known win takes so many ticks.
+fn time_limit(longest: usize) -> u32 {
+    let least = longest as f64 * TIME_PER_WIN;
+    let round = TIME_LIMITS.into_iter().find(|&limit| f64::from(limit) >= least);
+    round.unwrap_or_else(|| (least / 1000.0).ceil() as u32 * 1000)
 }
 
 fn interactions(game: &Game) -> usize {
@@ -212,8 +220,14 @@ mod tests {
             made.game.description().terminations.iter().find(|line| line.class.text == "Timeout").unwrap();
         let limit: usize = limit.params[0].value.text.parse().unwrap();
         let wins = made.witnesses.iter().map(|witness| witness.actions.len());
-        let longest = wins.max().unwrap();
-        assert!((longest..=3 * longest).contains(&limit), "{longest} of {limit}");
+        assert_eq!(limit as u32, time_limit(wins.max().unwrap()));
+    }
+
+    #[test]
+    fn time_limits_are_round_and_generous() {
+        for (longest, expect) in [(25, 150), (60, 150), (61, 200), (100, 250), (160, 400), (500, 2000)] {
+            assert_eq!(time_limit(longest), expect, "{longest}");
+        }
     }
 
     #[test]
