@@ -69,7 +69,9 @@ impl Course {
     pub fn level(&self, slot: Slot, seed: Seed) -> Result<CourseLevel, GenerateError> {
         let plans: Vec<_> = self.kernel.levels.iter().filter(|level| level.slot == slot).collect();
         let plan = *seed.child("plan", 0).sampler().choose(&plans);
-        let mut map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?;
+        let is_present = |stype: &str| stype == "wall" || self.traits.present.contains(stype);
+        let mut map =
+            plan.map(&self.values).map_err(GenerateError::Unsuitable)?.without_bare_ends(is_present);
         // What another kernel brings comes into play when the kernel's own trick is known.
         if slot >= Slot::Combine {
             let sampler = &mut seed.child("grafts", 0).sampler();

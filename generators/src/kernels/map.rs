@@ -50,7 +50,7 @@ pub(crate) enum Size {
 /// The interior walls of a room.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Style {
-    /// Worn corners now and then.
+    /// Clean, or with all corners cut.
     #[default]
     Plain,
     Open,
@@ -179,6 +179,31 @@ impl Map {
         reached.iter().position(|reached| !reached)
     }
 
+    /// The map without the dead ends that hold nothing of what a game has, unless their opening holds something.
+    #[must_use]
+    pub(crate) fn without_bare_ends(mut self, is_present: impl Fn(&str) -> bool) -> Map {
+        let is_bare = |map: &Map, number: usize| {
+            let room = &map.rooms[number];
+            let mut links = map.links.iter().filter(|link| link.from(number).is_some());
+            let (first, others) = (links.next(), links.next());
+            let holds = |stype: &Option<String>| stype.as_deref().is_some_and(&is_present);
+            room.piece.is_none()
+                && !holds(&room.fill)
+                && !room.items.iter().any(|item| is_present(&item.stype) && item.count.1 > 0)
+                && others.is_none()
+                && first.is_some_and(|link| !holds(&link.stype) && !holds(&link.border))
+        };
+        while let Some(bare) = (0..self.rooms.len()).find(|&number| is_bare(&self, number)) {
+            self.rooms.remove(bare);
+            self.links.retain(|link| link.from(bare).is_none());
+            for link in &mut self.links {
+                let moved = |room: usize| if room > bare { room - 1 } else { room };
+                link.between = (moved(link.between.0), moved(link.between.1));
+            }
+        }
+        self
+    }
+
     /// The types that the map places, in order, with repetitions.
     pub(crate) fn types(&self) -> impl Iterator<Item = &str> {
         let rooms = self.rooms.iter();
@@ -276,4 +301,22 @@ fn counted(text: &str) -> Result<(&str, (u32, u32)), String> {
         return Err(format!("`{count}` is not a number of things from 0 to 40"));
     }
     Ok((stype.trim(), (least, most)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bare_dead_ends_are_left_out() {
+        let text = "home: hero\nquay: exit\nhall: prize\nnook: small\nlair: small\nhome - quay\nhome - hall\nquay - nook\nhall -door- lair";
+        let map = Map::read(text).unwrap();
+        let rooms = |present: &[&str]| {
+            let map = map.clone().without_bare_ends(|stype| present.contains(&stype));
+            assert!(map.links.iter().all(|link| link.between.0.max(link.between.1) < map.rooms.len()));
+            map.rooms.into_iter().map(|room| room.name).collect::<Vec<_>>()
+        };
+        assert_eq!(rooms(&["hero", "exit", "prize", "door"]), ["home", "quay", "hall", "lair"]);
+        assert_eq!(rooms(&["hero", "prize"]), ["home", "hall"]);
+    }
 }

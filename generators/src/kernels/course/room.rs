@@ -65,6 +65,10 @@ pub(super) fn build(
             draw_piece(&rows, kernel, traits, area, board);
         } else if room.size == Size::Corridor {
             carve_corridor(area, &openings[number], board);
+        } else if let &[opening] = &openings[number][..]
+            && is_bare(room, traits)
+        {
+            leave_nook(area, opening, board);
         } else {
             style(room.style, area, board, sampler);
         }
@@ -160,29 +164,44 @@ fn carve_corridor(area: Rectangle, openings: &[Cell], board: &mut Board) {
     }
 }
 
+/// Tests whether a room holds nothing.
+fn is_bare(room: &Room, traits: &Traits) -> bool {
+    let holds = |stype: &str| stype == "wall" || traits.present.contains(stype);
+    !room.fill.as_deref().is_some_and(holds) && !room.items.iter().any(|item| holds(&item.stype))
+}
+
+/// Leaves three cells by two behind the opening of a dead end: a cupboard and no empty hall.
+fn leave_nook(area: Rectangle, (x, y): Cell, board: &mut Board) {
+    let (across, deep) = (1, 2);
+    let beside = x >= area.left && x <= area.right;
+    let (wide, tall) = if beside { (across, deep) } else { (deep, across) };
+    let outside = |cell: &Cell| cell.0.abs_diff(x) > wide || cell.1.abs_diff(y) > tall;
+    area.cells().filter(outside).for_each(|cell| board.put(cell, Some("wall")));
+}
+
 /// Adds the interior walls of a style.
 fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler) {
     let (width, height) = (area.width(), area.height());
     let mut wall = |x: usize, y: usize| board.put((area.left + x, area.top + y), Some("wall"));
     match style {
         Style::Open => {}
-        // Worn corners: nobody builds two posts into every room.
+        // Most rooms are clean; some have all four corners cut, never one or two.
         Style::Plain => {
-            if width >= 4 && height >= 3 {
+            if width >= 5 && height >= 4 && sampler.ratio(1, 4) {
                 for (x, y) in [(0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)] {
-                    if sampler.ratio(1, 3) {
-                        wall(x, y);
-                    }
+                    wall(x, y);
                 }
             }
         }
         Style::Pillars => {
             let step = if width >= 7 && sampler.ratio(1, 2) { 3 } else { 2 };
             for y in (1..height - 1).step_by(2) {
-                for x in (1..width - 1).step_by(step) {
-                    // Symmetric from left to right.
-                    wall(x, y);
-                    wall(width - 1 - x, y);
+                for x in (1..width.div_ceil(2)).step_by(step) {
+                    // Symmetric from left to right; two pillars side by side would be a stub.
+                    if width - 1 - x != x + 1 {
+                        wall(x, y);
+                        wall(width - 1 - x, y);
+                    }
                 }
             }
         }
@@ -200,14 +219,14 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             }
         }
         Style::Ring => {
-            // A large block has an aisle, so that there are two loops; its corners may be gone.
-            let aisle = |size: usize| (size >= 7).then_some(size / 2);
-            let (aisle_x, aisle_y) = (aisle(width), aisle(height).filter(|_| width < 7));
+            // A large block has an aisle in its middle, so that there are two loops; its corners may be gone.
+            let in_aisle = |at: usize, size: usize| size >= 7 && (at == size / 2 || at == (size - 1) / 2);
             let is_worn = width > 5 && height > 5 && sampler.ratio(1, 2);
             for y in 1..height - 1 {
                 for x in 1..width - 1 {
                     let at_corner = (x == 1 || x == width - 2) && (y == 1 || y == height - 2);
-                    if aisle_x != Some(x) && aisle_y != Some(y) && !(is_worn && at_corner) {
+                    let in_aisle = in_aisle(x, width) || width < 7 && in_aisle(y, height);
+                    if !in_aisle && !(is_worn && at_corner) {
                         wall(x, y);
                     }
                 }
