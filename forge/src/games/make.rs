@@ -57,7 +57,7 @@ pub trait Progress: Sync {
 impl Progress for () {}
 
 /// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
-/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, at most one of twenty is of one kernel and three of twenty are of one kind. `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
+/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
 /// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
 ///
 /// Games that could not be made are missing in the set.
@@ -94,7 +94,7 @@ pub fn make_one(
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
     let maker = Maker::new(order, GameGate::new(order, known, canary), seed, &());
-    let Attempted { made, tally, .. } = maker.attempt(number, 0);
+    let Attempted { made, tally, .. } = maker.attempt(number, 0, &Company::of(order));
     (made.map(|(game, _)| game), tally)
 }
 
@@ -129,7 +129,7 @@ impl<'a> Maker<'a> {
         let mut games = BTreeMap::new();
         let mut open: Vec<(u32, u32)> = (0..self.order.count).map(|number| (number, 0)).collect();
         while !open.is_empty() {
-            let attempt = |&(number, from): &(u32, u32)| (number, self.attempt(number, from));
+            let attempt = |&(number, from): &(u32, u32)| (number, self.attempt(number, from, &company));
             let attempted: Vec<(u32, Attempted)> = open.par_iter().map(attempt).collect();
             open.clear();
             for (number, mut attempted) in attempted {
@@ -150,8 +150,8 @@ impl<'a> Maker<'a> {
         set
     }
 
-    /// Attempts from one on, until a game is accepted.
-    fn attempt(&self, number: u32, from: u32) -> Attempted {
+    /// Attempts from one on, until a game is accepted; none at kernels and kinds of which there are enough.
+    fn attempt(&self, number: u32, from: u32, company: &Company) -> Attempted {
         let mut attempted = Attempted { made: None, tally: Tally::default(), looks: 0 };
         let seed = self.seed.child("game", u64::from(number));
         for attempt in from..self.order.effort.attempts {
@@ -160,6 +160,9 @@ impl<'a> Maker<'a> {
             let passes = attempt / patience;
             let drawn = KernelGenome::in_turn(&self.turns, number, passes, seed.child("rules", 0));
             let Some(drawn) = drawn else { break };
+            if !company.has_room(drawn.kernel(), drawn.form(), drawn.kind().name()) {
+                continue;
+            }
             let proposed = match self.order.method {
                 Method::Constructive if (attempt + 1) % patience == 0 => vec![drawn],
                 Method::Constructive => self.promising(drawn, seed, &mut attempted),
@@ -240,7 +243,9 @@ impl<'a> Maker<'a> {
                 set.tally.calls(look.calls);
                 look.evaluation
             });
-            let is_welcome = |genome: &KernelGenome| company.has_room(genome.kernel(), genome.kind().name());
+            let is_welcome = |genome: &KernelGenome| {
+                company.has_room(genome.kernel(), genome.form(), genome.kind().name())
+            };
             let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
             let wanted_now = missing.max(LEAST_OF_ROUND);
             let key = KernelGenome::key;
@@ -282,42 +287,51 @@ fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
     steps.into_iter().map(|(purpose, index)| (purpose.to_owned(), index)).collect()
 }
 
-/// The games of a set so far: no two are near, none has the title or the cast of another, and no kernel and no kind is crowded.
+/// The games of a set so far: no two are near, none has the title or the cast of another, no kernel and no kind is crowded,
+/// and games of a kernel have different maps.
 struct Company {
     forms: Vec<GameForm>,
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
-    /// The number of games of each kernel.
-    of_kernels: BTreeMap<String, usize>,
+    /// The number of games of each kernel, kernels that are hardly different together.
+    of_families: BTreeMap<String, usize>,
+    /// The kernels and forms that there are.
+    of_forms: BTreeSet<(String, Option<String>)>,
     /// The number of games of each kind.
     of_kinds: BTreeMap<String, usize>,
-    /// The most games of a kernel and of a kind.
-    room: (usize, usize),
+    /// The walls of the levels of all games, by family and slot.
+    walls: BTreeSet<(String, usize, Vec<String>)>,
+    /// The most games of a kernel and of a kind; none if only some kinds are asked for.
+    room: Option<(usize, usize)>,
 }
 
 impl Company {
-    /// One of twenty games may be of a kernel and three of twenty of a kind, or one and two of a few; as many as there are,
-    /// where only some kinds are asked for.
+    /// A kernel has one game, or one in each form if there are more games than kernels, and three of twenty games are of a
+    /// kind, or two of a few; as many as there are, where only some kinds are asked for.
     fn of(order: &GameOrder) -> Company {
         let count = order.count as usize;
-        let room = match order.kinds.len() < Kind::ALL.len() {
-            true => (usize::MAX, usize::MAX),
-            false => ((count / 20).max(1), (count * 3 / 20).max(2)),
-        };
+        let of_kernel = count.div_ceil(KernelGenome::kernels().count()).max(1);
+        let room = (order.kinds.len() >= Kind::ALL.len()).then_some((of_kernel, (count * 3 / 20).max(2)));
         Company {
             forms: Vec::new(),
             titles: BTreeSet::new(),
             casts: Vec::new(),
-            of_kernels: BTreeMap::new(),
+            of_families: BTreeMap::new(),
+            of_forms: BTreeSet::new(),
             of_kinds: BTreeMap::new(),
+            walls: BTreeSet::new(),
             room,
         }
     }
 
-    /// Tests whether a game of this kernel and kind could be taken in.
-    fn has_room(&self, kernel: &str, kind: &str) -> bool {
+    /// Tests whether a game of this kernel, in this form, and kind could be taken in.
+    fn has_room(&self, kernel: &str, form: Option<&str>, kind: &str) -> bool {
+        let Some((of_family, of_kind)) = self.room else { return true };
         let count = |counts: &BTreeMap<String, usize>, name: &str| counts.get(name).copied().unwrap_or(0);
-        count(&self.of_kernels, kernel) < self.room.0 && count(&self.of_kinds, kind) < self.room.1
+        let is_other = KernelGenome::forms(kernel) < 2
+            || !self.of_forms.contains(&(kernel.to_owned(), form.map(str::to_owned)));
+        let family = KernelGenome::family(kernel);
+        is_other && count(&self.of_families, family) < of_family && count(&self.of_kinds, kind) < of_kind
     }
 
     /// Takes the game in, or says why not.
@@ -333,17 +347,43 @@ impl Company {
         if self.casts.iter().any(|other| cast.is_shared(other)) {
             return Err("a cast twice");
         }
-        let kernel = made.card.origin.kernel().unwrap_or_default();
-        if !self.has_room(kernel, &made.card.kind) {
+        let (kernel, its_form) = (made.card.origin.kernel().unwrap_or_default(), made.card.origin.form());
+        if !self.has_room(kernel, its_form, &made.card.kind) {
             return Err("enough of its kind");
         }
-        *self.of_kernels.entry(kernel.to_owned()).or_default() += 1;
+        let family = KernelGenome::family(kernel).to_owned();
+        let levels = made.levels.iter().map(|found| walls(&found.level.to_string())).enumerate();
+        let walls: Vec<_> = levels.map(|(slot, walls)| (family.clone(), slot, walls)).collect();
+        if self.room.is_some() && walls.iter().any(|level| self.walls.contains(level)) {
+            return Err("a map twice");
+        }
+        self.walls.extend(walls);
+        self.of_forms.insert((kernel.to_owned(), its_form.map(str::to_owned)));
+        *self.of_families.entry(family).or_default() += 1;
         *self.of_kinds.entry(made.card.kind.clone()).or_default() += 1;
         self.titles.insert(made.card.title.clone());
         self.casts.push(cast);
         self.forms.push(form);
         Ok(())
     }
+}
+
+/// The walls of a level, mirrored such that levels which are mirror images have the same.
+fn walls(level: &str) -> Vec<String> {
+    let rows: Vec<String> = level
+        .lines()
+        .map(|row| row.chars().map(|symbol| if symbol == 'w' { '#' } else { '.' }).collect())
+        .collect();
+    let turned = |mirrored: bool, upside_down: bool| {
+        let row = |row: &String| if mirrored { row.chars().rev().collect() } else { row.clone() };
+        let mut rows: Vec<String> = rows.iter().map(row).collect();
+        if upside_down {
+            rows.reverse();
+        }
+        rows
+    };
+    let all = [(false, false), (true, false), (false, true), (true, true)];
+    all.into_iter().map(|(mirrored, upside_down)| turned(mirrored, upside_down)).min().unwrap_or_default()
 }
 
 /// The feasibility of a game that a look took for feasible and the last judges did not.
@@ -353,5 +393,18 @@ impl Attempted {
     fn note(&mut self, look: &super::look::Look) {
         self.looks += 1;
         self.tally.calls(look.calls);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mirror_images_have_the_same_walls() {
+        let level = "wwww\nwA.w\nww.w\nwwww\n";
+        let mirrored = "wwww\nw.ww\nw.Bw\nwwww\n";
+        assert_eq!(walls(level), walls(mirrored));
+        assert_ne!(walls(level), walls("wwww\nwA.w\nw..w\nwwww\n"));
     }
 }

@@ -100,6 +100,23 @@ impl KernelGenome {
         &self.kernel.name
     }
 
+    /// The form of its kernel; `None` for the kernel as such.
+    pub fn form(&self) -> Option<&str> {
+        self.kernel.form.as_deref()
+    }
+
+    /// The kernel that stands for a kernel and all that are hardly different from it.
+    pub fn family(kernel: &str) -> &str {
+        let named = Kernel::all().iter().find(|other| other.name == kernel);
+        named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)
+    }
+
+    /// The number of forms of a kernel, the kernel as such included.
+    pub fn forms(kernel: &str) -> usize {
+        let named = Kernel::all().iter().find(|other| other.name == kernel);
+        named.map_or(1, |kernel| kernel.in_all_forms().count())
+    }
+
     /// The names of all kernels, those of a kind together: an axis of an archive.
     pub fn kernels() -> impl Iterator<Item = &'static str> {
         let of_kind = |kind: Kind| Kernel::all().iter().filter(move |kernel| kernel.kind == kind);

@@ -19,6 +19,8 @@ pub(crate) struct Kernel {
     /// The name of the form that this is; `None` for the kernel as such.
     pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
+    /// Another kernel, so near that small sets have only one of the two.
+    pub(crate) like: Option<String>,
     /// The one sentence that says the whole game, with nouns as `<type>`.
     pub(crate) dilemma: String,
     pub(crate) goal: String,
@@ -124,6 +126,7 @@ pub(crate) struct KernelError {
 #[serde(deny_unknown_fields)]
 pub(super) struct File {
     pub(super) kind: Kind,
+    pub(super) like: Option<String>,
     pub(super) dilemma: String,
     pub(super) goal: String,
     #[serde(default)]
@@ -264,6 +267,7 @@ impl Kernel {
             name: name.to_owned(),
             form: form_name,
             kind: file.kind,
+            like: file.like,
             dilemma: file.dilemma,
             goal: file.goal,
             facts: file.facts,

@@ -11,19 +11,20 @@ const MOST: usize = 3;
 /// The scenes between those of neighbouring places: most kernels fit one of so many.
 const STRIDE: usize = 7;
 
+/// The places that have different scenes, as far as their kernels allow.
+const BLOCK: u32 = 40;
+
 /// The kinds that have kernels, in the order of [`Kind::ALL`].
 pub fn kinds() -> impl Iterator<Item = Kind> {
     let has_kernel = |kind: &Kind| Kernel::all().iter().any(|kernel| kernel.kind == *kind);
     Kind::ALL.iter().copied().filter(has_kernel)
 }
 
-/// The order in which kernels take turns: kinds first, then the kernels of each, both in an order that is drawn.
+/// The order in which kernels take turns: each has one before any has a second, and kinds mingle.
 #[derive(Clone, Debug)]
 pub struct Turns {
-    /// The kernels of each kind.
-    kinds: Vec<Vec<&'static Kernel>>,
-    /// Indices of kinds, for one round.
-    round: Vec<usize>,
+    /// All kernels, in rounds.
+    order: Vec<&'static Kernel>,
     scenes: Vec<&'static Scene>,
     seed: Seed,
 }
@@ -41,41 +42,57 @@ impl Turns {
         let mut kinds: Vec<Vec<&'static Kernel>> = kinds.iter().map(of_kind).collect();
         kinds.retain(|kernels| !kernels.is_empty());
         let sampler = &mut seed.child("round", 0).sampler();
-        let mut round = Vec::new();
-        for turn in 0..MOST {
-            let mut again: Vec<usize> = (0..kinds.len()).filter(|&kind| kinds[kind].len() > turn).collect();
-            sampler.shuffle(&mut again);
-            round.extend(again);
+        let mut order = Vec::new();
+        // Up to `MOST` kernels of each kind, and then the others.
+        while kinds.iter().any(|kernels| !kernels.is_empty()) {
+            for _ in 0..MOST {
+                let mut again: Vec<&'static Kernel> = kinds.iter_mut().filter_map(Vec::pop).collect();
+                sampler.shuffle(&mut again);
+                order.extend(again);
+            }
         }
         let mut scenes: Vec<&'static Scene> = Scene::all().iter().collect();
         seed.child("scenes", 0).sampler().shuffle(&mut scenes);
-        Turns { kinds, round, scenes, seed }
+        Turns { order, scenes, seed }
     }
 
-    /// The scene of a place in the set, of those that a kernel can be set in: far from those of the places before it.
+    /// The scene of a place in the set, of those that a kernel can be set in: one that no place shortly before it has, if
+    /// there is one.
     pub(crate) fn scene(&self, kernel: &Kernel, place: u32) -> Option<&'static Scene> {
+        let mut taken: Vec<&'static Scene> = Vec::new();
+        for before in place - place % BLOCK..place {
+            taken.extend(self.free_scene(self.first(before)?, before, &taken));
+        }
+        self.free_scene(kernel, place, &taken)
+    }
+
+    /// The first scene of a place that its kernel can be set in and that none of the places before it has.
+    fn free_scene(&self, kernel: &Kernel, place: u32, taken: &[&'static Scene]) -> Option<&'static Scene> {
         let from = STRIDE * place as usize % self.scenes.len().max(1);
         let (before, after) = self.scenes.split_at(from);
-        after.iter().chain(before).copied().find(|scene| scene.fits(kernel))
+        let mut fitting = after.iter().chain(before).copied().filter(|scene| scene.fits(kernel));
+        let first = fitting.clone().next();
+        let is_free = |scene: &&Scene| !taken.iter().any(|other| other.name == scene.name);
+        fitting.find(is_free).or(first)
+    }
+
+    /// The kernel whose turn it is.
+    fn first(&self, place: u32) -> Option<&'static Kernel> {
+        self.order.get(place as usize % self.order.len().max(1)).copied()
     }
 
     /// The kernel of a place in the set, or the next one after some passes; `None` if there are no kernels.
     pub(crate) fn kernel(&self, place: u32, passes: u32) -> Option<&'static Kernel> {
-        let length = self.round.len();
-        if length == 0 {
-            return None;
-        }
-        let (rounds, at) = (place as usize / length, place as usize % length);
-        let kind = self.round[at];
-        let in_round = |until: usize| self.round[..until].iter().filter(|&&other| other == kind).count();
-        let kernels = &self.kinds[kind];
-        let first = kernels[(rounds * in_round(length) + in_round(at)) % kernels.len()];
-        let mut others: Vec<&'static Kernel> =
-            self.kinds.iter().flatten().copied().filter(|kernel| kernel.name != first.name).collect();
-        self.seed.child("others", place.into()).sampler().shuffle(&mut others);
-        match passes as usize % (others.len() + 1) {
+        let (first, length) = (self.first(place)?, self.order.len());
+        let sampler = &mut self.seed.child("others", place.into()).sampler();
+        // Kernels that have their turn late, and that smaller sets have no place for, come first.
+        let (mut early, mut late) = (self.order[..length / 2].to_vec(), self.order[length / 2..].to_vec());
+        sampler.shuffle(&mut late);
+        sampler.shuffle(&mut early);
+        let mut others = late.into_iter().chain(early).filter(|kernel| kernel.name != first.name);
+        match passes as usize % length {
             0 => Some(first),
-            pass => Some(others[pass - 1]),
+            pass => others.nth(pass - 1),
         }
     }
 }
@@ -94,12 +111,14 @@ mod tests {
             *kernels.entry(&kernel.name).or_insert(0) += 1;
             *kinds.entry(kernel.kind).or_insert(0) += 1;
         }
-        assert!(kernels.len() >= 30 && kinds.values().all(|&there| there <= 7), "{kernels:?} {kinds:?}");
+        assert!(kernels.len() == Kernel::all().len(), "{kernels:?}");
+        assert!(kernels.values().all(|&there| there <= 2), "{kernels:?}");
+        assert!(kinds.values().all(|&there| there <= 9), "{kinds:?}");
         let passed: Vec<_> = (0..10).map(|pass| &turns.kernel(3, pass).unwrap().name).collect();
         assert!((1..10).all(|at| !passed[..at].contains(&passed[at])), "{passed:?}");
         let scene = |place: u32| turns.scene(turns.kernel(place, 0)?, place).map(|scene| &scene.name);
         let scenes: BTreeSet<_> = (0..12).map(scene).collect();
-        assert!(scenes.len() >= 10 && !scenes.contains(&None), "{scenes:?}");
+        assert!(scenes.len() >= 11 && !scenes.contains(&None), "{scenes:?}");
         assert!(Turns::draw(&[], Seed::from_text("none")).kernel(0, 0).is_none());
     }
 }
