@@ -225,8 +225,9 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             for y in 1..height - 1 {
                 for x in 1..width - 1 {
                     let at_corner = (x == 1 || x == width - 2) && (y == 1 || y == height - 2);
-                    let in_aisle = in_aisle(x, width) || width < 7 && in_aisle(y, height);
-                    if !in_aisle && !(is_worn && at_corner) {
+                    let is_gone =
+                        in_aisle(x, width) || width < 7 && in_aisle(y, height) || is_worn && at_corner;
+                    if !is_gone {
                         wall(x, y);
                     }
                 }
