@@ -62,7 +62,8 @@ impl Page {
     /// Returns the folder of the page below `docs/`; empty for a top-level page. A folder's own page lies in the
     /// folder.
     pub(crate) fn folder(&self) -> &str {
-        match DOCS.get_dir(&self.path) {
+        // A folder of pictures beside a page is not its own.
+        match DOCS.get_file(format!("{}/README.md", self.path)) {
             Some(_) => &self.path,
             None => self.path.rsplit_once('/').map_or("", |(folder, _)| folder),
         }
