@@ -1,8 +1,9 @@
 //! Positions that are constructed instead of played.
 
-use crate::game::{Game, SpriteType};
+use crate::game::Game;
 use crate::geometry::Direction;
 use crate::level::Level;
+use crate::rules::SpriteType;
 use crate::seed::Seed;
 use crate::state::State;
 use crate::world::NONE;
@@ -36,7 +37,7 @@ impl Game {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game::Action;
+    use crate::rules::Action;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    gate > Door\n    key > Resource limit=3\n    dart > Missile\n    avatar > ShootAvatar stype=dart ammo=key\n  LevelMapping\n    g > gate\n    k > key\n  InteractionSet\n    gate dart > killBoth\n    dart EOS > killSprite\n    avatar EOS > stepBack\n    key avatar > collectResource\n  TerminationSet\n    SpriteCounter stype=gate win=True\n";
 

@@ -1,7 +1,8 @@
 //! Episodes: recorded play that can be replayed and checked bit for bit.
 
-use crate::game::{Action, Game, Outcome};
+use crate::game::Game;
 use crate::level::Level;
+use crate::rules::{Action, Outcome};
 use crate::{Digest, Seed, State, StateHash};
 use serde::{Deserialize, Serialize};
 

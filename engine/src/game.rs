@@ -3,8 +3,8 @@
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::geometry::Direction;
 use crate::limits::MAX_TICKS;
-use crate::ontology::class::SpriteClass;
-pub(crate) use crate::rules::*;
+use crate::rules::class::SpriteClass;
+use crate::rules::{Action, Rules, SpriteType};
 use crate::schedule::Plan;
 use crate::state::State;
 use crate::syntax::Description;

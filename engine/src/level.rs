@@ -3,8 +3,9 @@
 use crate::Digest;
 use crate::compile::{Outline, outline};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
-use crate::game::{Game, SpriteType};
+use crate::game::Game;
 use crate::limits::{MAX_ATTEMPTS, MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
+use crate::rules::SpriteType;
 use crate::syntax::BYTE_ORDER_MARK;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

@@ -1,9 +1,10 @@
 //! Observations for players, and the full record of a state for comparison with traces.
 
-use crate::game::{Game, Outcome, SpriteType};
+use crate::game::Game;
 use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SEEN;
-use crate::ontology::class::SpriteClass;
+use crate::rules::class::SpriteClass;
+use crate::rules::{Outcome, SpriteType};
 use crate::state::State;
 use crate::world::{Sprite, flag};
 

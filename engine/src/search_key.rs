@@ -2,10 +2,10 @@
 
 use crate::SpriteClass;
 use crate::analysis::StateAbstraction;
-use crate::game::{Game, Rules, SpriteType, TypeInfo};
+use crate::game::Game;
 use crate::limits::MAX_TICKS;
-use crate::ontology::avatars::BLOCK_PAUSE;
-use crate::rules::memory;
+use crate::rules::traits::BLOCK_PAUSE;
+use crate::rules::{Rules, SpriteType, TypeInfo, memory};
 use crate::state::State;
 use crate::world::{Extra, Mixer, Replaced, SearchKey, Slot, Sprite, Target, World, bits, flag, two};
 

@@ -4,10 +4,10 @@ use super::Analysis;
 use super::encounter::{EffectSummary, Encounter, Side, timed_effects};
 use super::facts::Motion;
 use super::futures::PossibleFutures;
-use crate::game::{SpriteType, TypeInfo};
-use crate::ontology::avatars::BLOCK_PAUSE;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::terminations::{Condition, Decision, Termination};
+use crate::rules::class::SpriteClass;
+use crate::rules::terminations::{Condition, Decision, Termination};
+use crate::rules::traits::BLOCK_PAUSE;
+use crate::rules::{SpriteType, TypeInfo};
 use crate::state::State;
 use crate::world::SearchKey;
 

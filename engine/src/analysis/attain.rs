@@ -6,10 +6,10 @@ use super::facts::Facts;
 use super::futures::PossibleFutures;
 use super::goal::{Condition, Goal};
 use super::requirement::MAX_GOALS;
-use crate::game::{Rules, SpriteType};
 use crate::limits::MAX_TICKS;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::terminations::{Condition as Written, Decision, can_be_held_up};
+use crate::rules::class::SpriteClass;
+use crate::rules::terminations::{Condition as Written, Decision, can_be_held_up};
+use crate::rules::{Rules, SpriteType};
 use serde::Serialize;
 
 /// The conditions under which a termination can hold. Every answer but [`Attainable::InPlay`] is proved; that one means

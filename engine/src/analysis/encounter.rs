@@ -1,7 +1,7 @@
 //! Interactions in summarised form: the two sprites, the effects and the condition.
 
-use crate::game::{Rules, SpriteType};
-pub use crate::ontology::effects::{EffectSummary, Precondition, Side};
+pub use crate::rules::effects::{EffectSummary, Precondition, Side};
+use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 
 /// One interaction line with one of its partners, in summarised form.

@@ -2,10 +2,10 @@
 
 use super::encounter::{Encounter, Precondition};
 use super::futures::{PossibleFutures, Start};
-use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
-use crate::ontology::class::{ClassFamily, SpriteClass};
-use crate::ontology::traits::Traits;
+use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::traits::Traits;
+use crate::rules::{Rules, SpriteType};
 
 /// The size of a cell in pixels on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;

@@ -3,8 +3,8 @@
 
 use super::encounter::{EffectSummary, Encounter, Precondition, Side, timed_effects};
 use super::facts::Facts;
-use crate::game::{Rules, SpriteType};
-use crate::ontology::class::SpriteClass;
+use crate::rules::class::SpriteClass;
+use crate::rules::{Rules, SpriteType};
 
 /// An over-approximation of the sprites, resources and interactions that are possible from some start: any two types
 /// that can exist at all can meet.

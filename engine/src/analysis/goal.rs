@@ -2,8 +2,8 @@
 
 use super::Analysis;
 use super::attain::Attainable;
-use crate::game::{Rules, SpriteType};
-use crate::ontology::terminations::Condition as Written;
+use crate::rules::terminations::Condition as Written;
+use crate::rules::{Rules, SpriteType};
 use crate::state::State;
 
 /// The condition under which a termination ends the game.
@@ -89,7 +89,7 @@ pub struct Aims {
 }
 
 pub(super) fn goals(rules: &Rules) -> Vec<Goal> {
-    let goal = |(line, termination): (usize, &crate::ontology::terminations::Termination)| {
+    let goal = |(line, termination): (usize, &crate::rules::terminations::Termination)| {
         let tree = |stype: &SpriteType| rules.types[stype.index()].tree.iter().copied();
         let types = termination.counts().iter().flat_map(tree);
         let types = types.filter(|stype| rules.types[stype.index()].class.is_some()).collect();

@@ -5,7 +5,7 @@ use super::facts::{Avatar, Facts, Motion, Steering};
 use super::futures::PossibleFutures;
 use super::pairs::Pairs;
 use super::touch::{Harm, Removal, Touch};
-use crate::game::{Rules, SpriteType};
+use crate::rules::{Rules, SpriteType};
 
 /// The requirement for opening a locked sprite.
 #[derive(Clone, Debug, PartialEq, Eq)]

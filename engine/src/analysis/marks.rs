@@ -4,7 +4,7 @@ use super::encounter::{EffectSummary, Encounter, Side};
 use super::facts::{Avatar, Facts, Motion, is_certain};
 use super::goal::Aims;
 use super::touch::Harm;
-use crate::game::{Rules, SpriteType};
+use crate::rules::{Rules, SpriteType};
 
 /// The facts that interactions establish about one type.
 #[derive(Clone, Copy, Debug, Default)]

@@ -40,8 +40,9 @@ pub use taxonomy::{Genre, Spatiality, Taxonomy, Time};
 pub use touch::{Harm, Removal, Touch};
 pub use win_methods::WinMethod;
 
-use crate::game::{Game, SpriteType};
+use crate::game::Game;
 use crate::geometry::Direction;
+use crate::rules::SpriteType;
 use futures::{PossibleFutures, Start};
 use lock::Touches;
 use pairs::Pairs;

@@ -4,10 +4,10 @@ use super::Analysis;
 use super::encounter::{EffectSummary, Encounter};
 use super::facts::Facts;
 use super::futures::{PossibleFutures, Start};
-use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
-use crate::ontology::class::{ClassFamily, SpriteClass};
-use crate::ontology::effects::Draws;
+use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::effects::Draws;
+use crate::rules::{Rules, SpriteType};
 use crate::state::State;
 
 impl Analysis {

@@ -1,7 +1,7 @@
 //! Interactions indexed by pair of types, so that one type can be compared with every other without scanning all rules.
 
 use super::encounter::{EffectSummary, Encounter, Side};
-use crate::game::{Rules, SpriteType};
+use crate::rules::{Rules, SpriteType};
 
 /// The number of interactions between two types that are considered; the rest, in order of the tick, are assumed to be
 /// repetitions. Real games have a handful.

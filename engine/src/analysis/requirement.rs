@@ -5,7 +5,7 @@ use super::encounter::{EffectSummary, Encounter};
 use super::goal::Condition;
 use super::lock::{Fate, Key, Sink};
 use super::role::Role;
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 
 /// The reason why a level needs something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

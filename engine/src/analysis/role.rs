@@ -5,8 +5,8 @@ use super::facts::Motion;
 use super::lock::{Fate, Lock};
 use super::marks::Marks;
 use super::touch::{Harm, Removal, Touch};
-use crate::game::SpriteType;
-use crate::ontology::class::SpriteClass;
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
 
 /// The role of a sprite type in a level. If several fit, the first one in this order counts, with the exceptions stated
 /// at the variants.

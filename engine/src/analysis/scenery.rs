@@ -1,7 +1,7 @@
 //! Types that no rule mentions.
 
 use super::Analysis;
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 
 impl Analysis {
     /// Returns `true` if only its own line, its parents' lines and the LevelMapping mention a type: its sprites stay

@@ -4,9 +4,9 @@ use super::Analysis;
 use super::abstraction::changes_afar;
 use super::encounter::{EffectSummary, Encounter};
 use super::facts::Motion;
-use crate::game::{EffectInfo, Rules, SpriteType, TypeInfo};
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{OrientationRead, Provided};
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{OrientationRead, Provided};
+use crate::rules::{EffectInfo, Rules, SpriteType, TypeInfo};
 
 impl Analysis {
     /// By type: exchanging two of its sprites changes nothing but their identity.

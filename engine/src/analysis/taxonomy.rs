@@ -9,9 +9,9 @@ use super::role::Role;
 use super::touch::Touch;
 use super::win_methods::{WinMethod, WinMethods};
 use super::{Analysis, attain};
-use crate::game::SpriteType;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{SpeedChange, SpeedEffect};
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{SpeedChange, SpeedEffect};
 use serde::{Deserialize, Serialize};
 
 /// The smallest amount of a resource that an exit must require for a collecting game; smaller amounts count as keys.

@@ -3,7 +3,7 @@
 use super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::goal::Aims;
 use super::pairs::Pairs;
-use crate::game::{Rules, SpriteType};
+use crate::rules::{Rules, SpriteType};
 
 /// The harm that contact does to the avatar, from least to most.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,7 +7,7 @@ use super::lock::{Fate, Sink};
 use super::role::Role;
 use super::touch::{Harm, Touch};
 use super::{Analysis, Attainable};
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 use std::collections::BTreeSet;
 
 /// A way in which a win can be achieved.

@@ -8,7 +8,7 @@ use super::{
     unknown_parameters,
 };
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::game::Rules;
+use crate::rules::Rules;
 use crate::syntax::{Description, InteractionLine, Section, Word};
 
 pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, Diagnostics> {

@@ -4,12 +4,13 @@
 use super::Names;
 use super::interactions::{NO_KEYWORD, Partner, number_of, partner};
 use super::params::{Value, convert};
-use crate::game::{Game, Rules, SpriteType, TypeInfo};
+use crate::game::Game;
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{self, Arguments, Effect, Undeclared};
-use crate::ontology::terminations::{Condition, Decision};
-use crate::ontology::traits::Traits;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{self, Arguments, Effect, Undeclared};
+use crate::rules::terminations::{Condition, Decision};
+use crate::rules::traits::Traits;
+use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::syntax::{InteractionLine, Param, Word};
 
 /// The value of a parameter.
@@ -275,7 +276,7 @@ fn interactions(rules: &Rules) -> Vec<InteractionClause> {
 }
 
 fn terminations(rules: &Rules) -> Vec<TerminationClause> {
-    let clause = |end: &crate::ontology::terminations::Termination| {
+    let clause = |end: &crate::rules::terminations::Termination| {
         let mut terms = Terms::new();
         let (class, limit) = match end.condition {
             Condition::SpriteCounter { limit, .. } => ("SpriteCounter", limit),

@@ -3,9 +3,9 @@
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Policy, Setting, too_many};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed, TypeInfo};
 use crate::limits::MAX_INTERACTIONS;
-use crate::ontology::effects::{self, Arguments, Moves, Undeclared};
+use crate::rules::effects::{self, Arguments, Moves, Undeclared};
+use crate::rules::{Counting, EffectInfo, Pass, SpriteType, Timed, TypeInfo};
 use crate::syntax::{Description, InteractionLine, Param, Word};
 use std::collections::{BTreeMap, BTreeSet};
 

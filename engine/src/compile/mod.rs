@@ -17,13 +17,12 @@ pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
-use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
-use crate::ontology::avatars::BLOCK_PAUSE;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::Draws;
-use crate::ontology::sprites as behaviour;
-use crate::ontology::terminations::{Condition, Decision, Termination};
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::Draws;
+use crate::rules::terminations::{Condition, Decision, Termination};
+use crate::rules::traits::BLOCK_PAUSE;
+use crate::rules::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
@@ -141,7 +140,7 @@ fn compile_with(
         order,
         mapping,
         unusable,
-        draws: classes().any(behaviour::draws)
+        draws: classes().any(SpriteClass::draws)
             || program.effects.iter().any(|info| info.summary.draws != Draws::Nothing),
         first_differs: types.iter().any(|info| info.first_differs),
         remembering: program.remembering(&types),

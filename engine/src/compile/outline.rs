@@ -1,7 +1,7 @@
 //! The part of a game that its levels need: the characters that place sprites, and which of these are avatars.
 
 use crate::diagnostic::{Diagnostic, nearest};
-use crate::ontology::class::SpriteClass;
+use crate::rules::class::SpriteClass;
 use crate::syntax::{Description, Header, MappingLine, Param, Section, SpriteLine, TerminationLine, Word};
 use std::collections::BTreeSet;
 

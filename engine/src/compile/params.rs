@@ -2,9 +2,9 @@
 
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::constants::{COLORS, Constant, constant, direction_names};
-use crate::ontology::traits::Traits;
+use crate::rules::class::SpriteClass;
+use crate::rules::constants::{COLORS, Constant, constant, direction_names};
+use crate::rules::traits::Traits;
 use crate::syntax::{Literal, Param, literal};
 
 /// A converted value, before it is matched with the type of the field.

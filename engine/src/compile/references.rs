@@ -3,9 +3,9 @@
 use super::Names;
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::SpriteType;
 use crate::limits::MAX_LIST;
-use crate::ontology::class::SpriteClass;
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
 use crate::syntax::{Param, Word};
 use smallvec::SmallVec;
 

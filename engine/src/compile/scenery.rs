@@ -1,6 +1,5 @@
 //! Scenery: the types that no rule, no other sprite and no termination refers to, and that do nothing by themselves.
 
-use crate::ontology::sprites::is_idle;
 use crate::rules::{SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, Word};
 use std::collections::BTreeSet;
@@ -40,7 +39,7 @@ pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool]) -> Vec<bool> {
         let stype = SpriteType(number);
         // The first sprite of a type differs from later ones only if its size differs from a cell's.
         let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
-        let is_idle = info.class.is_none_or(|class| is_idle(class, info));
+        let is_idle = info.is_idle();
         let is_still = info.order.is_some() && is_idle && !info.is_like_avatar();
         // Some avatars leave walls behind without naming them.
         stype != SpriteType(0) && !referenced[stype.index()] && is_whole && is_still

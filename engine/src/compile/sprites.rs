@@ -4,10 +4,10 @@ use super::params::{set_trait, takes, unknown_parameter};
 use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{Action, SpriteType, TypeInfo};
 use crate::limits::{MAX_PARAMETERS, MAX_REACH};
-use crate::ontology::class::SpriteClass;
-use crate::ontology::traits::Traits;
+use crate::rules::class::SpriteClass;
+use crate::rules::traits::Traits;
+use crate::rules::{Action, SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, SpriteLine, Word};
 use std::collections::BTreeSet;
 

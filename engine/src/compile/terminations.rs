@@ -3,8 +3,8 @@
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Setting};
 use crate::diagnostic::Diagnostic;
-use crate::game::SpriteType;
-use crate::ontology::terminations::{Condition, Decision, NAMES, Termination};
+use crate::rules::SpriteType;
+use crate::rules::terminations::{Condition, Decision, NAMES, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
 use smallvec::SmallVec;
 

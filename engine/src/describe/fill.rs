@@ -2,8 +2,8 @@
 
 use super::words::{Party, a, count, list, percent};
 use crate::analysis::Analysis;
-use crate::game::{SpriteType, Timed};
-use crate::ontology::effects::{CHANCE, Sentence, Value};
+use crate::rules::effects::{CHANCE, Sentence, Value};
+use crate::rules::{SpriteType, Timed};
 
 /// The sentence of an effect for two parties that meet.
 pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {

@@ -3,8 +3,8 @@
 use super::rules;
 use super::words::list;
 use crate::analysis::{Analysis, Cause, ImpossibleGoal, Reach};
-use crate::game::SpriteType;
 use crate::level::Level;
+use crate::rules::SpriteType;
 
 /// The maximum number of sprites that a sentence names one by one.
 const MAX_NAMED: usize = 3;

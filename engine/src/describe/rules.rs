@@ -3,8 +3,8 @@
 use super::fill::{by_the_clock, when_they_meet};
 use super::words::{Party, count, list, members, sentence};
 use crate::analysis::{Analysis, Condition, Encounter, Goal, Motion};
-use crate::game::{Counting, SpriteType, Timed};
-use crate::ontology::terminations::Decision;
+use crate::rules::terminations::Decision;
+use crate::rules::{Counting, SpriteType, Timed};
 
 /// One sentence for each interaction line, in order of execution; partners of one line together.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {

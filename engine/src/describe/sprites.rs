@@ -2,9 +2,9 @@
 
 use super::words::{a, count, list, pace, percent};
 use crate::analysis::{Analysis, Avatar, Motion, Role, Steering};
-use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::ontology::class::{ClassFamily, SpriteClass};
+use crate::rules::SpriteType;
+use crate::rules::class::{ClassFamily, SpriteClass};
 
 /// One line for each type that can occur and does something by itself, without avatars; the last line lists the types
 /// that only stand there.
@@ -89,7 +89,7 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     parts
 }
 
-fn making(class: SpriteClass, traits: &crate::ontology::traits::Traits, made: &str) -> String {
+fn making(class: SpriteClass, traits: &crate::rules::traits::Traits, made: &str) -> String {
     let chance = |probability: f64| match probability {
         certain if certain >= 1.0 => String::new(),
         probability => format!(", with a chance of {}", percent(probability)),
@@ -109,7 +109,7 @@ fn making(class: SpriteClass, traits: &crate::ontology::traits::Traits, made: &s
 }
 
 /// The speed of a sprite with these traits.
-fn step(traits: &crate::ontology::traits::Traits) -> String {
+fn step(traits: &crate::rules::traits::Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);
     }

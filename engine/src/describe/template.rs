@@ -1,7 +1,7 @@
 //! The templates of the sentences about meetings, for programs that read such sentences.
 
 use crate::analysis::{EffectSummary, Precondition};
-use crate::ontology::effects::{EffectFamily, Sentence, Summary, sentences};
+use crate::rules::effects::{EffectFamily, Sentence, Summary, sentences};
 
 /// A template of the sentences of [`Guide::meetings`](super::Guide::meetings).
 ///

@@ -1,7 +1,7 @@
 //! Names, numbers and verbs.
 
 use crate::analysis::Analysis;
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 use std::fmt::Display;
 
 /// A subject or object of a sentence.

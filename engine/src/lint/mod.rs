@@ -9,8 +9,9 @@ pub(crate) use terminations::over_at_start;
 
 use crate::analysis::{Analysis, EffectSummary, Encounter, Motion, Precondition};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{Game, SpriteType};
-use crate::ontology::class::SpriteClass;
+use crate::game::Game;
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
 use crate::syntax::Param;
 
 /// Returns all warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].

@@ -2,8 +2,9 @@
 
 use crate::analysis::Analysis;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{Game, SpriteType};
-use crate::ontology::class::SpriteClass;
+use crate::game::Game;
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
 use crate::syntax::{Description, InteractionLine};
 use std::fmt::Write;
 

@@ -3,10 +3,11 @@
 use super::{Linter, swapped};
 use crate::analysis::{Analysis, Attainable, Condition as Counted, EffectSummary, Goal, Precondition, Side};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{Game, SpriteType};
+use crate::game::Game;
 use crate::limits::MAX_TICKS;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::terminations::{Condition, Decision, can_be_held_up};
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
+use crate::rules::terminations::{Condition, Decision, can_be_held_up};
 use crate::syntax::{Param, TerminationLine};
 
 /// Returns warnings about terminations that hold when an episode of the level starts, given the level's characters

@@ -1,21 +1,26 @@
 //! The meaning of a game: types, effects, passes and terminations, resolved from its text. Immutable.
 
 mod action;
+pub(crate) mod class;
+pub(crate) mod constants;
+pub(crate) mod effects;
 mod outcome;
+pub(crate) mod terminations;
+pub(crate) mod traits;
 
 use crate::Digest;
 use crate::diagnostic::Diagnostic;
 use crate::flat::bytes_of_wrapper;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{Effect, Summary, TickSummary};
-use crate::ontology::terminations::Termination;
-use crate::ontology::traits::Traits;
 use crate::syntax::Description;
 pub use action::Action;
+use class::{ClassFamily, SpriteClass};
+use effects::{Effect, Summary, TickSummary};
 pub use outcome::{Limit, Outcome};
 use smallvec::SmallVec;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
+use terminations::Termination;
+use traits::Traits;
 
 /// A sprite type of one game, by its place in the game's registry: `wall` is 0 and `avatar` is 1 in every game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -94,6 +99,26 @@ impl TypeInfo {
     /// Tests whether the tree names a type twice, as it does for a type that is declared below itself (`spec/01` §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
+    }
+
+    /// Tests whether the updates of its sprites do nothing at all: such sprites cost nothing in a tick.
+    pub(crate) fn is_idle(&self) -> bool {
+        let (Some(class), traits) = (self.class, &self.traits) else { return true };
+        match (class, class.family()) {
+            (_, ClassFamily::Thing | ClassFamily::Resource) | (SpriteClass::SpriteProducer, _) => {}
+            (_, ClassFamily::Avatar) => return true,
+            (
+                _,
+                ClassFamily::Flicker
+                | ClassFamily::Missile
+                | ClassFamily::Npc
+                | ClassFamily::Walker
+                | ClassFamily::Producer,
+            ) => return false,
+        }
+        let stands = traits.speed == 0.0 && !traits.continuous && !self.given_speed;
+        let stays = traits.is_static || traits.only_active || stands;
+        stays && traits.time_to_live < 0 && !traits.oriented_image
     }
 
     pub(crate) fn in_tree(&self, other: SpriteType) -> bool {

@@ -13,8 +13,8 @@
 use super::mark;
 use crate::flat::bytes_of_fields;
 use crate::geometry::Rect;
-use crate::ontology::physics;
 use crate::tick::Step;
+use crate::tick::physics;
 use crate::world::flight::settle_in;
 use crate::world::{Slot, Sprite, flag};
 

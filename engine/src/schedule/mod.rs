@@ -5,9 +5,8 @@ mod flight;
 mod sleep;
 
 use crate::flat::flat;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::sprites::{self, Mover, producers};
 use crate::rules::{Rules, SpriteType};
+use crate::tick::sprites::{self, Mover, producers};
 use crate::world::{Models, World};
 pub(crate) use contacts::{Contacting, Contacts};
 pub(crate) use flight::Flight;
@@ -70,8 +69,7 @@ impl Plan {
         let shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
         let mover = |&stype: &SpriteType| {
             let info = &rules.types[stype.index()];
-            let idle = |&class: &SpriteClass| sprites::is_idle(class, info);
-            let class = info.class.filter(|class| !idle(class))?;
+            let class = info.class.filter(|_| !info.is_idle())?;
             Some(Mover {
                 stype,
                 class,

@@ -13,12 +13,11 @@
 use super::Schedule;
 use super::flight::LONGEST_PERIOD;
 use crate::flat::bytes_of_fields;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{PutBack, TickSummary};
-use crate::ontology::physics;
-use crate::ontology::sprites::is_idle;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{PutBack, TickSummary};
 use crate::rules::{EffectInfo, Pass, SpriteType, TypeInfo};
 use crate::tick::Step;
+use crate::tick::physics;
 use crate::world::{NONE, Slot, Sprite, World, flag};
 
 /// Values of [`Sprite::activity`]: the events of this tick for the sprite.
@@ -109,7 +108,7 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
                     | C::RandomMissile
             )
         );
-        let is_idle = info.class.is_some_and(|class| is_idle(class, info));
+        let is_idle = info.class.is_some() && info.is_idle();
         (plain || draws(info) && !traits.oriented_image)
             // Types that never move by themselves need no shortcut.
             && !is_idle

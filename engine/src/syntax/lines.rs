@@ -12,8 +12,8 @@ use super::repair;
 use super::tokens::{Token, span, word};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::MAX_NESTING;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects;
 use pest::Parser;
 
 impl Reader {

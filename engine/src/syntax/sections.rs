@@ -5,8 +5,8 @@ use super::description::Section;
 use super::indents;
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, nearest};
-use crate::ontology::class::SpriteClass;
-use crate::ontology::{effects, terminations};
+use crate::rules::class::SpriteClass;
+use crate::rules::{effects, terminations};
 
 /// A section: the line of its name and the lines below it.
 pub(super) struct Part<'a, 'b> {

@@ -1,13 +1,11 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
+use super::effects;
 use super::{Meeting, Step, Watch};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
-use crate::ontology::effects;
-use crate::rules::memory;
-use crate::rules::{EffectInfo, Limit, Pass, SpriteType, Timed};
-use crate::world::{Hit, Hits, Partners, Side};
-use crate::world::{NONE, Slot, Timer, flag};
+use crate::rules::{EffectInfo, Limit, Pass, SpriteType, Timed, memory};
+use crate::world::{Hit, Hits, NONE, Partners, Side, Slot, Timer, flag};
 use smallvec::SmallVec;
 
 impl Step<'_> {

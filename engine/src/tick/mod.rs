@@ -1,20 +1,25 @@
 //! One step of a game: the cycle of `spec/01` §4. The operations of the ontology on sprites are in `population.rs` and
 //! `motion.rs`.
 
+mod avatars;
+mod effects;
 mod events;
 mod motion;
+pub(crate) mod physics;
 mod population;
+pub(crate) mod sprites;
+mod terminations;
 
 use crate::game::Compiled;
 use crate::geometry::Direction;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
-use crate::ontology::sprites::{Mover, UpdateKind, npcs, producers};
-use crate::ontology::traits::Traits;
-use crate::ontology::{avatars, sprites};
+use crate::rules::traits::Traits;
+
 use crate::rules::{Action, Limit, Outcome, Rules, SpriteType};
 use crate::schedule::{Contacting, Plan, Schedule, mark};
 use crate::state::State;
 use crate::world::{Models, NONE, Slot, World, flag};
+use sprites::{Mover, UpdateKind, npcs, producers};
 
 /// An execution of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;
-use crate::ontology::class::SpriteClass;
+use crate::rules::class::SpriteClass;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
 use crate::world::{NONE, Slot, flag};

@@ -34,7 +34,7 @@ pub(crate) use overrides::{Extra, Overrides, Target};
 use paths::Paths;
 use scenery::Scenery;
 pub(crate) use side_tables::{Held, Replaced};
-pub(crate) use sprite::{Group, NONE, Slot, Sprite, flag};
+pub(crate) use sprite::{Group, NO_HEADING, NONE, Slot, Sprite, flag};
 
 /// The length in pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;

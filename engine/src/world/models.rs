@@ -1,9 +1,8 @@
 //! The sprites of each type as they are made: one model for all, with the values that they share.
 
-use super::{NONE, Overrides, Sprite, flag};
+use super::{NO_HEADING, NONE, Overrides, Sprite, flag};
 use crate::geometry::Rect;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::sprites;
+use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType, TypeInfo};
 
 /// The number of bits. Further types share the last bit: their rules are tested more often than needed, with the same
@@ -114,7 +113,7 @@ pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
         (flag::FROZEN, info.order.is_none() || is_avatar),
         (flag::NO_COOLDOWN, traits.cooldown <= 1 && traits.last_move == 0 && !is_avatar),
     ];
-    let no_heading = sprites::NO_HEADING << flag::HEADING;
+    let no_heading = NO_HEADING << flag::HEADING;
     Sprite {
         rect: Rect::default(),
         last_corner: (0, 0),

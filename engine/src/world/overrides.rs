@@ -7,7 +7,7 @@
 use super::{NONE, Slot, Sprite, World};
 use crate::flat::{Bytes, bytes_of_fields};
 use crate::geometry::{Direction, Rect};
-use crate::ontology::class::SpriteClass;
+use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 
 /// The rarely changed values of a sprite: those of its type, or a copy of its own (copy on write).

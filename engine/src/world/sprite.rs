@@ -6,6 +6,8 @@ use crate::rules::SpriteType;
 
 /// An index into the sprites of a state.
 pub(crate) type Slot = u16;
+/// The `heading` of an NPC that has not drawn a direction.
+pub(crate) const NO_HEADING: u32 = 4;
 /// No sprite.
 pub(crate) const NONE: Slot = u16::MAX;
 

@@ -10,7 +10,7 @@ use super::super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::Cause;
 use super::cells::Cells;
 use super::events::{Events, Gift};
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The reason why a termination can never hold in a level, with the missing requirement of each rule that could help.

@@ -4,10 +4,10 @@ use super::cells::Directions;
 use super::meetings::Meeting;
 use super::mobility::Mobility;
 use super::model::Model;
-use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{Displacement, SpeedChange, SpeedEffect, Spot, Turn};
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{Displacement, SpeedChange, SpeedEffect, Spot, Turn};
 
 impl Model<'_> {
     /// Applies the effects on speeds.

@@ -4,8 +4,8 @@ use super::cells::{Cells, Directions};
 use super::events::Events;
 use super::meetings::{Meeting, Order};
 use super::mobility::pushes_straight;
-use crate::game::SpriteType;
-use crate::ontology::effects::{Displacement, EffectSummary, Spot, Summary, Turn};
+use crate::rules::SpriteType;
+use crate::rules::effects::{Displacement, EffectSummary, Spot, Summary, Turn};
 
 impl Events<'_> {
     /// Applies an effect to the positions of sprites; those that it runs on are met in these cells.

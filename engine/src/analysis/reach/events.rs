@@ -4,8 +4,8 @@ use super::super::encounter::Precondition;
 use super::cells::{Board, Cells, Directions};
 use super::flood::Flood;
 use super::meetings::{End, Meeting, Order, RemovalScope, With};
-use crate::game::SpriteType;
-use crate::ontology::effects::{Displacement, Gives};
+use crate::rules::SpriteType;
+use crate::rules::effects::{Displacement, Gives};
 use std::collections::BTreeMap;
 
 /// An unlimited amount of a resource: more than any rule requires.

@@ -4,8 +4,8 @@ use super::cells::{Board, Cells, Directions};
 use super::meetings::{End, Meeting, Order, With};
 use super::mobility::is_stop;
 use super::model::Model;
-use crate::game::SpriteType;
-use crate::ontology::effects::{Displacement, EffectSummary, Precondition, Side};
+use crate::rules::SpriteType;
+use crate::rules::effects::{Displacement, EffectSummary, Precondition, Side};
 
 /// The largest number of cells to examine; beyond it the answer is coarse. Usual levels need tens of thousands.
 const BUDGET: u64 = 1 << 23;

@@ -18,9 +18,9 @@ use super::cells::Cells;
 use super::flood::Flood;
 use super::meetings::{Meeting, Order, With};
 use super::model::Model;
-use crate::game::SpriteType;
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{Displacement, EffectSummary, SpeedEffect};
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{Displacement, EffectSummary, SpeedEffect};
 
 /// Returns the number of rows that one jump of such a sprite can lift it, if it is subject to gravity.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {

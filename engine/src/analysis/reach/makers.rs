@@ -3,9 +3,9 @@
 use super::cells::{Cells, Directions};
 use super::events::Events;
 use super::meetings::Order;
-use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::ontology::class::{ClassFamily, SpriteClass};
+use crate::rules::SpriteType;
+use crate::rules::class::{ClassFamily, SpriteClass};
 
 impl Events<'_> {
     /// Adds the sprites that types make by themselves.

@@ -2,8 +2,8 @@
 
 use super::super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::super::futures::PossibleFutures;
-use crate::game::{Rules, SpriteType};
-use crate::ontology::effects::Summary;
+use crate::rules::effects::Summary;
+use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 

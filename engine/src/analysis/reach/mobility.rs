@@ -3,11 +3,10 @@
 use super::cells::Directions;
 use super::meetings::{Meeting, With};
 use super::model::Model;
-use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::ontology::class::{ClassFamily, SpriteClass};
-use crate::ontology::effects::{EffectSummary, Summary};
-use crate::ontology::sprites::is_idle;
+use crate::rules::SpriteType;
+use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::effects::{EffectSummary, Summary};
 
 /// The largest number of cells that a sprite may cross in a tick, off the grid's axes; a faster one is assumed to be
 /// able to be anywhere.
@@ -125,7 +124,7 @@ impl Model<'_> {
         let always = class == C::RandomMissile || is_driven(class);
         let walker = class.is_a(C::Walker);
         let passive = if class.is_avatar() { always || traits.off_grid } else { always || drifts };
-        let passive = passive && (class.is_avatar() || !is_idle(class, info));
+        let passive = passive && (class.is_avatar() || !info.is_idle());
         let steered = match (class, class.family()) {
             (C::HorizontalAvatar | C::FlakAvatar, _) => Directions::LEFT.with(Directions::RIGHT),
             (C::VerticalAvatar, _) => Directions::UP.with(Directions::DOWN),

@@ -4,9 +4,9 @@ use super::super::futures::PossibleFutures;
 use super::cells::{Board, Directions};
 use super::meetings::Meeting;
 use super::mobility::{Mobility, pushes_straight};
-use crate::game::{Rules, SpriteType, TypeInfo};
-use crate::ontology::class::SpriteClass;
-use crate::ontology::effects::{Displacement, EffectSummary, Redirection};
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{Displacement, EffectSummary, Redirection};
+use crate::rules::{Rules, SpriteType, TypeInfo};
 use std::collections::BTreeSet;
 
 /// The largest number of meetings processed in all the rounds of the fixed point; usual games take some hundreds.

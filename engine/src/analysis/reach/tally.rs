@@ -6,7 +6,7 @@ use super::Cause;
 use super::cells::Cells;
 use super::events::Placed;
 use super::model::Model;
-use crate::game::{Rules, SpriteType};
+use crate::rules::{Rules, SpriteType};
 
 /// The results of the completed fixed point.
 pub(super) struct Tally<'a> {

@@ -6,6 +6,7 @@
 mod citations;
 mod clocks;
 mod dependencies;
+mod layers;
 mod rows;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -8,7 +8,7 @@ use tests::{read, rust_files};
 use super::report;
 
 /// The file that declares the effects.
-const EFFECTS: &str = "engine/src/ontology/effects/mod.rs";
+const EFFECTS: &str = "engine/src/rules/effects/mod.rs";
 
 /// The most files that may name an effect: where it is declared and executed, built, summarised and told.
 const FILES: usize = 4;

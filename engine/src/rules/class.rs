@@ -34,6 +34,15 @@ macro_rules! classes {
         pub enum SpriteClass { $($name),* }
 
         impl SpriteClass {
+    /// Tests whether sprites of the class can draw random numbers.
+    pub(crate) fn draws(self) -> bool {
+        use SpriteClass as C;
+        self.is_a(C::RandomNPC)
+            || self.is_a(C::SpawnPoint)
+            || self.is_a(C::Walker)
+            || matches!(self, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
+    }
+
             /// All classes that the engine supports.
             pub const ALL: &[SpriteClass] = &[$(SpriteClass::$name),*];
 

@@ -1,13 +1,11 @@
 //! Characters that move at random or pursue others (`spec/02` §7).
 
-use super::NO_HEADING;
 use crate::geometry::{Direction, Rect};
-use crate::ontology::class::{ClassFamily, SpriteClass};
-use crate::ontology::physics;
+use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
-use crate::world::Target;
-use crate::world::{NONE, Slot, Sprite, World, flag};
+use crate::tick::physics;
+use crate::world::{NO_HEADING, NONE, Slot, Sprite, Target, World, flag};
 use smallvec::SmallVec;
 
 /// The directions to choose from, as indices of the base directions; a direction appears once for each target that it

@@ -2,12 +2,10 @@
 
 use super::motion::pixel_perfect;
 use crate::geometry::{Direction, Rect};
-use crate::ontology::physics;
 use crate::tick::Step;
+use crate::tick::physics;
 use crate::trigonometry::{cos, sin};
-use crate::world::Overrides;
-use crate::world::Partners;
-use crate::world::Slot;
+use crate::world::{Overrides, Partners, Slot};
 
 /// The displacement that a sprite aims at in a tick, in pixels right and down.
 fn velocity(step: &Step<'_>, slot: Slot) -> Direction {

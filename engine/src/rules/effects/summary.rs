@@ -4,12 +4,9 @@
 //! only what differs from [`Summary::of`], the summary of an effect that does nothing.
 
 use super::parameters::Recorder;
-use super::{Effect, NAMES, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, build, walls};
+use super::{Effect, NAMES, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, build};
 use crate::rules::SpriteType;
-use crate::tick::Step;
-use crate::world::{Partners, Slot};
 use smallvec::{SmallVec, smallvec};
-use std::fmt;
 
 crate::named_enum! {
     /// The group of an effect: the groups of the engine's ontology, with movement split by its result.
@@ -207,7 +204,7 @@ pub(crate) struct Summary {
     /// `true` if it does nothing at the edge or by the clock, where a sprite has no partner.
     pub(crate) needs_partner: bool,
     /// Its execution on all partners of a sprite together, if there is such a form of it.
-    pub(crate) batch: Option<BatchForm>,
+    pub(crate) batch: Option<Batch>,
     /// The draws that decide something.
     pub(crate) draws: Draws,
     /// The sprites that it may move.
@@ -246,14 +243,11 @@ pub(crate) struct Summary {
     pub(crate) is_partner_independent: Provided,
 }
 
-/// An execution on a sprite and all its partners. Returns how often it counts.
-#[derive(Clone, Copy)]
-pub(crate) struct BatchForm(pub(super) fn(&mut Step<'_>, Slot, &mut Partners) -> i32);
-
-impl fmt::Debug for BatchForm {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("BatchForm")
-    }
+/// An effect that runs once on a sprite and all its partners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Batch {
+    Bounce,
+    Reverse,
 }
 
 /// The sprites that an effect may move when it runs; decides how a pass may look for hits.
@@ -905,7 +899,7 @@ impl Effect {
             Effect::WallBounce => Summary {
                 effects: smallvec![Stop, EffectSummary::Turn],
                 needs_partner: true,
-                batch: Some(BatchForm(walls::bounce_batch)),
+                batch: Some(Batch::Bounce),
                 moves: Moves::Anything,
                 displacement: Some(Displacement::Apart),
                 turn: Some(Turn::OffWall),
@@ -915,7 +909,7 @@ impl Effect {
             Effect::WallReverse => Summary {
                 effects: smallvec![Stop, EffectSummary::Turn],
                 needs_partner: true,
-                batch: Some(BatchForm(walls::reverse_batch)),
+                batch: Some(Batch::Reverse),
                 moves: Moves::Anything,
                 displacement: Some(Displacement::Apart),
                 turn: Some(Turn::OffWall),

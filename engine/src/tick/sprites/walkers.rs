@@ -1,10 +1,9 @@
 //! Walkers: characters that follow the ground and turn at walls (`spec/02` §7.6).
 
 use crate::geometry::Direction;
-use crate::ontology::physics;
 use crate::tick::Step;
-use crate::world::Overrides;
-use crate::world::{Slot, flag};
+use crate::tick::physics;
+use crate::world::{Overrides, Slot, flag};
 
 pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
@@ -44,7 +43,7 @@ pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
 }
 
 /// Jumps upwards, and leaves the ground at once.
-pub(in crate::ontology) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
+pub(crate) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
     let overrides = step.world.edit_overrides(slot);
     overrides.orientation.y = 0.0;
     let speed = overrides.speed;

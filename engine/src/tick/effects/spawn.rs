@@ -1,7 +1,7 @@
 //! Effects that make sprites (`spec/03` §7.4). The draw comes first, even if the outcome is certain.
 
-use super::{SpawnIf, SpawnIfCounterSubTypes};
-use crate::ontology::class::SpriteClass;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::{SpawnIf, SpawnIfCounterSubTypes};
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
 use crate::world::{NONE, Slot};

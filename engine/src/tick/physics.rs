@@ -3,8 +3,7 @@
 use crate::geometry::{Direction, Rect};
 use crate::rules::Rules;
 use crate::tick::Step;
-use crate::world::Overrides;
-use crate::world::{Slot, flag};
+use crate::world::{Overrides, Slot, flag};
 
 /// The result of an active movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Effects on resources (`spec/03` §8.2).
 
-use crate::ontology::class::SpriteClass;
+use crate::rules::class::SpriteClass;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
 use crate::world::Slot;

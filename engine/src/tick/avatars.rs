@@ -1,11 +1,12 @@
 //! The avatars: the player's sprite and its reaction to actions (`spec/02` §9).
 
-use super::class::{ClassFamily, SpriteClass};
 use super::sprites::walkers::jump;
 use crate::geometry::Direction;
-use crate::ontology::physics::{self, Movement};
+use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::traits::BLOCK_PAUSE;
 use crate::rules::{Action, SpriteType};
 use crate::tick::Step;
+use crate::tick::physics::{self, Movement};
 use crate::trigonometry::{cos, sin};
 use crate::world::{Slot, flag};
 
@@ -313,9 +314,6 @@ fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Act
         jump(step, slot, traits.jump_strength);
     }
 }
-
-/// The number of ticks between two blocks of a wizard.
-pub(crate) const BLOCK_PAUSE: i32 = 5;
 
 /// Acts as a platformer, and puts blocks where it faces.
 fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {

@@ -8,7 +8,7 @@
 
 use super::parameters::Recorder;
 use super::{Effect, NAMES, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
-use crate::game::SpriteType;
+use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 /// The words of an effect.

@@ -3,13 +3,12 @@
 use super::{base, stays};
 use crate::chance::DRAW;
 use crate::geometry::Direction;
-use crate::ontology::physics;
-use crate::ontology::traits::Traits;
+use crate::rules::traits::Traits;
 use crate::rules::{Limit, SpriteType};
 use crate::schedule::mark;
 use crate::tick::Step;
-use crate::world::Overrides;
-use crate::world::{NONE, Slot, World, flag};
+use crate::tick::physics;
+use crate::world::{NONE, Overrides, Slot, World, flag};
 
 /// SpawnPoint and Bomber: one draw per update, and a sprite when the tick and the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {

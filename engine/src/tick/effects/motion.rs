@@ -1,13 +1,12 @@
 //! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
 
-use super::SpeedChange;
 use crate::geometry::{Direction, Rect};
-use crate::ontology::class::SpriteClass;
-use crate::ontology::physics;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::SpeedChange;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
-use crate::world::Overrides;
-use crate::world::{NONE, Slot, flag};
+use crate::tick::physics;
+use crate::world::{NONE, Overrides, Slot, flag};
 
 pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>) {
     let rect = match flush_with {

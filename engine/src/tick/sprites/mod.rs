@@ -3,43 +3,14 @@
 pub(crate) mod npcs;
 mod plain;
 pub(crate) mod producers;
-pub(in crate::ontology) mod walkers;
+pub(super) mod walkers;
 
-use super::class::{ClassFamily, SpriteClass};
-use super::traits::Traits;
-use crate::ontology::physics;
-use crate::rules::{SpriteType, TypeInfo};
+use crate::rules::SpriteType;
+use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::traits::Traits;
 use crate::tick::Step;
+use crate::tick::physics;
 use crate::world::{Slot, Sprite, World, flag};
-
-/// The `heading` of an NPC that has not drawn a direction.
-pub(crate) const NO_HEADING: u32 = 4;
-
-/// Tests whether the updates of a type do nothing at all: such sprites cost nothing in a tick.
-pub(crate) fn is_idle(class: SpriteClass, info: &TypeInfo) -> bool {
-    use SpriteClass as C;
-    let traits = &info.traits;
-    use ClassFamily as Family;
-    match (class, class.family()) {
-        (_, Family::Thing | Family::Resource) | (C::SpriteProducer, _) => {}
-        (_, Family::Avatar) => return true,
-        (_, Family::Flicker | Family::Missile | Family::Npc | Family::Walker | Family::Producer) => {
-            return false;
-        }
-    }
-    let stands = traits.speed == 0.0 && !traits.continuous && !info.given_speed;
-    let stays = traits.is_static || traits.only_active || stands;
-    stays && traits.time_to_live < 0 && !traits.oriented_image
-}
-
-/// Tests whether sprites of the class can draw random numbers.
-pub(crate) fn draws(class: SpriteClass) -> bool {
-    use SpriteClass as C;
-    class.is_a(C::RandomNPC)
-        || class.is_a(C::SpawnPoint)
-        || class.is_a(C::Walker)
-        || matches!(class, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
-}
 
 /// Tests whether [`base`] does nothing to a sprite in this tick: the sprite does not move by itself, or its cooldown has
 /// not passed.

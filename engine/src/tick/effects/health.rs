@@ -1,7 +1,6 @@
 //! Effects on health points (`spec/03` §7.2).
 
-use crate::rules::memory;
-use crate::rules::{Limit, SpriteType};
+use crate::rules::{Limit, SpriteType, memory};
 use crate::tick::Step;
 use crate::world::{NONE, Slot};
 

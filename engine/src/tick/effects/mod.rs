@@ -1,231 +1,18 @@
-//! The effects of interactions (`spec/03`): an enum, matched in one place.
+//! The execution of effects (`spec/03`); a file holds one family.
 
-mod build;
 mod health;
 mod kill;
 mod motion;
-mod parameters;
 mod resource;
-mod sentences;
 mod spawn;
-mod summary;
 mod transform;
 mod walls;
 
+use super::Step;
 use crate::limits::MAX_TIMERS;
-use crate::rules::memory;
-use crate::rules::{EffectInfo, Limit, Pass, SpriteType};
-use crate::tick::Step;
-use crate::world::Partners;
-use crate::world::{Slot, Timer, flag};
-pub use build::NAMES;
-pub(crate) use build::{Arguments, Undeclared, build};
-pub use parameters::{ParameterKind, effect_parameters};
-pub(crate) use sentences::{CHANCE, Sentence, Value, sentences};
-pub(crate) use summary::{
-    BatchForm, Displacement, Draws, Gives, Moves, OrientationRead, Provided, PutBack, Redirection,
-    SpeedEffect, Spot, Summary, TickSummary, Turn,
-};
-pub use summary::{EffectFamily, EffectSummary, Precondition, Side};
-
-/// An effect with its parameters, named as in VGDL.
-#[derive(Clone, Debug)]
-pub(crate) enum Effect {
-    KillSprite,
-    KillBoth,
-    KillAll {
-        stype: SpriteType,
-    },
-    KillIfAlive,
-    KillIfFromAbove,
-    KillIfHasLess {
-        resource: SpriteType,
-        limit: i32,
-    },
-    KillIfHasMore {
-        resource: SpriteType,
-        limit: i32,
-    },
-    KillIfOtherHasMore {
-        resource: SpriteType,
-        limit: i32,
-        subtract: bool,
-    },
-    KillIfFrontal {
-        frontal: bool,
-    },
-    KillIfSpeed {
-        limit: f64,
-        fast: bool,
-    },
-    KillIfNotUpright,
-    AddHealthPoints {
-        value: i32,
-        kill_second: bool,
-        to_max: bool,
-    },
-    SubtractHealthPoints {
-        value: i32,
-        limit: i32,
-        stype: Option<SpriteType>,
-        score_if_killed: i32,
-    },
-    StepBack {
-        pixel_perfect: bool,
-    },
-    UndoAll {
-        spare: Box<[SpriteType]>,
-    },
-    TurnAround,
-    ReverseDirection,
-    FlipDirection,
-    HalfSpeed,
-    WrapAround {
-        offset: f64,
-    },
-    Align {
-        orient: bool,
-    },
-    AttractGaze {
-        align: bool,
-        prob: f64,
-    },
-    BounceForward,
-    PullWithIt {
-        pixel_perfect: bool,
-    },
-    TeleportToExit,
-    ChangeSpeed {
-        stype: SpriteType,
-        value: f64,
-        how: SpeedChange,
-    },
-    Spawn {
-        stype: SpriteType,
-        prob: f64,
-    },
-    SpawnIf(SpawnIf),
-    SpawnBeside {
-        stype: SpriteType,
-        shift: (i32, i32),
-        step_back: bool,
-        prob: f64,
-    },
-    SpawnBehind {
-        stype: SpriteType,
-        prob: f64,
-    },
-    CloneSprite,
-    TransformTo {
-        stype: SpriteType,
-        kill_second: bool,
-        force_orientation: bool,
-    },
-    TransformToAll {
-        stype: SpriteType,
-        to: SpriteType,
-        kill_second: bool,
-        force_orientation: bool,
-    },
-    TransformToRandomChild {
-        options: Box<[SpriteType]>,
-        kill_second: bool,
-        force_orientation: bool,
-    },
-    CollectResource {
-        kill_resource: bool,
-    },
-    CollectResourceIfHeld {
-        held: SpriteType,
-        value: i32,
-        kill_resource: bool,
-    },
-    ChangeResource {
-        resource: SpriteType,
-        value: i32,
-        kill_resource: bool,
-    },
-    ShieldFrom {
-        stype: SpriteType,
-        keyword: u16,
-    },
-    RemoveScore {
-        stype: Option<SpriteType>,
-        kill_second: bool,
-    },
-    UpdateSpawnType {
-        stype: SpriteType,
-        spawn_point: SpriteType,
-    },
-    SpawnIfCounterSubTypes(SpawnIfCounterSubTypes),
-    TransformIfCount(Box<TransformIfCount>),
-    TransformToSingleton {
-        stype: SpriteType,
-        other: SpriteType,
-        take_orientation: bool,
-    },
-    WaterPhysics,
-    BounceDirection {
-        most: f64,
-    },
-    WallStop,
-    WallBounce,
-    WallReverse,
-    /// Schedules one of the game's timed effects.
-    AddTimer {
-        timed: u16,
-    },
-    /// Makes the draws of the effect with this summary, and does nothing else (`ablation.rs`).
-    Disabled(Box<Summary>),
-}
-
-/// The parameters of transformIfCount.
-#[derive(Clone, Debug)]
-pub(crate) struct TransformIfCount {
-    pub(crate) stype: SpriteType,
-    pub(crate) counted: SpriteType,
-    pub(crate) at_least: i32,
-    pub(crate) at_most: i32,
-    pub(crate) otherwise: Option<SpriteType>,
-    pub(crate) kill_second: bool,
-    pub(crate) force_orientation: bool,
-}
-
-/// The parameters of spawnIfHasMore and spawnIfHasLess.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SpawnIf {
-    pub(crate) resource: SpriteType,
-    pub(crate) limit: i32,
-    pub(crate) stype: SpriteType,
-    pub(crate) spend: i32,
-    pub(crate) prob: f64,
-    pub(crate) more: bool,
-}
-
-/// The parameters of spawnIfCounterSubTypes.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SpawnIfCounterSubTypes {
-    pub(crate) stype: SpriteType,
-    pub(crate) otherwise: SpriteType,
-    pub(crate) counted: SpriteType,
-    pub(crate) limit: i32,
-    pub(crate) kinds: i32,
-}
-
-/// The difference between increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SpeedChange {
-    Increase,
-    Decrease,
-    Set,
-}
-
-impl Effect {
-    /// The effect whose executions make its draws, and have no consequences.
-    pub(crate) fn disabled(&self) -> Effect {
-        Effect::Disabled(Box::new(self.summary()))
-    }
-}
+use crate::rules::effects::{Batch, Draws, Effect, Summary};
+use crate::rules::{EffectInfo, Limit, Pass, memory};
+use crate::world::{Partners, Slot, Timer, flag};
 
 /// Runs an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a message.
 pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slot, two: Option<Slot>) {
@@ -345,7 +132,11 @@ pub(crate) fn execute_batch(
     one: Slot,
     partners: &mut Partners,
 ) -> i32 {
-    info.summary.batch.map_or(0, |BatchForm(run)| run(step, one, partners))
+    match info.summary.batch {
+        Some(Batch::Bounce) => walls::bounce_batch(step, one, partners),
+        Some(Batch::Reverse) => walls::reverse_batch(step, one, partners),
+        None => 0,
+    }
 }
 
 /// Runs a timed effect on no sprites at all (`spec/03` §6.4).

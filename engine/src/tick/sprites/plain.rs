@@ -2,8 +2,8 @@
 
 use super::base;
 use crate::geometry::Direction;
-use crate::ontology::physics;
 use crate::tick::Step;
+use crate::tick::physics;
 use crate::world::Slot;
 
 pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {

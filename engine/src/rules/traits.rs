@@ -89,6 +89,9 @@ crate::with_defaults! {
     }
 }
 
+/// The number of ticks between two blocks of a wizard.
+pub(crate) const BLOCK_PAUSE: i32 = 5;
+
 impl Traits {
     /// The columns and rows of the cells that such a sprite overlaps if it starts at the corner of one: at least one
     /// each, at most [`MAX_REACH`](crate::limits::MAX_REACH).

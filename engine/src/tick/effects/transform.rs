@@ -1,12 +1,11 @@
 //! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
 
-use super::TransformIfCount;
 use crate::geometry::Direction;
 use crate::limits::EFFECT_WORK;
+use crate::rules::effects::TransformIfCount;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::Step;
-use crate::world::Held;
-use crate::world::{NONE, Slot, flag};
+use crate::world::{Held, NONE, Slot, flag};
 use smallvec::SmallVec;
 
 pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: SpriteType, force: bool) {

@@ -1,0 +1,78 @@
+//! The layers of the engine import one way.
+
+use super::report;
+use tests::rust_files;
+
+const ENGINE: &str = "engine/src/";
+
+/// The layers, from the bottom up; what is in none of them stands on all. A tick and its schedule are one layer.
+const LAYERS: [&[&str]; 4] = [&["syntax"], &["rules", "compile"], &["world"], &["tick", "schedule"]];
+
+/// Modules without knowledge of games, which every layer may use.
+const VALUES: [&str; 12] = [
+    "causes",
+    "chance",
+    "defaults",
+    "diagnostic",
+    "digest",
+    "flat",
+    "geometry",
+    "limits",
+    "named",
+    "sampler",
+    "seed",
+    "trigonometry",
+];
+
+/// Imports that point up, each with the reason why it does.
+const EXCEPTIONS: [(&str, &str); 5] = [
+    // Lines are told apart by the names of classes, effects and terminations, which are in one table with their meaning.
+    ("syntax", "rules"),
+    // A step borrows the parts of a game and of a state.
+    ("tick", "game"),
+    ("tick", "state"),
+    // A level's size and messages are read when its world is made.
+    ("world", "level"),
+    // Clauses are asked of a game.
+    ("compile", "game"),
+];
+
+fn layer(module: &str) -> Option<usize> {
+    LAYERS.iter().position(|modules| modules.contains(&module))
+}
+
+/// The modules of the engine that a line of code names by `crate::`.
+fn named(line: &str) -> impl Iterator<Item = &str> {
+    line.split("crate::").skip(1).filter_map(|rest| {
+        let end =
+            rest.find(|letter: char| !letter.is_ascii_lowercase() && letter != '_').unwrap_or(rest.len());
+        Some(&rest[..end]).filter(|module| !module.is_empty())
+    })
+}
+
+#[test]
+fn layers_of_the_engine_import_one_way() {
+    let mut problems = Vec::new();
+    let mut seen = 0;
+    for (file, text) in rust_files() {
+        let file = file.display().to_string();
+        let Some(inside) = file.strip_prefix(ENGINE) else { continue };
+        let module = inside.split(['/', '.']).next().unwrap_or_default();
+        let Some(own) = layer(module).filter(|_| !inside.contains("/tests")) else { continue };
+        let code = (1..).zip(text.lines()).take_while(|(_, line)| *line != "#[cfg(test)]");
+        for (number, line) in code.filter(|(_, line)| !line.trim_start().starts_with("//")) {
+            for other in named(line).filter(|other| *other != module && !VALUES.contains(other)) {
+                seen += 1;
+                let points_up = layer(other).is_none_or(|other| other > own);
+                let is_macro = line.contains(&format!("crate::{other}!"));
+                if points_up && !is_macro && !EXCEPTIONS.contains(&(module, other)) {
+                    problems.push(format!(
+                        "{file}:{number}: `{module}` must not import `{other}`, which stands on it"
+                    ));
+                }
+            }
+        }
+    }
+    assert!(seen > 100, "{seen} imports between modules");
+    report(problems);
+}
