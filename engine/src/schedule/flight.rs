@@ -1,11 +1,11 @@
 //! Sprites in flight: sprites that move straight on as long as nothing happens to them.
 //!
 //! A car on a road moves two pixels in every tick, and each tick repeats the last one; an invader moves in every third
-//! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is extrapolated
-//! from an earlier position and the time since then, and so is their hash contribution (`contribution.rs`). A sprite is entered
-//! into other cells only when it is about to cover them. The rules that pair it with sprites in
-//! its cells are known all the while (`contacts.rs`), and overlap is tested with the extrapolated position. As soon as an
-//! effect is executed on it, or can reach it, it lands: it is an ordinary sprite again.
+//! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is
+//! extrapolated from an earlier position and the time since then, and so is their hash contribution
+//! (`contribution.rs`). A sprite is entered into other cells only when it is about to cover them. The rules that pair
+//! it with sprites in its cells are known all the while (`contacts.rs`), and overlap is tested with the extrapolated
+//! position. As soon as an effect is executed on it, or can reach it, it lands: it is an ordinary sprite again.
 //!
 //! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and no other
 //! sprite looks for them. Producers that draw continue to draw, and land when they make something.

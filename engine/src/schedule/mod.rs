@@ -18,6 +18,7 @@ flat! {
     pub(crate) struct Schedule {
         copied {}
         numbers {
+            /// The tick in which the next sprite in flight is due.
             next_due: i32,
         }
         buffers {
@@ -33,9 +34,9 @@ flat! {
             sleepers: Sleeper,
             /// By cell: the number of sleeping sprites that watch it; empty in games without such sprites.
             watched: u8,
-            /// By cell: the tick of the last permanent change, or the tick up to which a sprite flies there.
+            /// By cell: the tick of the last permanent change, or the tick up to which a sprite flies there; empty likewise.
             stamps: i16,
-            /// The sprites in flight (`flight.rs`), and the tick in which the next one is due.
+            /// The sprites in flight (`flight.rs`).
             flights: Flight,
             /// By type: the number of sprites that are asleep or in flight; empty in games without such sprites.
             skipped: u16,

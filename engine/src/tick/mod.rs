@@ -1,4 +1,4 @@
-//! One step of a game: the cycle of `spec/01` §4. The operations of the ontology on sprites are in `population.rs` and
+//! One step of a game: the cycle of `spec/01` §4. Effects and updates change sprites by the operations in `population.rs` and
 //! `motion.rs`.
 
 mod avatars;

@@ -1,4 +1,4 @@
-//! The operations of the ontology that move sprites.
+//! The operations that move sprites.
 
 use crate::geometry::{Direction, Rect};
 use crate::rules::Limit;

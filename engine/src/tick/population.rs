@@ -1,4 +1,4 @@
-//! The operations of the ontology that make, kill and release sprites.
+//! The operations that make, kill and release sprites.
 
 use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;

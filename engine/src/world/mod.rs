@@ -117,7 +117,7 @@ flat! {
             hash_classes: HashClass,
             groups: Group,
             cells: Slot,
-            /// By cell: the bits of the types that cover it (`contacts.rs`).
+            /// By cell: the bits of the types that cover it (`models.rs`).
             masks: u64,
             /// By cell: the bits of the types with several sprites in it; empty as long as there are none.
             crowds: u64,
