@@ -1,7 +1,7 @@
 //! Flat data: structs of numbers and of buffers of numbers, declared once.
 //!
-//! What follows from the list of fields is derived from it: copies that reuse buffers, the size of a copy, and the
-//! difference from another value (`pack.rs`).
+//! The list of fields gives copies that reuse buffers, the size of a copy, and the difference from another value
+//! (`pack.rs`).
 
 /// Declares a struct. `copied` fields are copied and not part of differences; `numbers` and `buffers` are part of them;
 /// `scratch` buffers are empty between steps; `shared` ones are the same for all states of a level.

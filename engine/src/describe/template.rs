@@ -17,7 +17,7 @@ pub struct Template {
     pub parts: Vec<Part>,
     /// The family of the effects that it tells of.
     pub family: EffectFamily,
-    /// What such an effect does. The types in it stand for any.
+    /// The consequences of such an effect. The types in it stand for any.
     pub effects: Vec<EffectSummary>,
     /// The condition of the effects, with any type and amount.
     pub precondition: Precondition,

@@ -14,7 +14,7 @@ use sleep::shortcuts;
 pub(crate) use sleep::{Shortcuts, Sleeper, mark};
 
 flat! {
-    /// What the next ticks may leave out.
+    /// The work that the next ticks may leave out.
     pub(crate) struct Schedule {
         copied {}
         numbers {

@@ -14,6 +14,7 @@ mod occupancy;
 mod overlap;
 mod overrides;
 mod paths;
+mod placement;
 mod scenery;
 mod side_tables;
 mod span;

@@ -9,7 +9,7 @@ use crate::rules::{Rules, SpriteType, TypeInfo};
 /// results.
 const BITS: usize = 64;
 
-/// What the world needs to know of a type.
+/// The part of a type that concerns the world.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub(crate) prototype: Sprite,

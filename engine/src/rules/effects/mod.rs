@@ -2,6 +2,7 @@
 
 mod build;
 mod parameters;
+mod rows;
 mod sentences;
 mod summary;
 

@@ -10,7 +10,7 @@ use super::report;
 /// The file that declares the effects.
 const EFFECTS: &str = "engine/src/rules/effects/mod.rs";
 
-/// The most files that may name an effect: where it is declared and executed, built, summarised and told.
+/// The most files that may name an effect: where it is executed, built, summarised and told.
 const FILES: usize = 4;
 
 /// The enums over which a match lists every variant, with their short names.
