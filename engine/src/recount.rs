@@ -2,7 +2,7 @@
 
 use crate::game::Game;
 use crate::geometry::Rect;
-use crate::schedule::{Contacting, Schedule, mark};
+use crate::schedule::{Foresight, Schedule, mark};
 use crate::state::State;
 use crate::world::{Group, NONE, Slot, Sprite, World, flag};
 
@@ -82,26 +82,12 @@ impl State {
         let models = &game.0.models;
         state.schedule =
             Schedule { flights: self.schedule.flights.clone(), ..Schedule::empty(&game.0.plan, &self.world) };
-        let world = &mut state.world;
-        world.cells.fill(NONE);
-        world.masks.fill(0);
-        world.crowds.clear();
-        for group in &mut world.groups {
-            (group.multi_cell, group.big, group.off) = (0, 0, 0);
-        }
-        world.covered.fill(0);
-        (world.big, world.off, world.multi_cell_bits) = (0, 0, 0);
-        (world.big_bits, world.vast, world.left_behind) = (0, 0, 0);
-        let mut watcher = Contacting { contacts: &game.0.plan.contacts, schedule: &mut state.schedule };
-        for slot in game.sprite_types().flat_map(|stype| self.world.slots(stype)) {
-            match self.world.sprite(slot).flies() {
-                true => world.enter_cell_again(models, slot, &mut watcher),
-                false => world.enter_cell(models, slot, &mut watcher),
-            }
-            let sprite = self.world.sprite(slot);
-            if sprite.activity & mark::SKIPPED != 0 {
-                watcher.schedule.skipped[sprite.stype.index()] += 1;
-            }
+        let mut foresight = Foresight::new(&game.0.plan, &mut state.schedule, &self.world);
+        state.world.reoccupy(models, &mut foresight);
+        let skipped = game.sprite_types().flat_map(|stype| self.world.slots(stype));
+        for sprite in skipped.map(|slot| self.world.sprite(slot)).filter(|s| s.activity & mark::SKIPPED != 0)
+        {
+            state.schedule.skipped[sprite.stype.index()] += 1;
         }
         state
     }

@@ -308,7 +308,7 @@ impl<'g> Walk<'g> {
             assert_eq!(state.state_hash(), hash, "what is over stays as it is");
         }
         let mut copy = before;
-        self.game.step_unoptimised(&mut copy, action, &mut ());
+        self.game.step_unscheduled(&mut copy, action, &mut ());
         if copy.outcome() == Outcome::Stopped(Limit::Work) {
             // Foresight saves work, so it gets farther before the limit is reached.
             return;

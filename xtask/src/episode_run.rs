@@ -134,7 +134,7 @@ pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
             let actions = subject.game.actions(&state);
             let drawn = u64::from(episode_run.draws[draw & (DRAWS - 1)]);
             draw += 1;
-            subject.game.step_unoptimised(
+            subject.game.step_unscheduled(
                 &mut state,
                 actions[((drawn * actions.len() as u64) >> 32) as usize],
                 &mut (),

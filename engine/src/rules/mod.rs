@@ -101,6 +101,12 @@ impl TypeInfo {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
 
+    /// The class and the place in the update order of sprites whose updates do something.
+    pub(crate) fn updated(&self) -> Option<(SpriteClass, i32)> {
+        let class = self.class.filter(|_| !self.is_idle())?;
+        Some((class, i32::from(self.order?)))
+    }
+
     /// Tests whether the updates of its sprites do nothing at all: such sprites cost nothing in a tick.
     pub(crate) fn is_idle(&self) -> bool {
         let (Some(class), traits) = (self.class, &self.traits) else { return true };

@@ -8,7 +8,7 @@
 
 use super::Schedule;
 use crate::rules::Rules;
-use crate::world::{Models, Watcher, World, ones};
+use crate::world::{Models, World, ones};
 
 /// No pair.
 const NO: u16 = u16::MAX;
@@ -25,8 +25,8 @@ pub(crate) struct Contacts {
     ends: Vec<(u8, u8)>,
     /// By type: the passes that involve it.
     of_type: Vec<Box<[u16]>>,
-    /// By pass: the bits of its first and second side.
-    sides: Vec<(u64, u64)>,
+    /// The number of passes.
+    passes_in_all: usize,
     /// Passes that are always possible: for some classes, testing the ground below is an effect in itself.
     always: Vec<u16>,
 }
@@ -35,7 +35,12 @@ impl Contacts {
     /// Computes the tables. Cost: O(types² + passes × the largest trees).
     pub(crate) fn of(rules: &Rules, models: &Models) -> Contacts {
         let (types, bits) = (&rules.types, models.used_bits);
-        let mut contacts = Contacts { bits, pair: vec![NO; bits * bits], ..Contacts::default() };
+        let mut contacts = Contacts {
+            bits,
+            pair: vec![NO; bits * bits],
+            passes_in_all: rules.passes.len(),
+            ..Contacts::default()
+        };
         let mut of_pair: Vec<Vec<u16>> = Vec::new();
         let mut of_type: Vec<Vec<u16>> = vec![Vec::new(); types.len()];
         for (number, pass) in (0u16..).zip(&rules.passes) {
@@ -46,9 +51,8 @@ impl Contacts {
                     passes.push(number);
                 }
             }
-            let sides = (models.all(first), models.all(second));
-            for one in ones(sides.0) {
-                for two in ones(sides.1) {
+            for one in ones(models.all(first)) {
+                for two in ones(models.all(second)) {
                     let (low, high) = (one.min(two), one.max(two));
                     let pair = &mut contacts.pair[low * bits + high];
                     if *pair == NO {
@@ -64,7 +68,6 @@ impl Contacts {
                     }
                 }
             }
-            contacts.sides.push(sides);
             if first.iter().any(|stype| types[stype.index()].ground_aware) {
                 contacts.always.push(number);
             }
@@ -72,10 +75,6 @@ impl Contacts {
         contacts.passes = of_pair.into_iter().map(Vec::into_boxed_slice).collect();
         contacts.of_type = of_type.into_iter().map(Vec::into_boxed_slice).collect();
         contacts
-    }
-
-    pub(crate) fn sides(&self, pass: usize) -> (u64, u64) {
-        self.sides[pass]
     }
 
     fn pair(&self, one: usize, two: usize) -> usize {
@@ -88,8 +87,8 @@ impl Schedule {
     pub(crate) fn empty_contacts(&mut self, contacts: &Contacts) {
         self.together = vec![0; contacts.passes.len()];
         self.meets = vec![0; contacts.bits];
-        self.reasons = vec![0; contacts.sides.len()];
-        self.possible = vec![0; contacts.sides.len().div_ceil(64)];
+        self.reasons = vec![0; contacts.passes_in_all];
+        self.possible = vec![0; contacts.passes_in_all.div_ceil(64)];
         for &pass in &contacts.always {
             self.allow(pass);
         }
@@ -153,38 +152,29 @@ impl Schedule {
         }
         Some(word * 64 + bits.trailing_zeros() as usize)
     }
-}
 
-/// Keeps the counts of a schedule up to date.
-pub(crate) struct Contacting<'a> {
-    pub(crate) contacts: &'a Contacts,
-    pub(crate) schedule: &'a mut Schedule,
-}
-
-impl Watcher for Contacting<'_> {
-    #[inline(never)]
-    fn arrives(&mut self, own: u64, partners: u64) {
+    /// See [`Watcher`](crate::world::Watcher).
+    pub(crate) fn arrives(&mut self, contacts: &Contacts, own: u64, partners: u64) {
         for other in ones(partners) {
-            self.schedule.meet_more(self.contacts, self.contacts.pair(own.trailing_zeros() as usize, other));
+            self.meet_more(contacts, contacts.pair(own.trailing_zeros() as usize, other));
         }
     }
 
-    #[inline(never)]
-    fn departs(&mut self, own: u64, partners: u64) {
+    pub(crate) fn departs(&mut self, contacts: &Contacts, own: u64, partners: u64) {
         for other in ones(partners) {
-            self.schedule.meet_less(self.contacts, self.contacts.pair(own.trailing_zeros() as usize, other));
+            self.meet_less(contacts, contacts.pair(own.trailing_zeros() as usize, other));
         }
     }
 
-    fn enlarged(&mut self, stype: usize) {
-        for &pass in &self.contacts.of_type[stype] {
-            self.schedule.allow(pass);
+    pub(crate) fn enlarged(&mut self, contacts: &Contacts, stype: usize) {
+        for &pass in &contacts.of_type[stype] {
+            self.allow(pass);
         }
     }
 
-    fn reduced(&mut self, stype: usize) {
-        for &pass in &self.contacts.of_type[stype] {
-            self.schedule.forbid(pass);
+    pub(crate) fn reduced(&mut self, contacts: &Contacts, stype: usize) {
+        for &pass in &contacts.of_type[stype] {
+            self.forbid(pass);
         }
     }
 }

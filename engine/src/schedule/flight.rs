@@ -10,7 +10,7 @@
 //! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and no other
 //! sprite looks for them. Producers that draw continue to draw, and land when they make something.
 
-use super::mark;
+use super::{Foresight, mark};
 use crate::flat::bytes_of_fields;
 use crate::geometry::Rect;
 use crate::tick::Step;
@@ -40,7 +40,7 @@ fn due(sprite: &Sprite, moves: i32) -> i32 {
     sprite.moved_at.saturating_add(ticks)
 }
 
-impl Step<'_> {
+impl Step<'_, Foresight<'_>> {
     /// Ends a flight: the sprite becomes what it would be after its update in `tick`.
     fn land(&mut self, slot: Slot, tick: i32) {
         let sprite = self.world.edit_motion(slot);
@@ -51,21 +51,19 @@ impl Step<'_> {
         if moved {
             self.world.note_moved(slot);
         }
-        self.schedule.skipped[stype.index()] -= 1;
+        self.scheduler.schedule.skipped[stype.index()] -= 1;
         self.enter_anew(slot, rect);
     }
 
     fn enter_anew(&mut self, slot: Slot, rect: Rect) {
-        let models = self.models;
-        let (world, mut watcher) = self.watched();
-        world.enter_anew(models, slot, rect, &mut watcher);
+        self.world.enter_anew(self.models, slot, rect, &mut self.scheduler);
     }
 
     /// Enters sprites in flight into their new cells if that is due, before the updates of a tick. This is a little early
     /// for sprites whose update comes later, but nothing looks before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self) {
-        if self.world.tick >= self.schedule.next_due {
+        if self.world.tick >= self.scheduler.schedule.next_due {
             self.fly_on();
         }
     }
@@ -73,7 +71,7 @@ impl Step<'_> {
     #[inline(never)]
     fn fly_on(&mut self) {
         let tick = self.world.tick;
-        let mut flights = std::mem::take(&mut self.schedule.flights);
+        let mut flights = std::mem::take(&mut self.scheduler.schedule.flights);
         let mut next = i32::MAX;
         for flight in &mut flights {
             if flight.due <= tick {
@@ -81,7 +79,7 @@ impl Step<'_> {
             }
             next = next.min(flight.due);
         }
-        (self.schedule.flights, self.schedule.next_due) = (flights, next);
+        (self.scheduler.schedule.flights, self.scheduler.schedule.next_due) = (flights, next);
     }
 
     /// Enters a sprite in flight into the cells that it will cover after this tick's update. Returns the tick of the next
@@ -93,18 +91,18 @@ impl Step<'_> {
         self.touch(slot);
         let sprite = *self.world.sprite(slot);
         let due = due(&sprite, self.world.moves_within(&sprite, by));
-        if self.plan.any_sleep {
-            self.schedule.stamp(self.world, &sprite, due);
+        if self.scheduler.plan.any_sleep {
+            self.scheduler.schedule.stamp(self.world, &sprite, due);
         }
         due
     }
 
     /// Lands all sprites in flight. Between the updates of two ticks only.
     pub(super) fn land_all(&mut self, tick: i32) {
-        while let Some(flight) = self.schedule.flights.pop() {
+        while let Some(flight) = self.scheduler.schedule.flights.pop() {
             self.land(flight.slot, tick);
         }
-        self.schedule.next_due = i32::MAX;
+        self.scheduler.schedule.next_due = i32::MAX;
     }
 
     /// Lands a sprite on which an effect is about to be executed. Cost: O(sprites in flight), if it flies.
@@ -129,9 +127,9 @@ impl Step<'_> {
     }
 
     fn strike_flight(&mut self, slot: Slot) {
-        self.work(self.schedule.flights.len() / 64);
-        let at = self.schedule.flights.iter().position(|flight| flight.slot == slot);
-        self.schedule.flights.swap_remove(at.expect("a sprite in flight is in the list"));
+        self.work(self.scheduler.schedule.flights.len() / 64);
+        let at = self.scheduler.schedule.flights.iter().position(|flight| flight.slot == slot);
+        self.scheduler.schedule.flights.swap_remove(at.expect("a sprite in flight is in the list"));
     }
 
     /// Ends a flight before the update in this tick.
@@ -143,7 +141,7 @@ impl Step<'_> {
 
     /// Lands all sprites in flight. In the middle of the updates, sprites that are yet to be updated are one tick behind.
     pub(super) fn land_midway(&mut self) {
-        let mut flights = std::mem::take(&mut self.schedule.flights);
+        let mut flights = std::mem::take(&mut self.scheduler.schedule.flights);
         for flight in flights.drain(..) {
             if self.has_moved(flight.slot) {
                 self.land(flight.slot, self.world.tick);
@@ -151,8 +149,8 @@ impl Step<'_> {
                 self.land_late(flight.slot);
             }
         }
-        self.schedule.flights = flights;
-        self.schedule.next_due = i32::MAX;
+        self.scheduler.schedule.flights = flights;
+        self.scheduler.schedule.next_due = i32::MAX;
     }
 
     /// Starts a flight after a tick in which a sprite has moved by itself and nothing else happened to it. Returns
@@ -178,16 +176,16 @@ impl Step<'_> {
         let period = self.rules.types[sprite.stype.index()].traits.cooldown.clamp(1, LONGEST_PERIOD) as u16;
         let sprite = Sprite { activity: mark::SKIPPED, period, ..sprite };
         let due = due(&sprite, moves);
-        if self.plan.any_sleep {
-            self.schedule.stamp(self.world, &sprite, due);
+        if self.scheduler.plan.any_sleep {
+            self.scheduler.schedule.stamp(self.world, &sprite, due);
         }
         let stype = sprite.stype;
         let sprite = self.world.edit_motion(slot);
         (sprite.activity, sprite.period) = (mark::SKIPPED, period);
         sprite.set(flag::MOVED, false);
-        self.schedule.skipped[stype.index()] += 1;
-        self.schedule.flights.push(Flight { slot, due });
-        self.schedule.next_due = self.schedule.next_due.min(due);
+        self.scheduler.schedule.skipped[stype.index()] += 1;
+        self.scheduler.schedule.flights.push(Flight { slot, due });
+        self.scheduler.schedule.next_due = self.scheduler.schedule.next_due.min(due);
         true
     }
 }
@@ -224,7 +222,7 @@ BasicGame
         for tick in 0..300 {
             let action = if tick % 5 == 0 { Action::Right } else { Action::Nil };
             game.step(&mut state, action);
-            game.step_unoptimised(&mut plain, action, &mut ());
+            game.step_unscheduled(&mut plain, action, &mut ());
             assert_eq!(state.state_hash(), plain.state_hash(), "tick {tick}");
             assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {tick}");
             // With and without hash contributions of earlier ticks.

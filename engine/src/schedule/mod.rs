@@ -2,16 +2,21 @@
 
 mod contacts;
 mod flight;
+mod foresight;
+mod passes;
 mod sleep;
+mod updates;
 
 use crate::flat::flat;
 use crate::rules::{Rules, SpriteType};
-use crate::tick::sprites::{self, Mover, producers};
+use crate::tick::Step;
 use crate::world::{Models, World};
-pub(crate) use contacts::{Contacting, Contacts};
+pub(crate) use contacts::Contacts;
 pub(crate) use flight::Flight;
+pub(crate) use foresight::Foresight;
 use sleep::shortcuts;
 pub(crate) use sleep::{Shortcuts, Sleeper, mark};
+use updates::{Mover, movers};
 
 flat! {
     /// The work that the next ticks may leave out.
@@ -53,7 +58,7 @@ flat! {
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     /// Types whose update does something, in update order.
-    pub(crate) movers: Vec<Mover>,
+    movers: Vec<Mover>,
     /// The tables of possible passes, by the types that share cells.
     pub(crate) contacts: Contacts,
     /// By type.
@@ -68,20 +73,8 @@ impl Plan {
     /// Cost: O(types² + passes × the largest trees).
     pub(crate) fn of(rules: &Rules, models: &Models) -> Plan {
         let shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
-        let mover = |&stype: &SpriteType| {
-            let info = &rules.types[stype.index()];
-            let class = info.class.filter(|_| !info.is_idle())?;
-            Some(Mover {
-                stype,
-                class,
-                order: i32::from(info.order?),
-                update_kind: sprites::update_kind(class, &info.traits),
-                may_fly: shortcuts[stype.index()].flies,
-                threshold: producers::threshold(info.traits.prob),
-            })
-        };
         Plan {
-            movers: rules.order.iter().rev().filter_map(mover).collect(),
+            movers: movers(rules, &shortcuts),
             contacts: Contacts::of(rules, models),
             any_sleep: shortcuts.iter().any(|of_type| of_type.sleeps),
             any_fly: shortcuts.iter().any(|of_type| of_type.flies),
@@ -91,6 +84,21 @@ impl Plan {
 }
 
 impl Schedule {
+    /// The schedule of a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
+    pub(crate) fn of(plan: &Plan, models: &Models, world: &mut World) -> Schedule {
+        let mut schedule = Schedule::empty(plan, world);
+        let mut foresight = Foresight::new(plan, &mut schedule, world);
+        world.reoccupy(models, &mut foresight);
+        schedule
+    }
+
+    /// Wakes and lands all sprites, between two steps.
+    pub(crate) fn suspend(step: &mut Step<'_, Foresight<'_>>) {
+        step.scheduler.wake_all(step.world);
+        step.land_all(step.world.tick);
+        step.world.sprites.iter_mut().for_each(|sprite| sprite.activity = mark::NOTHING);
+    }
+
     /// The schedule of a world without sprites.
     pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
         // Games without shortcuts do not pay for them.

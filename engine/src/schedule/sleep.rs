@@ -10,15 +10,16 @@
 //! rule pairs them with anything that they stand on; nothing looks for their type. An effect that reaches distant sprites
 //! wakes all.
 
-use super::Schedule;
 use super::flight::LONGEST_PERIOD;
+use super::{Foresight, Schedule};
 use crate::flat::bytes_of_fields;
+use crate::geometry::Rect;
 use crate::rules::class::SpriteClass;
-use crate::rules::effects::{PutBack, TickSummary};
+use crate::rules::effects::PutBack;
 use crate::rules::{EffectInfo, Pass, SpriteType, TypeInfo};
 use crate::tick::Step;
 use crate::tick::physics;
-use crate::world::{NONE, Slot, Sprite, World, flag};
+use crate::world::{Slot, Sprite, World, flag};
 
 /// Values of [`Sprite::activity`]: the events of this tick for the sprite.
 pub(crate) mod mark {
@@ -148,68 +149,87 @@ impl Schedule {
     }
 }
 
-impl Step<'_> {
-    /// Notes that the cells of a sprite have changed.
-    #[inline(always)]
-    pub(crate) fn touch(&mut self, slot: Slot) {
-        if !self.schedule.sleepers.is_empty() {
-            self.schedule.touch(self.world, slot);
-        }
-    }
-
-    /// Prepares sleep and flight for a tick: nothing sleeps in a tick in which an executed rule stops the game.
-    #[inline]
-    pub(crate) fn prepare_shortcuts(&mut self, unoptimised: bool) {
-        self.flies = self.plan.any_fly && !unoptimised;
-        self.sleeps = self.plan.any_sleep && !unoptimised && self.world.avatar != NONE;
-        if !self.sleeps && !self.schedule.sleepers.is_empty() {
-            self.wake_all();
-        }
-        if !self.flies && !self.schedule.flights.is_empty() {
-            self.land_all(self.world.tick);
-        }
-    }
-
+impl Foresight<'_> {
     /// Wakes all sleeping sprites. Between steps only.
-    fn wake_all(&mut self) {
+    pub(super) fn wake_all(&mut self, world: &mut World) {
         let Schedule { sleepers, skipped, watched, .. } = &mut *self.schedule;
         for sleeper in sleepers.drain(..) {
-            let sprite = &mut self.world.sprites[usize::from(sleeper.slot)];
+            let sprite = &mut world.sprites[usize::from(sleeper.slot)];
             sprite.activity = mark::NOTHING;
             skipped[sprite.stype.index()] -= 1;
         }
         watched.fill(0);
     }
+}
 
-    /// Wakes and lands sprites before an effect is executed on a sprite.
-    pub(crate) fn prepare(&mut self, effect: TickSummary, one: Slot) {
+impl Step<'_, Foresight<'_>> {
+    /// Notes that the cells of a sprite have changed.
+    #[inline(always)]
+    pub(crate) fn touch(&mut self, slot: Slot) {
+        if !self.scheduler.schedule.sleepers.is_empty() {
+            self.scheduler.schedule.touch(self.world, slot);
+        }
+    }
+
+    /// Notes a permanent change where a sprite stands.
+    pub(super) fn stamp(&mut self, slot: Slot) {
+        let sprite = *self.world.sprite(slot);
+        self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick);
+    }
+
+    /// [`Step::relocate`] in a game in which sprites sleep.
+    pub(super) fn relocate_noisily(&mut self, slot: Slot, rect: Rect) {
+        let before = *self.world.sprite(slot);
+        self.touch(slot);
+        self.relocate(slot, rect);
+        self.touch(slot);
+        // The sprite's own move may yet be undone: its effect is known only at the end of the tick.
+        if !self.is_try(&before) {
+            self.scheduler.schedule.stamp(self.world, &before, self.world.tick);
+            self.stamp(slot);
+        }
+        self.wake();
+    }
+
+    /// Tests whether a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
+    fn is_try(&self, sprite: &Sprite) -> bool {
+        self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
+            && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
+    }
+
+    /// Wakes and lands sprites before an effect is executed on a sprite, and notes the execution.
+    pub(super) fn foresee(&mut self, info: &EffectInfo, one: Slot, partners: &[Slot]) {
+        let effect = info.in_tick;
         self.land_one(one);
         if effect.affects_distant_sprites {
             self.wake_and_land_all();
         } else if effect.shields {
             self.wake_sleepers();
         }
+        let free = !info.in_batch && info.score_change == 0 && info.counting.is_none();
+        let back = effect.puts_back == Some(PutBack::ToLastPlace);
+        self.note(one, free && back);
+        for &partner in partners {
+            self.land_one(partner);
+            // Blocking another sprite changes nothing, unless it changes the score.
+            let harmless = free && effect.puts_back.is_some();
+            let activity = &mut self.world.sprites[usize::from(partner)].activity;
+            if *activity != mark::NOTHING && !harmless {
+                *activity = mark::DISTURBED;
+            }
+        }
     }
 
-    /// Notes the execution of an effect on a sprite.
-    pub(crate) fn note(&mut self, effect: TickSummary, free: bool, one: Slot, two: Option<Slot>) {
+    /// Notes the execution of an effect on a sprite; `is_put_back` if it only puts the sprite back.
+    fn note(&mut self, one: Slot, is_put_back: bool) {
         let pass = self.pass;
-        let first = &mut self.world.sprites[usize::from(one)].activity;
-        if *first != mark::NOTHING {
-            let back = effect.puts_back == Some(PutBack::ToLastPlace);
-            *first = if back && free && *first == mark::MOVED && pass >= 0 {
+        let activity = &mut self.world.sprites[usize::from(one)].activity;
+        if *activity != mark::NOTHING {
+            *activity = if is_put_back && *activity == mark::MOVED && pass >= 0 {
                 pass as u16 + 1
             } else {
                 mark::DISTURBED
             };
-        }
-        if let Some(two) = two {
-            let second = &mut self.world.sprites[usize::from(two)].activity;
-            // Blocking another sprite changes nothing, unless it changes the score.
-            let harmless = free && effect.puts_back.is_some();
-            if *second != mark::NOTHING && !harmless {
-                *second = mark::DISTURBED;
-            }
         }
     }
 
@@ -217,14 +237,14 @@ impl Step<'_> {
     /// changed start to sleep, and sprites that will continue to move in the same way start to fly.
     #[inline]
     pub(crate) fn sleep_or_fly(&mut self) {
-        if self.any_moved && self.stopped.is_none() {
+        if self.scheduler.any_moved && self.stopped.is_none() {
             self.sleep_or_fly_each();
         }
     }
 
     #[inline(never)]
     fn sleep_or_fly_each(&mut self) {
-        if self.sleeps {
+        if self.scheduler.sleeps {
             self.stamp_moved();
         }
         let mut kept = 0;
@@ -236,7 +256,8 @@ impl Step<'_> {
                 continue;
             }
             let sprite = self.world.sprite(slot);
-            let may_sleep = || self.sleeps && self.plan.shortcuts[sprite.stype.index()].sleeps;
+            let may_sleep =
+                || self.scheduler.sleeps && self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps;
             if activity < mark::DISTURBED && activity != mark::NOTHING && back && may_sleep() {
                 self.try_sleep(slot, activity - 1);
             }
@@ -252,10 +273,10 @@ impl Step<'_> {
             let slot = self.world.moved[at];
             let (sprite, last) = (*self.world.sprite(slot), self.world.last(slot));
             if sprite.activity != mark::NOTHING && !sprite.is_back() {
-                self.schedule.stamp(self.world, &sprite, self.world.tick);
+                self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick);
                 let (column, row) = self.world.place_of(last);
                 let before = Sprite { rect: last, flags: sprite.flags | flag::BIG, column, row, ..sprite };
-                self.schedule.stamp(self.world, &before, self.world.tick);
+                self.scheduler.schedule.stamp(self.world, &before, self.world.tick);
             }
         }
     }
@@ -273,20 +294,20 @@ impl Step<'_> {
         }
         let sleeper = Sleeper { slot, pass, left, top, right, bottom };
         let now = stamp_of(self.world.tick);
-        let quiet = sleeper
-            .cells(self.world)
-            .all(|cell| self.schedule.stamps[cell] < now && self.schedule.watched[cell] < u8::MAX);
+        let quiet = sleeper.cells(self.world).all(|cell| {
+            self.scheduler.schedule.stamps[cell] < now && self.scheduler.schedule.watched[cell] < u8::MAX
+        });
         // At its place, an effect of the edge might be executed on it, from which its own movement takes it away when it
         // is awake.
         if !quiet || sprite.is(flag::OFF) || self.overlaps_rule_partner(slot) {
             return;
         }
         for cell in sleeper.cells(self.world) {
-            self.schedule.watched[cell] += 1;
+            self.scheduler.schedule.watched[cell] += 1;
         }
         self.world.sprites[usize::from(slot)].activity = mark::SKIPPED;
-        self.schedule.skipped[sprite.stype.index()] += 1;
-        self.schedule.sleepers.push(sleeper);
+        self.scheduler.schedule.skipped[sprite.stype.index()] += 1;
+        self.scheduler.schedule.sleepers.push(sleeper);
     }
 
     /// Tests whether a rule pairs the sprite with anything that it overlaps at its place.
@@ -305,23 +326,23 @@ impl Step<'_> {
     /// Wakes the sleeping sprites around the touched cells.
     #[inline]
     pub(crate) fn wake(&mut self) {
-        if !self.schedule.touched.is_empty() {
+        if !self.scheduler.schedule.touched.is_empty() {
             self.wake_touched();
         }
     }
 
     fn wake_touched(&mut self) {
-        while let Some(cell) = self.schedule.touched.pop() {
-            if self.schedule.watched[cell as usize] == 0 {
+        while let Some(cell) = self.scheduler.schedule.touched.pop() {
+            if self.scheduler.schedule.watched[cell as usize] == 0 {
                 continue;
             }
-            self.work(self.schedule.sleepers.len() / 64);
+            self.work(self.scheduler.schedule.sleepers.len() / 64);
             let stride = (self.world.columns + 2) as u32;
             let (column, row) = ((cell % stride) as i16, (cell / stride) as i16);
             let mut at = 0;
-            while at < self.schedule.sleepers.len() {
-                if self.schedule.sleepers[at].holds(column, row) {
-                    let sleeper = self.schedule.sleepers.swap_remove(at);
+            while at < self.scheduler.schedule.sleepers.len() {
+                if self.scheduler.schedule.sleepers[at].holds(column, row) {
+                    let sleeper = self.scheduler.schedule.sleepers.swap_remove(at);
                     self.wake_one(sleeper);
                 } else {
                     at += 1;
@@ -334,11 +355,11 @@ impl Step<'_> {
     fn wake_one(&mut self, sleeper: Sleeper) {
         let slot = sleeper.slot;
         for cell in sleeper.cells(self.world) {
-            self.schedule.watched[cell] -= 1;
+            self.scheduler.schedule.watched[cell] -= 1;
         }
         let sprite = &mut self.world.sprites[usize::from(slot)];
         sprite.activity = mark::NOTHING;
-        self.schedule.skipped[sprite.stype.index()] -= 1;
+        self.scheduler.schedule.skipped[sprite.stype.index()] -= 1;
         if sprite.is(flag::FREE) {
             return;
         }
@@ -347,7 +368,7 @@ impl Step<'_> {
             && let Some(aim) = physics::aim(self, slot)
         {
             self.world.sprites[usize::from(slot)].activity = mark::MOVED;
-            self.any_moved = true;
+            self.scheduler.any_moved = true;
             self.place(slot, aim);
             self.set_age(slot, 0);
         }
@@ -367,7 +388,7 @@ impl Step<'_> {
     }
 
     pub(crate) fn wake_sleepers(&mut self) {
-        while let Some(sleeper) = self.schedule.sleepers.pop() {
+        while let Some(sleeper) = self.scheduler.schedule.sleepers.pop() {
             self.wake_one(sleeper);
         }
         self.wake();

@@ -5,13 +5,13 @@ use crate::geometry::Direction;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::BLOCK_PAUSE;
 use crate::rules::{Action, SpriteType};
-use crate::tick::Step;
 use crate::tick::physics::{self, Movement};
+use crate::tick::{Scheduler, Step};
 use crate::trigonometry::{cos, sin};
 use crate::world::{Slot, flag};
 
 /// Updates the player's avatar, before all other sprites.
-pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
+pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     use SpriteClass as C;
     let stype = step.world.sprite(slot).stype;
     let class = step.rules.types[stype.index()].class.expect("an avatar has a class");
@@ -73,19 +73,19 @@ fn base(action: Action) -> Option<usize> {
     }
 }
 
-fn is_off_grid(step: &Step<'_>, slot: Slot) -> bool {
+fn is_off_grid(step: &Step<'_, impl Scheduler>, slot: Slot) -> bool {
     step.rules.types[step.world.sprite(slot).stype.index()].traits.off_grid
 }
 
 /// The passive movement, which avatars with grid physics do not have.
-fn glide(step: &mut Step<'_>, slot: Slot) {
+fn glide(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     if is_off_grid(step, slot) {
         physics::passive(step, slot);
     }
 }
 
 #[inline(always)]
-fn moving(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
+fn moving(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) -> Movement {
     glide(step, slot);
     let speed = step.world.overrides(slot).speed;
     match base(action) {
@@ -96,7 +96,7 @@ fn moving(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
 
 /// Moves, and faces the direction of the move.
 #[inline(always)]
-fn oriented(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
+fn oriented(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) -> Movement {
     let movement = moving(step, slot, action);
     if movement == Movement::Move && !is_off_grid(step, slot) {
         let facing = step.last_direction(slot).normalised();
@@ -105,14 +105,14 @@ fn oriented(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
     movement
 }
 
-fn shooting(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn shooting(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     if oriented(step, slot, action) == Movement::Still && action == Action::Use {
         shoot(step, slot);
     }
 }
 
 /// Shoots from its own corner if it has ammunition; the shot keeps its own orientation.
-fn flak(step: &mut Step<'_>, slot: Slot) {
+fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let ammo = traits.ammo.first().copied();
@@ -135,12 +135,12 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
 }
 
 /// Shoots the first kind of shot for which it has ammunition, one body length ahead.
-fn shoot(step: &mut Step<'_>, slot: Slot) {
+fn shoot(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let facing = step.world.overrides(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
 }
 
-fn shoot_towards(step: &mut Step<'_>, slot: Slot, facing: Direction) {
+fn shoot_towards(step: &mut Step<'_, impl Scheduler>, slot: Slot, facing: Direction) {
     let kinds = step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes.len();
     let ready = (0..kinds).find(|&kind| is_loaded(step, slot, kind));
     if let Some(kind) = ready {
@@ -148,12 +148,12 @@ fn shoot_towards(step: &mut Step<'_>, slot: Slot, facing: Direction) {
     }
 }
 
-fn is_loaded(step: &Step<'_>, slot: Slot, kind: usize) -> bool {
+fn is_loaded(step: &Step<'_, impl Scheduler>, slot: Slot, kind: usize) -> bool {
     let traits = &step.rules.types[step.world.sprite(slot).stype.index()].traits;
     traits.ammo.get(kind).is_none_or(|&ammo| step.world.amount(slot, ammo) > 0)
 }
 
-fn shoot_kind(step: &mut Step<'_>, slot: Slot, kind: usize, facing: Direction) {
+fn shoot_kind(step: &mut Step<'_, impl Scheduler>, slot: Slot, kind: usize, facing: Direction) {
     let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let ahead =
@@ -174,7 +174,7 @@ fn shoot_kind(step: &mut Step<'_>, slot: Slot, kind: usize, facing: Direction) {
 }
 
 /// Shoots a different kind of shot with each key, always in the same direction.
-fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     let kind = match action {
         Action::Left => 0,
@@ -192,7 +192,7 @@ fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
 }
 
 /// Turns only at right angles, and leaves sprites behind.
-fn ongoing_turning(step: &mut Step<'_>, slot: Slot, direction: Direction) {
+fn ongoing_turning(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) {
     let facing = step.world.overrides(slot).orientation;
     if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
         physics::turn(step, slot, direction);
@@ -209,7 +209,7 @@ fn heading(angle: f64) -> Direction {
 }
 
 /// Shoots twice, turns its aim up or down, and thrusts along it.
-fn aimed(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn aimed(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     shooting(step, slot, action);
     if action == Action::Use {
         shoot(step, slot);
@@ -229,7 +229,7 @@ fn aimed(step: &mut Step<'_>, slot: Slot, action: Action) {
 }
 
 /// Moves along the rotation, or against it.
-fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn thrust(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     let rotation = step.world.rotation(step.rules, step.world.sprite(slot));
     let speed = step.world.overrides(slot).speed;
     match action {
@@ -240,7 +240,7 @@ fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
 }
 
 /// Turns the rotation with the left and right keys.
-fn steer(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn steer(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     let diff = step.rules.types[step.world.sprite(slot).stype.index()].traits.angle_diff;
     let extra = step.world.extra(step.rules, slot);
     match action {
@@ -250,7 +250,7 @@ fn steer(step: &mut Step<'_>, slot: Slot, action: Action) {
     }
 }
 
-fn spaceship(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn spaceship(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     if action == Action::Use {
         let facing = heading(step.world.rotation(step.rules, step.world.sprite(slot)));
@@ -262,7 +262,7 @@ fn spaceship(step: &mut Step<'_>, slot: Slot, action: Action) {
 }
 
 /// Drives forwards or backwards, always with the same thrust.
-fn car(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn car(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     steer(step, slot, action);
     let extra = step.world.extra(step.rules, slot);
@@ -275,7 +275,7 @@ fn car(step: &mut Step<'_>, slot: Slot, action: Action) {
     physics::active(step, slot, heading(angle), 5.0);
 }
 
-fn lander(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn lander(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     steer(step, slot, action);
     if action == Action::Up {
@@ -283,7 +283,7 @@ fn lander(step: &mut Step<'_>, slot: Slot, action: Action) {
     }
 }
 
-fn bird(step: &mut Step<'_>, slot: Slot, action: Action) {
+fn bird(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     oriented(step, slot, action);
     let overrides = *step.world.overrides(slot);
     let strength = step.rules.types[step.world.sprite(slot).stype.index()].traits.jump_strength;
@@ -299,7 +299,7 @@ fn bird(step: &mut Step<'_>, slot: Slot, action: Action) {
 }
 
 /// Runs, and jumps if the last event phase found ground.
-fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
+fn platformer(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction, action: Action) {
     glide(step, slot);
     let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -316,7 +316,7 @@ fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Act
 }
 
 /// Acts as a platformer, and puts blocks where it faces.
-fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
+fn wizard(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction, action: Action) {
     platformer(step, slot, direction, action);
     let rules = step.rules;
     let tick = step.world.tick;

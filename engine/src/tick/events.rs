@@ -1,15 +1,14 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
 use super::effects;
-use super::{Meeting, Step, Watch};
+use super::{Meeting, Scheduler, Step, Watch};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
 use crate::rules::{EffectInfo, Limit, Pass, SpriteType, Timed, memory};
 use crate::world::{Hit, Hits, NONE, Partners, Side, Slot, Timer, flag};
-use smallvec::SmallVec;
 
-impl Step<'_> {
-    pub(crate) fn events(&mut self, watch: &mut impl Watch) {
+impl<'a, S: Scheduler> Step<'a, S> {
+    pub(crate) fn events(&mut self, watch: &mut (impl Watch + ?Sized)) {
         if !self.world.timers.is_empty() {
             self.timers(watch);
             if self.stopped.is_some() {
@@ -26,13 +25,13 @@ impl Step<'_> {
         }
         let rules = self.rules;
         let (mut from, mut is_tidy) = (0, false);
-        while let Some(number) = self.schedule.next_possible(from) {
+        while let Some(number) = S::next_pass(self, from) {
             if !is_tidy {
                 self.world.tidy_covered(self.models);
                 is_tidy = true;
             }
             self.pass = number as i32;
-            self.pair_pass(number, &rules.passes[number], watch);
+            self.pair_pass(&rules.passes[number], watch);
             if self.stopped.is_some() {
                 break;
             }
@@ -41,13 +40,13 @@ impl Step<'_> {
     }
 
     /// Runs the effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
-    fn timers(&mut self, watch: &mut impl Watch) {
+    fn timers(&mut self, watch: &mut (impl Watch + ?Sized)) {
         while let Some(&Timer { due, timed: number }) = self.world.timers.last() {
             if due > self.world.tick {
                 return;
             }
             self.world.timers.pop();
-            self.wake_and_land_all();
+            S::unsettles(self);
             // Counts also if there is no sprite: a timer that repeats at once would never end.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
@@ -79,7 +78,7 @@ impl Step<'_> {
 
     /// Runs a timed effect on every sprite of a type and its relatives; the score change is the line's own, whatever the
     /// effect did.
-    fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut impl Watch) {
+    fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];
         for &stype in &rules.types[stype.index()].tree {
@@ -145,7 +144,7 @@ impl Step<'_> {
 
     /// Visits every sprite of the tree that is not wholly on the screen. An effect that adds to the group being visited
     /// ends that visit, with a message.
-    fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut impl Watch) {
+    fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
         for &stype in &family.tree {
@@ -172,42 +171,32 @@ impl Step<'_> {
         }
     }
 
-    fn pair_pass(&mut self, number: usize, pass: &Pass, watch: &mut impl Watch) {
-        let rules = self.rules;
-        let (first, second) = (&rules.types[pass.first.index()], &rules.types[pass.second.index()]);
-        let bits = self.plan.contacts.sides(number);
-        let (first, second) = (Side { family: first, bits: bits.0 }, Side { family: second, bits: bits.1 });
-        self.work(first.family.tree.len() + second.family.tree.len());
+    fn pair_pass(&mut self, pass: &Pass, watch: &mut (impl Watch + ?Sized)) {
+        let tree = |side: SpriteType| &self.rules.types[side.index()].tree;
+        self.work(tree(pass.first).len() + tree(pass.second).len());
         if !self.world.shields.is_empty() && effects::is_shielded(self, pass) {
             return;
         }
         // Sprites that this pass makes do not take part in it.
         let newborn = self.world.next_id;
-        let size = |side: Side<'_>| {
-            side.family.tree.iter().map(|&t| u32::from(self.world.group(t).count)).sum::<u32>()
-        };
-        if pass.either_side && size(second) < size(first) {
-            self.visit_second_side(pass, first, second, newborn, watch);
-        } else {
-            self.visit_first_side(pass, first, second, newborn, watch);
-        }
+        S::run_pass(self, pass, newborn, watch);
     }
 
-    fn visit_first_side(
-        &mut self,
-        pass: &Pass,
-        first: Side<'_>,
-        second: Side<'_>,
-        newborn: u32,
-        watch: &mut impl Watch,
-    ) {
+    /// A side of a pass: a type and its relatives.
+    pub(crate) fn side(&self, stype: SpriteType) -> Side<'a> {
+        Side { family: &self.rules.types[stype.index()], bits: self.models.trees[stype.index()] }
+    }
+
+    /// Visits the sprites of the first side in order, and has each meet its partners in order (`spec/03` §4).
+    pub(crate) fn visit_first_side(&mut self, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
+        let (first, second) = (self.side(pass.first), self.side(pass.second));
         let mut hits = Hits::new();
         let mut visited = 0;
         let in_batch = self.rules.effects[usize::from(pass.effect)].in_batch;
         for &stype in &first.family.tree {
             let aware = self.rules.types[stype.index()].ground_aware;
             let own = self.models.bit(stype);
-            if !aware && !self.schedule.may_meet(self.world, own, second.bits) {
+            if !aware && !self.scheduler.may_meet(self.world, own, second.bits) {
                 continue;
             }
             let mut slot = self.world.group(stype).head;
@@ -262,79 +251,26 @@ impl Step<'_> {
         self.work(visited);
     }
 
-    /// Runs the same meetings in the same order, found from the second side because it has fewer sprites.
-    fn visit_second_side(
-        &mut self,
-        pass: &Pass,
-        first: Side<'_>,
-        second: Side<'_>,
-        newborn: u32,
-        watch: &mut impl Watch,
-    ) {
-        let mut pairs: SmallVec<[(Hit, Hit); 16]> = SmallVec::new();
-        let mut hits = Hits::new();
-        let mut visited = 0;
-        for &stype in &second.family.tree {
-            let own = self.models.bit(stype);
-            if !self.schedule.may_meet(self.world, own, first.bits) {
-                continue;
-            }
-            let mut slot = self.world.group(stype).head;
-            while slot != NONE {
-                let sprite = self.world.sprite(slot);
-                visited += 1;
-                if !self.world.may_overlap(own, first, sprite) {
-                    slot = sprite.next;
-                    continue;
-                }
-                hits.clear();
-                let looked = self.world.overlapping(self.models, first, slot, newborn, &mut hits);
-                self.work(looked);
-                let own = self.world.hit(second, slot);
-                pairs.extend(hits.iter().map(|&hit| (hit, own)));
-                if self.stopped.is_some() {
-                    return;
-                }
-                slot = self.world.sprite(slot).next;
-            }
-        }
-        self.work(visited);
-        if pairs.len() > 1 {
-            pairs.sort_unstable();
-        }
-        for (one, two) in pairs {
-            self.meet(pass, one.slot(), two.slot(), watch);
-            if self.stopped.is_some() {
-                return;
-            }
-        }
-    }
-
     /// Checks once more before a hit counts: the first sprite is not dead and still there.
-    fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut impl Watch) {
+    pub(crate) fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut (impl Watch + ?Sized)) {
         if self.rules.types[self.world.sprite(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
         }
-        self.land_one(one);
-        self.land_one(two);
+        S::meets(self, one, two);
         let (first, second) = (self.world.sprite(one), self.world.sprite(two));
         if !first.is(flag::KILLED) && first.rect.intersects(second.rect) {
             self.execute(pass.effect, one, Some(two), watch);
         }
     }
 
-    fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut impl Watch) {
+    fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
         if watch.wants_meetings() {
             self.tell(watch, info.line, one, two);
         }
         self.work_of_effect();
-        if self.flies {
-            self.prepare(info.in_tick, one);
-            let free = info.score_change == 0 && info.counting.is_none();
-            self.note(info.in_tick, free, one, two);
-        }
+        S::executes(self, info, one, two.as_slice());
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.world.memory[usize::from(effect)];
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
@@ -342,7 +278,7 @@ impl Step<'_> {
 
     /// Reports the sprites of an execution that is about to happen.
     #[cold]
-    fn tell(&self, watch: &mut impl Watch, line: usize, one: Slot, two: Option<Slot>) {
+    fn tell(&self, watch: &mut (impl Watch + ?Sized), line: usize, one: Slot, two: Option<Slot>) {
         let first = self.world.present(one);
         let cell = (first.rect.x.div_euclid(self.world.block), first.rect.y.div_euclid(self.world.block));
         let second = two.map(|two| self.world.sprite(two).stype);
@@ -350,20 +286,20 @@ impl Step<'_> {
     }
 
     /// Executes an effect on all partners at once; the score counts as often as the effect says.
-    fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Partners, watch: &mut impl Watch) {
+    fn execute_batch(
+        &mut self,
+        effect: u16,
+        one: Slot,
+        partners: &mut Partners,
+        watch: &mut (impl Watch + ?Sized),
+    ) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
         if watch.wants_meetings() {
             partners.iter().for_each(|&partner| self.tell(watch, info.line, one, Some(partner)));
         }
         self.work(EFFECT_WORK * partners.len());
-        if self.flies {
-            self.prepare(info.in_tick, one);
-            for &partner in partners.iter() {
-                self.land_one(partner);
-                self.note(info.in_tick, false, one, Some(partner));
-            }
-        }
+        S::executes(self, info, one, partners);
         let times = effects::execute_batch(self, info, one, partners);
         self.credit(info, self.world.memory[usize::from(effect)], times);
     }

@@ -7,19 +7,16 @@ mod events;
 mod motion;
 pub(crate) mod physics;
 mod population;
+mod scheduler;
 pub(crate) mod sprites;
 mod terminations;
 
-use crate::game::Compiled;
 use crate::geometry::Direction;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
-use crate::rules::traits::Traits;
-
+use crate::rules::class::SpriteClass;
 use crate::rules::{Action, Limit, Outcome, Rules, SpriteType};
-use crate::schedule::{Contacting, Plan, Schedule, mark};
-use crate::state::State;
 use crate::world::{Models, NONE, Slot, World, flag};
-use sprites::{Mover, UpdateKind, npcs, producers};
+pub(crate) use scheduler::{Scheduler, Unscheduled};
 
 /// An execution of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,12 +56,11 @@ impl Watch for () {
 }
 
 /// A step under way.
-pub(crate) struct Step<'a> {
+pub(crate) struct Step<'a, S> {
     pub(crate) rules: &'a Rules,
     pub(crate) models: &'a Models,
-    pub(crate) plan: &'a Plan,
     pub(crate) world: &'a mut World,
-    pub(crate) schedule: &'a mut Schedule,
+    pub(crate) scheduler: S,
     /// The place in the update order that is being updated; types with a lower place are still to come in this tick.
     pub(crate) updating: i32,
     /// The reason why the step was stopped, if it was.
@@ -75,56 +71,44 @@ pub(crate) struct Step<'a> {
     pub(crate) updating_id: u32,
     /// The pass of the event phase; −1 before the first.
     pub(crate) pass: i32,
-    /// `true` if sprites may sleep in this step.
-    pub(crate) sleeps: bool,
-    /// `true` if sprites may fly in this step.
-    pub(crate) flies: bool,
-    /// `true` if a sprite that may sleep or fly has moved by itself.
-    pub(crate) any_moved: bool,
 }
 
-impl<'a> Step<'a> {
-    pub(crate) fn new(game: &'a Compiled, state: &'a mut State) -> Step<'a> {
+impl<'a, S: Scheduler> Step<'a, S> {
+    pub(crate) fn new(
+        rules: &'a Rules,
+        models: &'a Models,
+        world: &'a mut World,
+        scheduler: S,
+    ) -> Step<'a, S> {
         Step {
-            rules: &game.rules,
-            models: &game.models,
-            plan: &game.plan,
-            world: &mut state.world,
-            schedule: &mut state.schedule,
+            rules,
+            models,
+            world,
+            scheduler,
             updating: i32::MAX,
-            updating_id: 0,
             stopped: None,
             work: 0,
+            updating_id: 0,
             pass: -1,
-            sleeps: false,
-            flies: false,
-            any_moved: false,
         }
     }
 
-    /// The world, and its watcher.
-    #[inline(always)]
-    pub(crate) fn watched(&mut self) -> (&mut World, Contacting<'_>) {
-        let watcher = Contacting { contacts: &self.plan.contacts, schedule: self.schedule };
-        (self.world, watcher)
-    }
-
-    pub(crate) fn cycle(&mut self, action: Action, watch: &mut impl Watch) {
+    /// Plays one tick (`spec/01` §4).
+    pub(crate) fn cycle(&mut self, action: Action, watch: &mut (impl Watch + ?Sized)) {
         self.world.tick += 1;
         self.world.last_action = action;
-        self.fly();
-        self.wake();
+        S::begin(self);
         self.world.settle_moved();
         self.update(action);
         if self.stopped.is_none() {
             self.events(watch);
         }
         if self.stopped.is_some() {
-            self.wake_and_land_all();
+            S::unsettles(self);
         }
         self.pass = i32::MAX;
         self.clear();
-        self.sleep_or_fly();
+        S::ends(self);
         if let Some(limit) = self.stopped {
             self.world.outcome = Outcome::Stopped(limit);
             return;
@@ -143,6 +127,7 @@ impl<'a> Step<'a> {
         }
     }
 
+    /// Updates the avatar, then all other sprites.
     fn update(&mut self, action: Action) {
         let avatar = self.world.avatar;
         if avatar != NONE && !self.world.sprite(avatar).is(flag::DISABLED) {
@@ -155,82 +140,48 @@ impl<'a> Step<'a> {
                 return;
             }
         }
-        let (rules, plan) = (self.rules, self.plan);
-        for mover in &plan.movers {
-            let group = self.world.group(mover.stype);
-            let (head, count) = (group.head, group.count);
-            let skipped = self.schedule.skipped_of(mover.stype);
-            if count == 0 {
-                continue;
-            }
-            self.updating = mover.order;
-            self.updating_id = 0;
-            self.work(usize::from(count));
+        S::update_all(self);
+        if self.stopped.is_none() {
+            self.updating = -1;
+        }
+    }
+
+    /// Updates the sprites of a type, in order of creation.
+    fn update_type(&mut self, stype: SpriteType) {
+        let info = &self.rules.types[stype.index()];
+        let Some((class, order)) = info.updated() else { return };
+        if !self.start_type(order, stype) {
+            return;
+        }
+        let mut slot = self.world.group(stype).head;
+        while slot != NONE {
+            self.update_sprite(slot, class, info.traits.oriented_image);
             if self.stopped.is_some() {
                 return;
             }
-            if skipped == count && mover.update_kind != UpdateKind::Draws {
-                continue;
-            }
-            let traits = &rules.types[mover.stype.index()].traits;
-            let mut slot = head;
-            while slot != NONE {
-                if mover.update_kind == UpdateKind::Draws {
-                    slot = producers::pass_over(self.world, traits, mover.threshold, slot);
-                    if slot == NONE {
-                        break;
-                    }
-                }
-                let sprite = self.world.sprite(slot);
-                let idle = match mover.update_kind {
-                    UpdateKind::Moves => {
-                        mover.may_fly && sprite.activity & mark::SKIPPED != 0
-                            || sprites::stays(sprite, traits, self.world)
-                    }
-                    UpdateKind::Chooses => {
-                        let waits = sprites::waits(sprite, traits, self.world);
-                        if waits {
-                            npcs::choose(self, slot, mover.class);
-                            if self.stopped.is_some() {
-                                return;
-                            }
-                        }
-                        waits
-                    }
-                    UpdateKind::Draws => {
-                        if sprite.flies() {
-                            self.land_before_update(slot);
-                        }
-                        false
-                    }
-                    UpdateKind::Other => mover.may_fly && sprite.activity & mark::SKIPPED != 0,
-                };
-                if !idle {
-                    self.update_one(slot, mover, traits);
-                    if self.stopped.is_some() {
-                        return;
-                    }
-                }
-                slot = self.world.sprite(slot).next;
-            }
+            slot = self.world.sprite(slot).next;
         }
-        self.updating = -1;
     }
 
+    /// Starts the updates of the sprites of a type. Returns `false` if there are none, or too many.
+    pub(crate) fn start_type(&mut self, order: i32, stype: SpriteType) -> bool {
+        let count = self.world.group(stype).count;
+        if count == 0 {
+            return false;
+        }
+        (self.updating, self.updating_id) = (order, 0);
+        self.work(usize::from(count));
+        self.stopped.is_none()
+    }
+
+    /// Updates a sprite (`spec/02`).
     #[inline(always)]
-    fn update_one(&mut self, slot: Slot, mover: &Mover, traits: &Traits) {
+    pub(crate) fn update_sprite(&mut self, slot: Slot, class: SpriteClass, oriented_image: bool) {
         self.updating_id = self.world.sprite(slot).id;
-        if traits.oriented_image {
+        if oriented_image {
             self.turn_picture(slot);
         }
-        match mover.update_kind {
-            UpdateKind::Moves => sprites::base(self, slot),
-            _ => sprites::update(self, slot, mover.class),
-        }
-        let sprite = &mut self.world.sprites[usize::from(slot)];
-        let moved = mover.may_fly && self.flies && !sprite.is_back();
-        sprite.activity = if moved { mark::MOVED } else { mark::NOTHING };
-        self.any_moved |= moved;
+        sprites::update(self, slot, class);
     }
 
     /// Checks the orientation: the reference looks for a picture of the orientation before each update, and throws if
@@ -263,9 +214,7 @@ impl<'a> Step<'a> {
         let Some((_, extra @ [_, ..])) = avatars.split_first() else { return };
         self.message();
         for &slot in extra {
-            let models = self.models;
-            let (world, mut watcher) = self.watched();
-            world.release(models, slot, &mut watcher);
+            self.world.release(self.models, slot, &mut self.scheduler);
         }
         self.world.forget_gone();
     }
@@ -276,7 +225,6 @@ impl<'a> Step<'a> {
         if !self.world.killed.is_empty() {
             self.clear_killed();
         }
-        self.wake();
         self.world.shields.clear();
         self.world.pulled.clear();
     }
@@ -319,7 +267,7 @@ impl<'a> Step<'a> {
         self.work(EFFECT_WORK);
     }
 
-    /// [`State::add_amount`], with the limit on resources.
+    /// [`World::add_amount`], with the limit on resources.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         self.world.add_amount(holder, resource, change);
         if self.world.held.len() > MAX_HELD {

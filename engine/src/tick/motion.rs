@@ -2,11 +2,10 @@
 
 use crate::geometry::{Direction, Rect};
 use crate::rules::Limit;
-use crate::schedule::mark;
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::{Slot, Sprite, flag};
 
-impl Step<'_> {
+impl<S: Scheduler> Step<'_, S> {
     /// The reference's `lastmove`: ticks since the last move, at this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.world.sprite(slot);
@@ -28,48 +27,17 @@ impl Step<'_> {
         if self.world.sprite(slot).rect == rect {
             return;
         }
-        if self.sleeps {
-            self.place_noisily(slot, rect);
-        } else {
-            let models = self.models;
-            let (world, mut watcher) = self.watched();
-            world.relocate(models, slot, rect, &mut watcher);
-        }
+        S::relocates(self, slot, rect);
     }
 
-    /// The same in a game in which sprites sleep.
-    fn place_noisily(&mut self, slot: Slot, rect: Rect) {
-        let before = *self.world.sprite(slot);
-        self.touch(slot);
-        let models = self.models;
-        let (world, mut watcher) = self.watched();
-        world.relocate(models, slot, rect, &mut watcher);
-        self.touch(slot);
-        // The sprite's own move may yet be undone: its effect is known only at the end of the tick.
-        if !self.is_try(&before) {
-            self.note_change(&before);
-            let after = *self.world.sprite(slot);
-            self.note_change(&after);
-        }
-        self.wake();
-    }
-
-    /// Tests whether a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
-    fn is_try(&self, sprite: &Sprite) -> bool {
-        self.sleeps
-            && self.plan.shortcuts[sprite.stype.index()].sleeps
-            && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
-    }
-
-    pub(crate) fn note_change(&mut self, sprite: &Sprite) {
-        if self.sleeps {
-            self.schedule.stamp(self.world, sprite, self.world.tick);
-        }
+    /// Moves a sprite to another rectangle, of any size.
+    #[inline(always)]
+    pub(crate) fn relocate(&mut self, slot: Slot, rect: Rect) {
+        self.world.relocate(self.models, slot, rect, &mut self.scheduler);
     }
 
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
-        let sprite = *self.world.sprite(slot);
-        self.note_change(&sprite);
+        S::changes(self, slot);
         self.work(self.world.resized.len() / 64);
         self.world.edit(slot);
         self.world.set_last(slot, last);
@@ -117,13 +85,7 @@ impl Step<'_> {
         }
         // The common case, without separate calls.
         self.world.sprites[usize::from(slot)].moved_at = self.world.tick;
-        if self.sleeps {
-            return self.place_noisily(slot, aim);
-        }
-        let models = self.models;
-        let (world, mut watcher) = self.watched();
-        let move_to = world.locate_move(slot, aim);
-        world.relocate_to(models, slot, aim, move_to, &mut watcher);
+        S::relocates(self, slot, aim);
     }
 
     /// The rectangle after a displacement; `None` if it does not move.

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Direction, Rect};
 use crate::rules::Rules;
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Slot, flag};
 
 /// The result of an active movement.
@@ -14,18 +14,18 @@ pub(crate) enum Movement {
 }
 
 /// The size of a grid cell in pixels as physics uses it: continuous physics has a constant of its own.
-pub(crate) fn grid_size(step: &Step<'_>, slot: Slot) -> f64 {
+pub(crate) fn grid_size(step: &Step<'_, impl Scheduler>, slot: Slot) -> f64 {
     if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block) }
 }
 
-fn is_continuous(rules: &Rules, step: &Step<'_>, slot: Slot) -> bool {
+fn is_continuous(rules: &Rules, step: &Step<'_, impl Scheduler>, slot: Slot) -> bool {
     rules.types[step.world.sprite(slot).stype.index()].traits.continuous
 }
 
 /// Moves a sprite along its own orientation, unless it is static. The first call only clears the sprite's first-tick
 /// flag.
 #[inline]
-pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
+pub(crate) fn passive(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.is_static || traits.only_active {
@@ -62,7 +62,7 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
 }
 
 /// The rectangle after passive movement with grid physics; `None` if the sprite does not move.
-pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
+pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     let sprite = step.world.sprite(slot);
     let &Overrides { orientation, speed, .. } = step.world.overrides_of(sprite);
     let speed = if speed == -1.0 { 1.0 } else { speed };
@@ -75,7 +75,12 @@ pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
 
 /// Moves a sprite in the direction that it, or its player, chooses. A speed of 0 stands for the sprite's own.
 #[inline]
-pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, speed: f64) -> Movement {
+pub(crate) fn active(
+    step: &mut Step<'_, impl Scheduler>,
+    slot: Slot,
+    direction: Direction,
+    speed: f64,
+) -> Movement {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.continuous {
@@ -100,7 +105,12 @@ pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, spee
 
 /// [`active`] along one of [`Direction::BASE`].
 #[inline(always)]
-pub(crate) fn active_along(step: &mut Step<'_>, slot: Slot, base: usize, speed: f64) -> Movement {
+pub(crate) fn active_along(
+    step: &mut Step<'_, impl Scheduler>,
+    slot: Slot,
+    base: usize,
+    speed: f64,
+) -> Movement {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let pixels = (speed * f64::from(step.world.block)) as i32;
@@ -111,7 +121,7 @@ pub(crate) fn active_along(step: &mut Step<'_>, slot: Slot, base: usize, speed: 
 }
 
 /// Applies a force in continuous physics: it changes orientation and speed; the next passive movement moves the sprite.
-fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> Movement {
+fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction, speed: f64) -> Movement {
     let &Overrides { orientation, speed: own, .. } = step.world.overrides(slot);
     let traits = &step.rules.types[step.world.sprite(slot).stype.index()].traits;
     let speed = if speed == 0.0 || speed == -1.0 { own } else { speed };
@@ -133,7 +143,7 @@ fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> 
 
 /// Changes the orientation if the sprite has one and it differs.
 #[inline(always)]
-pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> bool {
+pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) -> bool {
     let sprite = step.world.sprite(slot);
     if !sprite.is(flag::ORIENTED) || step.world.overrides_of(sprite).orientation == direction {
         return false;

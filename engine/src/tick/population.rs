@@ -4,10 +4,10 @@ use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;
 use crate::rules::class::SpriteClass;
 use crate::rules::{Limit, SpriteType};
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
-impl Step<'_> {
+impl<S: Scheduler> Step<'_, S> {
     /// Tests whether the sprite's class is an avatar's; the role of the sprite itself is [`flag::AVATAR`].
     pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
         self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
@@ -87,9 +87,7 @@ impl Step<'_> {
             self.world.add_scenery(sprite);
             return None;
         }
-        let models = self.models;
-        let (world, mut watcher) = self.watched();
-        let Some(slot) = world.admit(models, &sprite, &mut watcher) else {
+        let Some(slot) = self.world.admit(self.models, &sprite, &mut self.scheduler) else {
             self.stop(Limit::Sprites);
             return None;
         };
@@ -99,12 +97,7 @@ impl Step<'_> {
         if first && class == SpriteClass::OngoingTurningAvatar {
             self.world.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
-        if self.sleeps {
-            let sprite = *self.world.sprite(slot);
-            self.touch(slot);
-            self.note_change(&sprite);
-            self.wake();
-        }
+        S::made(self, slot);
         if last != sprite.rect {
             self.world.set_last(slot, last);
         }
@@ -167,14 +160,8 @@ impl Step<'_> {
             if slot == self.world.avatar {
                 self.world.avatar = NONE;
             }
-            if self.sleeps {
-                let sprite = *self.world.sprite(slot);
-                self.touch(slot);
-                self.note_change(&sprite);
-            }
-            let models = self.models;
-            let (world, mut watcher) = self.watched();
-            world.release(models, slot, &mut watcher);
+            S::removes(self, slot);
+            self.world.release(self.models, slot, &mut self.scheduler);
         }
         self.world.forget_gone();
         killed.clear();

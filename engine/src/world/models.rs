@@ -35,6 +35,8 @@ pub(crate) struct Models {
     pub(crate) of_type: Vec<Model>,
     /// By type.
     pub(crate) bits: Vec<TypeBits>,
+    /// By type: the bits of the types in its tree.
+    pub(crate) trees: Vec<u64>,
     /// The number of bits in use.
     pub(crate) used_bits: usize,
     /// The largest sprite, in cells, rounded up.
@@ -68,7 +70,13 @@ impl Models {
         for of_type in bits.iter_mut().filter(|of_type| of_type.own != 0) {
             of_type.partners = partners[of_type.own.trailing_zeros() as usize];
         }
-        Models { of_type: (0..).zip(&rules.types).map(model).collect(), bits, used_bits, reach: rules.reach }
+        Models {
+            of_type: (0..).zip(&rules.types).map(model).collect(),
+            trees: rules.types.iter().map(|info| all(&bits, &info.tree)).collect(),
+            bits,
+            used_bits,
+            reach: rules.reach,
+        }
     }
 
     #[inline(always)]

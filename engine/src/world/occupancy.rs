@@ -25,8 +25,31 @@ impl World {
         self.enter_located(models, slot, to, watcher);
     }
 
+    /// Enters all sprites again, from scratch, and tells the watcher of them. Cost: O(sprites + cells).
+    pub(crate) fn reoccupy(&mut self, models: &Models, watcher: &mut impl Watcher) {
+        self.cells.fill(NONE);
+        self.masks.fill(0);
+        self.crowds.clear();
+        self.covered.fill(0);
+        for group in &mut self.groups {
+            (group.multi_cell, group.big, group.off) = (0, 0, 0);
+        }
+        (self.big, self.off, self.multi_cell_bits) = (0, 0, 0);
+        (self.big_bits, self.vast, self.left_behind) = (0, 0, 0);
+        for stype in (0..self.groups.len() as u16).map(SpriteType) {
+            let mut slot = self.group(stype).head;
+            while slot != NONE {
+                match self.sprite(slot).flies() {
+                    true => self.enter_cell_again(models, slot, watcher),
+                    false => self.enter_cell(models, slot, watcher),
+                }
+                slot = self.sprite(slot).next;
+            }
+        }
+    }
+
     /// Enters a sprite into the cells that its fields name.
-    pub(crate) fn enter_cell_again(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
+    fn enter_cell_again(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let to = self.located(slot);
         self.enter_located(models, slot, to, watcher);
     }

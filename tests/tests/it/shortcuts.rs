@@ -21,7 +21,7 @@ fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<I
         if state.is_over() {
             break;
         }
-        let outcomes = (game.step(&mut state, action), game.step_unoptimised(&mut plain, action, &mut ()));
+        let outcomes = (game.step(&mut state, action), game.step_unscheduled(&mut plain, action, &mut ()));
         if [outcomes.0, outcomes.1].contains(&Outcome::Stopped(Limit::Work)) {
             // Sleeping sprites cost no work, but waking them does.
             return state;

@@ -1,12 +1,12 @@
 //! Effects on health points (`spec/03` §7.2).
 
 use crate::rules::{Limit, SpriteType, memory};
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot};
 
 /// addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
 pub(super) fn add(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     index: u16,
     one: Slot,
     victim: Option<Slot>,
@@ -31,7 +31,7 @@ pub(super) fn add(
 /// subtractHealthPoints. With a type, it acts on the first sprite of the last non-empty group of the type's tree; the
 /// killing execution has a score of its own.
 pub(super) fn subtract(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     index: u16,
     one: Slot,
     value: i32,
@@ -52,7 +52,7 @@ pub(super) fn subtract(
 }
 
 /// The first sprite of the last non-empty group of a tree.
-pub(super) fn last_of(step: &Step<'_>, stype: SpriteType) -> Option<Slot> {
+pub(super) fn last_of(step: &Step<'_, impl Scheduler>, stype: SpriteType) -> Option<Slot> {
     let tree = step.rules.types.get(stype.index()).map_or(&[][..], |info| &info.tree);
     let groups = tree.iter().map(|&stype| step.world.group(stype).head);
     groups.rev().find(|&head| head != NONE)

@@ -2,11 +2,11 @@
 
 use crate::geometry::Direction;
 use crate::rules::{Limit, SpriteType};
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
 /// Kills if `hit`; the score applies only then.
-pub(super) fn when(step: &mut Step<'_>, index: u16, one: Slot, hit: bool) {
+pub(super) fn when(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, hit: bool) {
     step.apply_score(index, hit);
     if hit {
         step.kill(one);
@@ -14,7 +14,7 @@ pub(super) fn when(step: &mut Step<'_>, index: u16, one: Slot, hit: bool) {
 }
 
 /// Kills every sprite of exactly that type.
-pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
+pub(super) fn all(step: &mut Step<'_, impl Scheduler>, stype: SpriteType) {
     step.work(usize::from(step.world.group(stype).count));
     let mut slot = step.world.group(stype).head;
     while slot != NONE {
@@ -23,7 +23,7 @@ pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
     }
 }
 
-pub(super) fn if_from_above(step: &mut Step<'_>, index: u16, one: Slot, two: Slot) {
+pub(super) fn if_from_above(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, two: Slot) {
     let (second, last) = (step.world.sprite(two), step.world.last(two));
     let above = step.world.last(one).y > last.y.wrapping_add(second.rect.h / 2);
     let falling = second.rect.y > last.y;
@@ -31,7 +31,13 @@ pub(super) fn if_from_above(step: &mut Step<'_>, index: u16, one: Slot, two: Slo
 }
 
 /// killIfFrontal and killIfNotFrontal: a sprite that stands still dies under both.
-pub(super) fn if_frontal(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, frontal: bool) {
+pub(super) fn if_frontal(
+    step: &mut Step<'_, impl Scheduler>,
+    index: u16,
+    one: Slot,
+    two: Slot,
+    frontal: bool,
+) {
     let (u, v) = (step.last_direction(one).normalised(), step.last_direction(two).normalised());
     let still = u == Direction::NONE;
     let head_on = u.x + v.x == 0.0 && u.y + v.y == 0.0;
@@ -40,7 +46,7 @@ pub(super) fn if_frontal(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, 
 
 /// killIfFast and killIfSlow: they compare the speed of the one that moves, or the difference of orientations if both
 /// move.
-pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fast: bool) {
+pub(super) fn if_speed(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, limit: f64, fast: bool) {
     let (first, second) = (step.world.overrides(one), step.world.overrides(two));
     let is_static = |slot: Slot| step.rules.types[step.world.sprite(slot).stype.index()].traits.is_static;
     let speed = if is_static(one) {
@@ -58,7 +64,7 @@ pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fa
 }
 
 /// killIfNotUpright: upright is a rotation of about 3π/2, nose up.
-pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
+pub(super) fn if_not_upright(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let full = 2.0 * std::f64::consts::PI;
     let rotation = (step.world.rotation(step.rules, step.world.sprite(one)) + full) % full;
     if !(rotation > 4.4 && rotation < 5.0) {
@@ -67,7 +73,12 @@ pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
 }
 
 /// Sets the score to 0: of the sprite if it is the avatar, or of all avatars of a type.
-pub(super) fn remove_score(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: Option<SpriteType>) {
+pub(super) fn remove_score(
+    step: &mut Step<'_, impl Scheduler>,
+    one: Slot,
+    victim: Option<Slot>,
+    stype: Option<SpriteType>,
+) {
     if stype == Some(SpriteType::NONE) {
         return step.stop(Limit::NoType);
     }

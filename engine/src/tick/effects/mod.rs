@@ -8,14 +8,20 @@ mod spawn;
 mod transform;
 mod walls;
 
-use super::Step;
+use super::{Scheduler, Step};
 use crate::limits::MAX_TIMERS;
 use crate::rules::effects::{Batch, Draws, Effect, Summary};
 use crate::rules::{EffectInfo, Limit, Pass, memory};
 use crate::world::{Partners, Slot, Timer, flag};
 
 /// Runs an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a message.
-pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slot, two: Option<Slot>) {
+pub(crate) fn execute(
+    step: &mut Step<'_, impl Scheduler>,
+    index: u16,
+    effect: &Effect,
+    one: Slot,
+    two: Option<Slot>,
+) {
     match (effect, two) {
         (Effect::KillSprite, _) => step.kill(one),
         (Effect::KillAll { stype }, _) => kill::all(step, *stype),
@@ -127,7 +133,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
 
 /// Runs a batch effect on a sprite and all its partners. Returns how often it counts.
 pub(crate) fn execute_batch(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     info: &EffectInfo,
     one: Slot,
     partners: &mut Partners,
@@ -140,7 +146,7 @@ pub(crate) fn execute_batch(
 }
 
 /// Runs a timed effect on no sprites at all (`spec/03` §6.4).
-pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
+pub(crate) fn execute_alone(step: &mut Step<'_, impl Scheduler>, index: u16, effect: &Effect) {
     match effect {
         Effect::KillAll { stype } => kill::all(step, *stype),
         Effect::UndoAll { spare } => motion::undo_all(step, spare),
@@ -208,7 +214,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
 
 /// Makes the draws of an effect without the consequences, so that the random stream does not shift.
 #[cold]
-fn draw_only(step: &mut Step<'_>, summary: &Summary, one: Slot, two: Option<Slot>) {
+fn draw_only(step: &mut Step<'_, impl Scheduler>, summary: &Summary, one: Slot, two: Option<Slot>) {
     if summary.needs_partner && two.is_none() {
         return;
     }
@@ -229,7 +235,7 @@ fn draw_only(step: &mut Step<'_>, summary: &Summary, one: Slot, two: Option<Slot
     }
 }
 
-fn add_timer(step: &mut Step<'_>, timed: u16) {
+fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
     if step.world.timers.len() >= MAX_TIMERS {
         return step.stop(Limit::Timers);
     }
@@ -247,11 +253,11 @@ pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
 }
 
 /// Tests whether a shield of this tick covers the pass (`spec/03` §5.7): exact types and keyword.
-pub(crate) fn is_shielded(step: &Step<'_>, pass: &Pass) -> bool {
+pub(crate) fn is_shielded(step: &Step<'_, impl Scheduler>, pass: &Pass) -> bool {
     step.world.shields.binary_search(&(pass.first, pass.second, pass.keyword)).is_ok()
 }
 
-impl Step<'_> {
+impl<S: Scheduler> Step<'_, S> {
     /// Remembers whether the effect's score applies, which some effects decide as they run.
     fn apply_score(&mut self, index: u16, on: bool) {
         self.remember(index, memory::APPLY_SCORE, on);

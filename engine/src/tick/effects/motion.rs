@@ -4,11 +4,11 @@ use crate::geometry::{Direction, Rect};
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::SpeedChange;
 use crate::rules::{Limit, SpriteType};
-use crate::tick::Step;
 use crate::tick::physics;
+use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Overrides, Slot, flag};
 
-pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>) {
+pub(super) fn step_back(step: &mut Step<'_, impl Scheduler>, one: Slot, flush_with: Option<Slot>) {
     let rect = match flush_with {
         Some(two) => pixel_perfect(step, one, two),
         None => step.world.last(one),
@@ -18,7 +18,7 @@ pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>
 
 /// The place flush with the partner on the side that the sprite came from; its last rectangle if it did not come
 /// straight.
-pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
+pub(super) fn pixel_perfect(step: &Step<'_, impl Scheduler>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.world.sprite(one), step.world.sprite(two).rect);
     let last = step.world.last(one);
     let (now, before) = (sprite.rect.centre(), last.centre());
@@ -34,7 +34,7 @@ pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
 }
 
 /// Puts every sprite of every updated type back to its last rectangle.
-pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
+pub(super) fn undo_all(step: &mut Step<'_, impl Scheduler>, spare: &[SpriteType]) {
     let rules = step.rules;
     // All of them are put back, and sprites of height 0 cannot be placed.
     let is_back = |stype: SpriteType| rules.types[stype.index()].order.is_some() && !spare.contains(&stype);
@@ -56,7 +56,7 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
 }
 
 /// Steps back, moves two steps down, and reverses the direction.
-pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
+pub(super) fn turn_around(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let last = step.world.last(one);
     let cooldown = step.rules.types[step.world.sprite(one).stype.index()].traits.cooldown;
     step.place(one, last);
@@ -69,18 +69,18 @@ pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
     reverse(step, one);
 }
 
-pub(super) fn reverse(step: &mut Step<'_>, one: Slot) {
+pub(super) fn reverse(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let overrides = step.world.edit_overrides(one);
     overrides.orientation = overrides.orientation.reversed();
 }
 
-pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
+pub(super) fn flip(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let drawn = Direction::BASE[step.world.chance.below(4) as usize];
     step.world.face(one, drawn);
 }
 
 /// Moves to the opposite edge along the orientation, on one axis only.
-pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
+pub(super) fn wrap_around(step: &mut Step<'_, impl Scheduler>, one: Slot, offset: f64) {
     let screen = step.world.screen();
     let (facing, rect) = (step.world.overrides(one).orientation, step.world.sprite(one).rect);
     let near = |size: i32| (offset * f64::from(size)) as i32;
@@ -100,7 +100,7 @@ pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
     step.set_age(one, 0);
 }
 
-pub(super) fn align(step: &mut Step<'_>, one: Slot, two: Slot, orient: bool) {
+pub(super) fn align(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, orient: bool) {
     let other = *step.world.sprite(two);
     if orient {
         step.world.face(one, step.world.overrides(two).orientation);
@@ -109,7 +109,13 @@ pub(super) fn align(step: &mut Step<'_>, one: Slot, two: Slot, orient: bool) {
     step.place(one, rect);
 }
 
-pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: bool, prob: f64) {
+pub(super) fn attract_gaze(
+    step: &mut Step<'_, impl Scheduler>,
+    one: Slot,
+    two: Slot,
+    align: bool,
+    prob: f64,
+) {
     let other = *step.world.sprite(two);
     if !step.world.sprite(one).is(flag::ORIENTED) || !other.is(flag::ORIENTED) {
         return;
@@ -128,14 +134,14 @@ pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: boo
 }
 
 /// Makes the draw of attractGaze without the consequences.
-pub(super) fn draw_gaze(step: &mut Step<'_>, one: Slot, two: Slot) {
+pub(super) fn draw_gaze(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     if step.world.sprite(one).is(flag::ORIENTED) && step.world.sprite(two).is(flag::ORIENTED) {
         step.world.chance.double();
     }
 }
 
 /// Pushes the sprite: it moves in the direction in which the partner moved in this tick, and faces there.
-pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
+pub(super) fn bounce_forward(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
     let &Overrides { orientation: facing, speed, .. } = step.world.overrides(two);
     let mut push = moved.normalised();
@@ -150,7 +156,13 @@ pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
 }
 
 /// Carries the sprite along with the partner, once per tick.
-pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, onto: bool) {
+pub(super) fn pull_with_it(
+    step: &mut Step<'_, impl Scheduler>,
+    index: u16,
+    one: Slot,
+    two: Slot,
+    onto: bool,
+) {
     let Err(at) = step.world.pulled.binary_search(&(index, one)) else { return };
     step.work(step.world.pulled.len() / 64);
     step.world.pulled.insert(at, (index, one));
@@ -169,7 +181,7 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
 }
 
 /// Moves the sprite to a random sprite of the type that the partner leads to; kills it if there is none.
-pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
+pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let Some(exit_type) = exit_of(step, two) else { return step.message() };
     let count = step.world.group(exit_type).count;
     if count == 0 {
@@ -187,7 +199,7 @@ pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
 }
 
 /// Makes the draw of teleportToExit without the consequences.
-pub(super) fn draw_exit(step: &mut Step<'_>, two: Slot) {
+pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     let count = exit_of(step, two).map_or(0, |exit_type| step.world.group(exit_type).count);
     if count > 0 {
         step.world.chance.below(i32::from(count));
@@ -195,7 +207,7 @@ pub(super) fn draw_exit(step: &mut Step<'_>, two: Slot) {
 }
 
 /// The type to which touching a sprite leads.
-fn exit_of(step: &Step<'_>, two: Slot) -> Option<SpriteType> {
+fn exit_of(step: &Step<'_, impl Scheduler>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
     // A spawner leads to the type that it makes, which may change.
@@ -203,7 +215,12 @@ fn exit_of(step: &Step<'_>, two: Slot) -> Option<SpriteType> {
     leads_to.filter(|&stype| stype != SpriteType::NONE)
 }
 
-pub(super) fn change_speed(step: &mut Step<'_>, stype: SpriteType, value: f64, how: SpeedChange) {
+pub(super) fn change_speed(
+    step: &mut Step<'_, impl Scheduler>,
+    stype: SpriteType,
+    value: f64,
+    how: SpeedChange,
+) {
     let rules = step.rules;
     for &stype in &rules.types[stype.index()].tree {
         step.work(usize::from(step.world.group(stype).count));

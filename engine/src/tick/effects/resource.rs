@@ -2,11 +2,11 @@
 
 use crate::rules::class::SpriteClass;
 use crate::rules::{Limit, SpriteType};
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::Slot;
 
 /// The type, value and limit of a resource sprite; `None` if it is not a resource.
-fn resource_of(step: &mut Step<'_>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
+fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
     let info = &step.rules.types[step.world.sprite(slot).stype.index()];
     let resource = info.traits.resource;
     if !info.traits.is_resource {
@@ -21,7 +21,7 @@ fn resource_of(step: &mut Step<'_>, slot: Slot) -> Option<(SpriteType, i32, i32)
 
 /// The partner takes the resource, up to its limit. A sprite that is not a resource changes nothing, not even the memory
 /// of the effect.
-pub(super) fn collect(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, kill: bool) {
+pub(super) fn collect(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, two: Slot, kill: bool) {
     let Some((resource, value, limit)) = resource_of(step, one) else { return };
     let amount = step.world.amount(two, resource);
     step.apply_score(index, amount < limit);
@@ -35,7 +35,7 @@ pub(super) fn collect(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, kil
 
 /// The partner takes the resource if it holds enough of another one; the resource disappears even if there is no room.
 pub(super) fn collect_if_held(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     index: u16,
     one: Slot,
     two: Slot,
@@ -58,7 +58,7 @@ pub(super) fn collect_if_held(
 
 /// Changes the amount that the sprite holds, if the limit allows it.
 pub(super) fn change(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     index: u16,
     one: Slot,
     two: Slot,

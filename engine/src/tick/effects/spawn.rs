@@ -3,10 +3,10 @@
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpawnIf, SpawnIfCounterSubTypes};
 use crate::rules::{Limit, SpriteType};
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot};
 
-pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64) {
+pub(super) fn here(step: &mut Step<'_, impl Scheduler>, one: Slot, stype: SpriteType, prob: f64) {
     // A `prob` of NaN always spawns.
     if step.world.chance.double() >= prob {
         return;
@@ -16,7 +16,7 @@ pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64)
 }
 
 /// spawnIfHasMore and spawnIfHasLess; only the first can spend.
-pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, rule: &SpawnIf) {
+pub(super) fn if_amount(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, rule: &SpawnIf) {
     let SpawnIf { resource, limit, stype, spend, prob, more } = *rule;
     step.apply_score(index, false);
     if step.world.chance.double() >= prob {
@@ -35,7 +35,7 @@ pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, rule: &Spawn
 
 /// spawnAbove, spawnBelow, spawnLeft, spawnRight: spawn one block beside the partner, or beside its last place.
 pub(super) fn beside(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     two: Slot,
     stype: SpriteType,
     shift: (i32, i32),
@@ -56,7 +56,7 @@ pub(super) fn beside(
 }
 
 /// Spawns at the partner's last place, if the partner has left it.
-pub(super) fn behind(step: &mut Step<'_>, two: Slot, stype: SpriteType, prob: f64) {
+pub(super) fn behind(step: &mut Step<'_, impl Scheduler>, two: Slot, stype: SpriteType, prob: f64) {
     if step.world.chance.double() >= prob {
         return;
     }
@@ -66,13 +66,18 @@ pub(super) fn behind(step: &mut Step<'_>, two: Slot, stype: SpriteType, prob: f6
     }
 }
 
-pub(super) fn clone(step: &mut Step<'_>, one: Slot) {
+pub(super) fn clone(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let sprite = step.world.sprite(one);
     step.add(sprite.stype, sprite.rect.x, sprite.rect.y);
 }
 
 /// Spawns one of two types, depending on the number of sprites and of kinds of a third type.
-pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, rule: &SpawnIfCounterSubTypes) {
+pub(super) fn if_counter_subtypes(
+    step: &mut Step<'_, impl Scheduler>,
+    index: u16,
+    one: Slot,
+    rule: &SpawnIfCounterSubTypes,
+) {
     let SpawnIfCounterSubTypes { stype, otherwise, counted, limit, kinds } = *rule;
     let rules = step.rules;
     let rect = step.world.sprite(one).rect;
@@ -92,7 +97,7 @@ pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, ru
 /// Sets the type that spawn points of a type and its relatives make. Those that draw from a list replace the partner's
 /// type in it.
 pub(super) fn update_type(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     partner: Option<Slot>,
     stype: SpriteType,
     spawn_point: SpriteType,

@@ -4,11 +4,17 @@ use crate::geometry::Direction;
 use crate::limits::EFFECT_WORK;
 use crate::rules::effects::TransformIfCount;
 use crate::rules::{Limit, SpriteType};
-use crate::tick::Step;
+use crate::tick::{Scheduler, Step};
 use crate::world::{Held, NONE, Slot, flag};
 use smallvec::SmallVec;
 
-pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: SpriteType, force: bool) {
+pub(super) fn to(
+    step: &mut Step<'_, impl Scheduler>,
+    one: Slot,
+    victim: Option<Slot>,
+    stype: SpriteType,
+    force: bool,
+) {
     if step.world.sprite(one).is(flag::DISABLED) {
         return;
     }
@@ -19,7 +25,13 @@ pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: Sp
 }
 
 /// Transforms every sprite of exactly that type, even into singletons.
-pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, to: SpriteType, force: bool) {
+pub(super) fn all(
+    step: &mut Step<'_, impl Scheduler>,
+    victim: Option<Slot>,
+    stype: SpriteType,
+    to: SpriteType,
+    force: bool,
+) {
     if stype == to && step.world.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
     }
@@ -36,7 +48,7 @@ pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, 
 
 /// Transforms into a random relative of a type.
 pub(super) fn random_child(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     one: Slot,
     victim: Option<Slot>,
     options: &[SpriteType],
@@ -56,7 +68,13 @@ pub(super) fn random_child(
 }
 
 /// Transforms depending on the number of sprites of a type; killed and disabled ones count.
-pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, rule: &TransformIfCount) {
+pub(super) fn if_count(
+    step: &mut Step<'_, impl Scheduler>,
+    index: u16,
+    one: Slot,
+    two: Slot,
+    rule: &TransformIfCount,
+) {
     if rule.counted == SpriteType::NONE {
         return step.stop(Limit::NoType);
     }
@@ -75,7 +93,7 @@ pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, ru
 
 /// Makes the sprite the singleton of its type; the sprite that was the singleton becomes another type.
 pub(super) fn to_singleton(
-    step: &mut Step<'_>,
+    step: &mut Step<'_, impl Scheduler>,
     one: Slot,
     two: Slot,
     stype: SpriteType,
@@ -106,7 +124,7 @@ pub(super) fn to_singleton(
 }
 
 /// Like [`hand_over`], but always passes on the orientation, and never health.
-fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
+fn inherit(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     if step.world.sprite(old).is(flag::ORIENTED) && step.world.sprite(new).is(flag::ORIENTED) {
         step.world.face(new, step.world.overrides(old).orientation);
     }
@@ -114,7 +132,7 @@ fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
 }
 
 /// Passes the properties of the old sprite on to the new one, and removes the old one.
-fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
+fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
     let (before, after) = (*step.world.overrides(old), *step.world.overrides(new));
     let oriented = step.world.sprite(new).is(flag::ORIENTED) && step.world.sprite(old).is(flag::ORIENTED);
     if force || (oriented && after.orientation == Direction::NONE) {
@@ -130,7 +148,7 @@ fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, fo
 }
 
 /// Passes on the last rectangle, the resources and the player; then removes the old sprite.
-fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
+fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     let before = *step.world.sprite(old);
     step.set_last(new, step.world.last(old));
     if !step.world.held.is_empty() {

@@ -2,19 +2,19 @@
 
 use super::motion::pixel_perfect;
 use crate::geometry::{Direction, Rect};
-use crate::tick::Step;
 use crate::tick::physics;
+use crate::tick::{Scheduler, Step};
 use crate::trigonometry::{cos, sin};
 use crate::world::{Overrides, Partners, Slot};
 
 /// The displacement that a sprite aims at in a tick, in pixels right and down.
-fn velocity(step: &Step<'_>, slot: Slot) -> Direction {
+fn velocity(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let &Overrides { orientation, speed, .. } = step.world.overrides(slot);
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
 /// The flags for a collision with a rectangle from the side, and from above or below; both or neither may be set.
-fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
+fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, bool) {
     let rect = step.world.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
         a.wrapping_add(a_size).min(b.wrapping_add(b_size)).wrapping_sub(a.max(b))
@@ -41,7 +41,7 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
 }
 
 /// The rectangle that several partners form together, and their number: two aligned partners count as two.
-fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
+fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {
         let (a, b) = (rect(first), rect(second));
@@ -65,14 +65,14 @@ fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
 }
 
 /// Puts all participants of the collision back to their last rectangles.
-fn separate(step: &mut Step<'_>, one: Slot, partners: &[Slot]) {
+fn separate(step: &mut Step<'_, impl Scheduler>, one: Slot, partners: &[Slot]) {
     for &slot in std::iter::once(&one).chain(partners) {
         let last = step.world.last(slot);
         step.place(slot, last);
     }
 }
 
-fn reflect(step: &mut Step<'_>, one: Slot, wall: Rect) {
+fn reflect(step: &mut Step<'_, impl Scheduler>, one: Slot, wall: Rect) {
     let (horizontal, vertical) = collision(step, one, wall);
     let facing = &mut step.world.edit_overrides(one).orientation;
     if vertical {
@@ -84,14 +84,14 @@ fn reflect(step: &mut Step<'_>, one: Slot, wall: Rect) {
     }
 }
 
-pub(super) fn bounce_batch(step: &mut Step<'_>, one: Slot, partners: &mut Partners) -> i32 {
+pub(super) fn bounce_batch(step: &mut Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> i32 {
     let (count, wall) = joined(step, one, partners);
     reflect(step, one, wall);
     separate(step, one, partners);
     count
 }
 
-pub(super) fn bounce(step: &mut Step<'_>, one: Slot, two: Slot) {
+pub(super) fn bounce(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     if step.world.gravity(step.rules, one) > 0.0 {
         physics::active(step, one, Direction::UP, 0.0);
     }
@@ -101,7 +101,7 @@ pub(super) fn bounce(step: &mut Step<'_>, one: Slot, two: Slot) {
 }
 
 /// Reduces the velocity to `rest`; gravity is the minimum speed.
-fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
+fn slow(step: &mut Step<'_, impl Scheduler>, one: Slot, rest: Direction) {
     let gravity = step.world.gravity(step.rules, one);
     let length = (rest.x * rest.x + rest.y * rest.y).sqrt();
     let overrides = step.world.edit_overrides(one);
@@ -112,27 +112,27 @@ fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
     }
 }
 
-fn turn_back(step: &mut Step<'_>, one: Slot, wall: Rect) {
+fn turn_back(step: &mut Step<'_, impl Scheduler>, one: Slot, wall: Rect) {
     let (_, vertical) = collision(step, one, wall);
     let ahead = step.world.overrides(one).orientation.x;
     slow(step, one, Direction { x: if vertical { ahead } else { -ahead }, y: 0.0 });
 }
 
-pub(super) fn reverse_batch(step: &mut Step<'_>, one: Slot, partners: &mut Partners) -> i32 {
+pub(super) fn reverse_batch(step: &mut Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> i32 {
     let (count, wall) = joined(step, one, partners);
     turn_back(step, one, wall);
     separate(step, one, partners);
     count
 }
 
-pub(super) fn reverse(step: &mut Step<'_>, one: Slot, two: Slot) {
+pub(super) fn reverse(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let wall = step.world.sprite(two).rect;
     turn_back(step, one, wall);
     separate(step, one, &[two]);
 }
 
 /// Places the sprite flush with the wall, and lets it continue along it.
-pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
+pub(super) fn stop(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);
     let (own, wall) = (step.world.sprite(one).rect.centre(), step.world.sprite(two).rect.centre());
@@ -143,7 +143,7 @@ pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
 }
 
 /// Bounces off a paddle: the further from its middle, the steeper.
-pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: f64) {
+pub(super) fn bounce_direction(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, most: f64) {
     let (ball, paddle) = (*step.world.sprite(one), step.world.sprite(two).rect);
     let (velocity, last) = (velocity(step, one), step.world.last(one));
     let gap = |last: i32, size: i32, from: i32, extent: i32| {

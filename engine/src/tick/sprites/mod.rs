@@ -5,75 +5,13 @@ mod plain;
 pub(crate) mod producers;
 pub(super) mod walkers;
 
-use crate::rules::SpriteType;
-use crate::rules::class::{ClassFamily, SpriteClass};
-use crate::rules::traits::Traits;
-use crate::tick::Step;
+use crate::rules::class::SpriteClass;
 use crate::tick::physics;
-use crate::world::{Slot, Sprite, World, flag};
-
-/// Tests whether [`base`] does nothing to a sprite in this tick: the sprite does not move by itself, or its cooldown has
-/// not passed.
-#[inline]
-pub(crate) fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
-    let stands =
-        || world.overrides_of(sprite).speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
-    sprite.time_to_live < 0
-        && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, world))
-}
-
-/// Tests whether a sprite does not move by itself because its cooldown has not passed.
-#[inline]
-pub(crate) fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
-    let age = world.tick.wrapping_sub(sprite.moved_at);
-    traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
-}
-
-/// A type whose sprites have updates that do something.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Mover {
-    pub(crate) stype: SpriteType,
-    pub(crate) class: SpriteClass,
-    /// The place in the update order.
-    pub(crate) order: i32,
-    pub(crate) update_kind: UpdateKind,
-    /// `true` if its sprites may fly or sleep.
-    pub(crate) may_fly: bool,
-    /// Producers: the bound of the draws with which they make something, see [`producers::threshold`].
-    pub(crate) threshold: i32,
-}
-
-/// The start of a type's updates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum UpdateKind {
-    /// A draw; if no sprite is made, only [`base`] follows.
-    Draws,
-    /// [`base`], and nothing else.
-    Moves,
-    /// A drift, unless the sprite waits; then only the choice of a direction.
-    Chooses,
-    Other,
-}
-
-/// The kind of update of a type.
-pub(crate) fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
-    use ClassFamily as Family;
-    use SpriteClass as C;
-    match (class, class.family()) {
-        _ if traits.oriented_image => UpdateKind::Other,
-        (C::SpawnPoint | C::Bomber, _) => UpdateKind::Draws,
-        (_, Family::Thing | Family::Resource) => UpdateKind::Moves,
-        (C::SpriteProducer | C::Missile | C::ErraticMissile, _) => UpdateKind::Moves,
-        (_, Family::Npc) if !traits.rotate_in_place => UpdateKind::Chooses,
-        (_, Family::Flicker | Family::Missile | Family::Npc | Family::Walker | Family::Producer) => {
-            UpdateKind::Other
-        }
-        (_, Family::Avatar) => UpdateKind::Other,
-    }
-}
+use crate::tick::{Scheduler, Step};
+use crate::world::Slot;
 
 /// Updates a sprite. The avatar is updated in `avatars`.
-pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
+pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     use SpriteClass as C;
     match class {
         C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => base(step, slot),
@@ -122,7 +60,7 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
 
 /// The default update: passive movement, then the time to live.
 #[inline]
-pub(crate) fn base(step: &mut Step<'_>, slot: Slot) {
+pub(crate) fn base(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
     let time_to_live = step.world.sprite(slot).time_to_live;
     if time_to_live > 0 {

@@ -3,8 +3,8 @@
 use crate::geometry::{Direction, Rect};
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::{Limit, SpriteType};
-use crate::tick::Step;
 use crate::tick::physics;
+use crate::tick::{Scheduler, Step};
 use crate::world::{NO_HEADING, NONE, Slot, Sprite, Target, World, flag};
 use smallvec::SmallVec;
 
@@ -14,7 +14,7 @@ type Options = SmallVec<[u8; 16]>;
 
 /// Drifts, then moves in the chosen direction.
 #[inline(always)]
-pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
+pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     // Other characters do not drift.
@@ -38,7 +38,7 @@ pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
 
 /// Chooses the direction of a character that has to wait, see [`super::waits`].
 #[inline(always)]
-pub(crate) fn choose(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
+pub(crate) fn choose(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     if wanders(class) {
         let cons = step.rules.types[step.world.sprite(slot).stype.index()].traits.cons;
         random_heading(step, slot, cons);
@@ -53,7 +53,7 @@ fn wanders(class: SpriteClass) -> bool {
 }
 
 #[inline(never)]
-fn pursue(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
+fn pursue(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) -> Direction {
     use ClassFamily as Family;
     use SpriteClass as C;
     match (class, class.family()) {
@@ -71,13 +71,13 @@ fn pursue(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
 }
 
 /// A random direction, kept for `cons` more updates.
-fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
+fn random_move(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> Direction {
     towards(random_heading(step, slot, cons))
 }
 
 /// [`random_move`] as an index of the base directions, or [`NO_HEADING`].
 #[inline]
-fn random_heading(step: &mut Step<'_>, slot: Slot, cons: i32) -> u32 {
+fn random_heading(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> u32 {
     let mut chance = step.world.chance;
     let sprite = step.world.edit_motion(slot);
     if sprite.count < cons {
@@ -92,7 +92,7 @@ fn random_heading(step: &mut Step<'_>, slot: Slot, cons: i32) -> u32 {
 }
 
 /// The last drawn direction.
-fn heading(step: &Step<'_>, slot: Slot) -> Direction {
+fn heading(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     towards(step.world.sprite(slot).heading())
 }
 
@@ -105,7 +105,7 @@ fn towards(heading: u32) -> Direction {
 
 /// One of the options at random; `None` without options.
 #[inline(always)]
-fn drawn(step: &mut Step<'_>, options: &[u8]) -> Option<Direction> {
+fn drawn(step: &mut Step<'_, impl Scheduler>, options: &[u8]) -> Option<Direction> {
     if options.is_empty() {
         return None;
     }
@@ -114,12 +114,12 @@ fn drawn(step: &mut Step<'_>, options: &[u8]) -> Option<Direction> {
 }
 
 /// Chaser and Fleeing: a step towards, or away from, one of the closest targets.
-fn chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
+fn chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     chase_visible(step, slot, |_, _| true)
 }
 
 /// LOSChaser: sees only along the direction that it drew last, even through walls.
-fn los_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
+fn los_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let ahead = heading(step, slot);
     chase_visible(step, slot, |own, target| match ahead {
         Direction::DOWN => own.x == target.x && target.y >= own.y,
@@ -130,7 +130,11 @@ fn los_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     })
 }
 
-fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> bool) -> Direction {
+fn chase_visible(
+    step: &mut Step<'_, impl Scheduler>,
+    slot: Slot,
+    sees: impl Fn(Rect, Rect) -> bool,
+) -> Direction {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
@@ -212,7 +216,7 @@ impl<'a> Targets<'a> {
 }
 
 /// The sprites of exactly that type, or of its relatives if there are none.
-fn own_or_related<'a>(step: &mut Step<'a>, stype: SpriteType) -> Targets<'a> {
+fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);
         return Targets::NONE;
@@ -247,7 +251,7 @@ fn closest(continuous: bool, from: Rect, targets: impl Iterator<Item = Rect>) ->
 }
 
 /// PathChaser: follows the path to the first of the closest targets.
-fn path_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
+fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
@@ -262,7 +266,7 @@ fn path_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
 }
 
 /// The first step of the path to a place. A game without `obs=` has no paths: asking for one stops it.
-fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Direction> {
+fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);
         return None;
@@ -274,7 +278,7 @@ fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Directi
 
 /// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself included, so that
 /// sprites of a leaf type appear twice.
-fn alternate_targets<'a>(step: &mut Step<'a>, slot: Slot) -> Targets<'a> {
+fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
     if stypes.contains(&SpriteType::NONE) {
@@ -296,7 +300,7 @@ fn alternate_targets<'a>(step: &mut Step<'a>, slot: Slot) -> Targets<'a> {
 }
 
 /// AlternateChaser: a step towards one of the closest targets; it never flees, whatever its parameters say.
-fn alternate_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
+fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let targets = alternate_targets(step, slot);
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let continuous = step.rules.types[stype.index()].traits.continuous;
@@ -305,7 +309,11 @@ fn alternate_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
 }
 
 /// RandomAltChaser and RandomPathAltChaser: occasionally a random step instead; the first draw is made in any case.
-fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot) -> Direction) -> Direction {
+fn or_random<S: Scheduler>(
+    step: &mut Step<'_, S>,
+    slot: Slot,
+    otherwise: fn(&mut Step<'_, S>, Slot) -> Direction,
+) -> Direction {
     let epsilon = step.rules.types[step.world.sprite(slot).stype.index()].traits.epsilon;
     if step.world.chance.double() < epsilon {
         Direction::BASE[step.world.chance.below(4) as usize]
@@ -315,7 +323,7 @@ fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot)
 }
 
 /// PathAltChaser: follows paths to one target until it stands on it.
-fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
+fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let rules = step.rules;
     let own = step.world.sprite(slot).rect;
     let current = match step.world.extra(rules, slot).target {
@@ -349,11 +357,11 @@ fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
 }
 
 /// The first of the closest targets, or a random one.
-fn new_target(step: &mut Step<'_>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
+fn new_target(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
     let targets = alternate_targets(step, slot);
-    let rect = |step: &Step<'_>, target: Slot| step.world.sprite(target).rect;
+    let rect = |world: &World, target: Slot| world.sprite(target).rect;
     let chosen = if traits.random_target {
         let count = targets.count(step.world);
         if count == 0 {
@@ -362,7 +370,7 @@ fn new_target(step: &mut Step<'_>, slot: Slot) -> Result<Option<(Target, Rect)>,
         let drawn = step.world.chance.below(count as i32) as usize;
         targets.slots(step.world).nth(drawn)
     } else {
-        let distance = |target: &Slot| physics::distance(traits.continuous, own, rect(step, *target));
+        let distance = |target: &Slot| physics::distance(traits.continuous, own, rect(step.world, *target));
         let mut best: Option<(f64, Slot)> = None;
         for target in targets.slots(step.world) {
             let distance = distance(&target);
@@ -372,5 +380,5 @@ fn new_target(step: &mut Step<'_>, slot: Slot) -> Result<Option<(Target, Rect)>,
         }
         best.map(|(_, target)| target)
     };
-    Ok(chosen.map(|target| (Target::Sprite(target), rect(step, target))))
+    Ok(chosen.map(|target| (Target::Sprite(target), rect(step.world, target))))
 }

@@ -2,11 +2,11 @@
 
 use super::base;
 use crate::geometry::Direction;
-use crate::tick::Step;
 use crate::tick::physics;
+use crate::tick::{Scheduler, Step};
 use crate::world::Slot;
 
-pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
+pub(super) fn random_missile(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     if step.world.overrides(slot).orientation == Direction::NIL {
         let drawn = Direction::BASE[step.world.chance.below(4) as usize];
         step.world.face(slot, drawn);
@@ -15,7 +15,7 @@ pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
 }
 
 /// Kills a flicker in the update in which its age exceeds the limit.
-pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
+pub(super) fn flicker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     base(step, slot);
     let sprite = step.world.sprite(slot);
     if sprite.count > step.rules.types[sprite.stype.index()].traits.limit {
@@ -26,7 +26,7 @@ pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
 }
 
 /// A flicker that spreads in its second update: four draws, always.
-pub(super) fn spreader(step: &mut Step<'_>, slot: Slot) {
+pub(super) fn spreader(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     flicker(step, slot);
     let (sprite, last) = (*step.world.sprite(slot), step.world.last(slot));
     if sprite.count != 2 {

@@ -1,11 +1,11 @@
 //! Walkers: characters that follow the ground and turn at walls (`spec/02` §7.6).
 
 use crate::geometry::Direction;
-use crate::tick::Step;
 use crate::tick::physics;
+use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Slot, flag};
 
-pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
+pub(super) fn walker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -29,7 +29,7 @@ pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
 }
 
 /// Jumps occasionally; the reference decides it with a generator other than the game's.
-pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
+pub(super) fn walker_jumper(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
     let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -43,7 +43,7 @@ pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
 }
 
 /// Jumps upwards, and leaves the ground at once.
-pub(crate) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
+pub(crate) fn jump(step: &mut Step<'_, impl Scheduler>, slot: Slot, strength: f64) {
     let overrides = step.world.edit_overrides(slot);
     overrides.orientation.y = 0.0;
     let speed = overrides.speed;

@@ -1,0 +1,139 @@
+//! The scheduler that leaves out what has no effect.
+
+use super::{Plan, Schedule, updates};
+use crate::geometry::Rect;
+use crate::rules::{EffectInfo, Pass};
+use crate::tick::{Scheduler, Step, Watch};
+use crate::world::{NONE, Slot, Watcher, World};
+
+/// A schedule at work in a step.
+pub(crate) struct Foresight<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) schedule: &'a mut Schedule,
+    /// `true` if sprites may sleep in this step.
+    pub(super) sleeps: bool,
+    /// `true` if sprites may fly in this step.
+    pub(super) flies: bool,
+    /// `true` if a sprite that may sleep or fly has moved by itself.
+    pub(super) any_moved: bool,
+}
+
+impl<'a> Foresight<'a> {
+    /// The scheduler of a step that starts with this world. Nothing sleeps without an avatar: a rule that scores would stop
+    /// the game.
+    pub(crate) fn new(plan: &'a Plan, schedule: &'a mut Schedule, world: &World) -> Foresight<'a> {
+        let sleeps = plan.any_sleep && world.avatar != NONE;
+        Foresight { plan, schedule, sleeps, flies: plan.any_fly, any_moved: false }
+    }
+}
+
+impl Scheduler for Foresight<'_> {
+    #[inline(always)]
+    fn begin(step: &mut Step<'_, Self>) {
+        if !step.scheduler.sleeps && !step.scheduler.schedule.sleepers.is_empty() {
+            step.scheduler.wake_all(step.world);
+        }
+        step.fly();
+        step.wake();
+    }
+
+    #[inline(always)]
+    fn update_all(step: &mut Step<'_, Self>) {
+        updates::update_all(step);
+    }
+
+    #[inline(always)]
+    fn next_pass(step: &Step<'_, Self>, from: usize) -> Option<usize> {
+        step.scheduler.schedule.next_possible(from)
+    }
+
+    #[inline(always)]
+    fn run_pass(step: &mut Step<'_, Self>, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
+        if step.is_second_side_smaller(pass) {
+            step.visit_second_side(pass, newborn, watch);
+        } else {
+            step.visit_first_side(pass, newborn, watch);
+        }
+    }
+
+    #[inline(always)]
+    fn may_meet(&self, world: &World, own: u64, others: u64) -> bool {
+        self.schedule.may_meet(world, own, others)
+    }
+
+    #[inline(always)]
+    fn meets(step: &mut Step<'_, Self>, one: Slot, two: Slot) {
+        step.land_one(one);
+        step.land_one(two);
+    }
+
+    #[inline(always)]
+    fn executes(step: &mut Step<'_, Self>, info: &EffectInfo, one: Slot, partners: &[Slot]) {
+        if step.scheduler.flies {
+            step.foresee(info, one, partners);
+        }
+    }
+
+    fn unsettles(step: &mut Step<'_, Self>) {
+        step.wake_and_land_all();
+    }
+
+    #[inline(always)]
+    fn relocates(step: &mut Step<'_, Self>, slot: Slot, rect: Rect) {
+        if step.scheduler.sleeps {
+            step.relocate_noisily(slot, rect);
+        } else {
+            step.relocate(slot, rect);
+        }
+    }
+
+    #[inline(always)]
+    fn changes(step: &mut Step<'_, Self>, slot: Slot) {
+        if step.scheduler.sleeps {
+            step.stamp(slot);
+        }
+    }
+
+    #[inline(always)]
+    fn made(step: &mut Step<'_, Self>, slot: Slot) {
+        if step.scheduler.sleeps {
+            step.touch(slot);
+            step.stamp(slot);
+            step.wake();
+        }
+    }
+
+    #[inline(always)]
+    fn removes(step: &mut Step<'_, Self>, slot: Slot) {
+        if step.scheduler.sleeps {
+            step.touch(slot);
+            step.stamp(slot);
+        }
+    }
+
+    #[inline(always)]
+    fn ends(step: &mut Step<'_, Self>) {
+        step.wake();
+        step.sleep_or_fly();
+    }
+}
+
+impl Watcher for Foresight<'_> {
+    #[inline(never)]
+    fn arrives(&mut self, own: u64, partners: u64) {
+        self.schedule.arrives(&self.plan.contacts, own, partners);
+    }
+
+    #[inline(never)]
+    fn departs(&mut self, own: u64, partners: u64) {
+        self.schedule.departs(&self.plan.contacts, own, partners);
+    }
+
+    fn enlarged(&mut self, stype: usize) {
+        self.schedule.enlarged(&self.plan.contacts, stype);
+    }
+
+    fn reduced(&mut self, stype: usize) {
+        self.schedule.reduced(&self.plan.contacts, stype);
+    }
+}

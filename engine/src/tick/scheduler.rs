@@ -1,0 +1,77 @@
+//! The points of a tick at which work may be left out.
+
+use super::{Step, Watch};
+use crate::geometry::Rect;
+use crate::rules::{EffectInfo, Pass};
+use crate::world::{Slot, Watcher, World};
+
+/// A scheduler: it is told of a tick's changes, and may leave out work that has no effect.
+///
+/// By default nothing is left out, and a tick is the cycle of `spec/01` §4.
+pub(crate) trait Scheduler: Watcher + Sized {
+    /// Called before the updates.
+    fn begin(_: &mut Step<'_, Self>) {}
+
+    /// Updates all sprites but the avatar.
+    fn update_all(step: &mut Step<'_, Self>) {
+        for &stype in step.rules.order.iter().rev() {
+            step.update_type(stype);
+            if step.stopped.is_some() {
+                return;
+            }
+        }
+    }
+
+    /// The next pass of the event phase from `from` on.
+    fn next_pass(step: &Step<'_, Self>, from: usize) -> Option<usize> {
+        Some(from).filter(|&number| number < step.rules.passes.len())
+    }
+
+    /// Runs a pass. Sprites from the creation number `newborn` on do not take part.
+    fn run_pass(step: &mut Step<'_, Self>, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
+        step.visit_first_side(pass, newborn, watch);
+    }
+
+    /// Tests whether any sprite with the bit `own` may share a cell with one of the types with the bits `others`.
+    fn may_meet(&self, _world: &World, _own: u64, _others: u64) -> bool {
+        true
+    }
+
+    /// Called before the two sprites of a pass are compared.
+    fn meets(_: &mut Step<'_, Self>, _one: Slot, _two: Slot) {}
+
+    /// Called before an effect is executed on a sprite, with its partners.
+    fn executes(_: &mut Step<'_, Self>, _: &EffectInfo, _one: Slot, _partners: &[Slot]) {}
+
+    /// Called before anything may change anywhere.
+    fn unsettles(_: &mut Step<'_, Self>) {}
+
+    /// Moves a sprite to another rectangle.
+    fn relocates(step: &mut Step<'_, Self>, slot: Slot, rect: Rect) {
+        step.relocate(slot, rect);
+    }
+
+    /// Called before a sprite changes where it stands.
+    fn changes(_: &mut Step<'_, Self>, _: Slot) {}
+
+    /// Called after a sprite has been made.
+    fn made(_: &mut Step<'_, Self>, _: Slot) {}
+
+    /// Called before a killed sprite is removed.
+    fn removes(_: &mut Step<'_, Self>, _: Slot) {}
+
+    /// Called after the killed sprites have been removed.
+    fn ends(_: &mut Step<'_, Self>) {}
+}
+
+/// The scheduler that leaves nothing out.
+pub(crate) struct Unscheduled;
+
+impl Scheduler for Unscheduled {}
+
+impl Watcher for Unscheduled {
+    fn arrives(&mut self, _: u64, _: u64) {}
+    fn departs(&mut self, _: u64, _: u64) {}
+    fn enlarged(&mut self, _: usize) {}
+    fn reduced(&mut self, _: usize) {}
+}
