@@ -6,7 +6,6 @@ use crate::level::Level;
 use crate::rules::SpriteType;
 use crate::seed::Seed;
 use crate::state::State;
-use crate::world::NONE;
 
 impl Game {
     /// [`Game::start`] with the avatar facing `facing` and holding some resources: for players that reconstruct a
@@ -20,14 +19,13 @@ impl Game {
     ) -> State {
         let mut state = self.start(level, seed);
         let world = &mut state.world;
-        if world.avatar != NONE {
+        if world.has_avatar() {
             for &(resource, amount) in held {
-                world.add_amount(world.avatar, resource, amount);
+                world.add_amount(world.avatar(), resource, amount);
             }
             if let Some(facing) = facing {
-                world.edit_overrides(world.avatar).orientation = facing;
+                world.edit_overrides(world.avatar()).orientation = facing;
             }
-            world.memory_is_dirty = true;
             world.settle_hash();
         }
         state

@@ -19,11 +19,11 @@ macro_rules! flat {
         $(#[$doc])*
         #[derive(Debug)]
         pub(crate) struct $Name {
-            $($(#[$copied_doc])* pub(crate) $copied: $Copied,)*
-            $($(#[$number_doc])* pub(crate) $number: $Number,)*
-            $($(#[$buffer_doc])* pub(crate) $buffer: Vec<$Buffer>,)*
-            $($(#[$scratch_doc])* pub(crate) $scratch: Vec<$Scratch>,)*
-            $($(#[$shared_doc])* pub(crate) $shared: Option<std::sync::Arc<$Shared>>,)*
+            $($(#[$copied_doc])* $copied: $Copied,)*
+            $($(#[$number_doc])* $number: $Number,)*
+            $($(#[$buffer_doc])* $buffer: Vec<$Buffer>,)*
+            $($(#[$scratch_doc])* $scratch: Vec<$Scratch>,)*
+            $($(#[$shared_doc])* $shared: Option<std::sync::Arc<$Shared>>,)*
         }
 
         impl Clone for $Name {

@@ -1,5 +1,6 @@
 //! A compiled game: immutable, valid and cheap to clone.
 
+use crate::compile::{self, Clauses};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::geometry::Direction;
 use crate::limits::MAX_TICKS;
@@ -46,7 +47,7 @@ impl Game {
     /// # Errors
     /// All problems of the description, sorted by place.
     pub fn compile(description: &Description) -> Result<Game, Diagnostics> {
-        crate::compile::compile(description).map(Game::of)
+        compile::compile(description).map(Game::of)
     }
 
     /// Parses and compiles.
@@ -55,7 +56,7 @@ impl Game {
     /// All problems of the text, sorted by place.
     pub fn from_source(source: &str) -> Result<Game, Diagnostics> {
         let (description, Diagnostics(read)) = crate::syntax::parse_all(source);
-        match crate::compile::compile(&description) {
+        match compile::compile(&description) {
             Ok(mut rules) if !Diagnostics::has_errors(&read) => {
                 rules.warnings = causes::reported(read, rules.warnings, source).0;
                 Ok(Game::of(rules))
@@ -88,7 +89,7 @@ impl Game {
         if Diagnostics::has_errors(&problems) {
             return Err(Diagnostics(problems));
         }
-        crate::compile::compile_as_reference(&description).map(Game::of)
+        compile::compile_as_reference(&description).map(Game::of)
     }
 
     /// The warnings: parts of the file that are legal but surely not intended, sorted by place. Empty for games that are
@@ -115,6 +116,12 @@ impl Game {
     /// The actions besides [`Action::Nil`] of an avatar of that type, sorted.
     pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
         self.0.types[avatar.index()].actions
+    }
+
+    /// The rules as clauses. Games with equal clauses play alike; the converse does not hold. Cost: O(types +
+    /// interactions).
+    pub fn clauses(&self) -> Clauses {
+        compile::clauses(&self.0)
     }
 
     /// All sprite types, in registry order.

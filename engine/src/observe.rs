@@ -129,7 +129,7 @@ impl Game {
     /// The observation of a state. Cost: O(sprites + cells). It is limited to the first [`MAX_SEEN`] names, which matters
     /// for a board full of giants.
     pub fn observe(&self, state: &State) -> Observation {
-        let (columns, rows) = (state.world.columns as usize, state.world.rows as usize);
+        let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
         let mut cells = vec![Vec::new(); columns * rows];
         let mut room = MAX_SEEN;
         for &stype in &self.0.order {
@@ -139,15 +139,15 @@ impl Game {
             }
             for sprite in state.world.sprites_of(stype) {
                 let span = |from: i32, size: i32, limit: i32| {
-                    let first = from.div_euclid(state.world.block).clamp(0, limit);
+                    let first = from.div_euclid(state.world.block()).clamp(0, limit);
                     let last = from
                         .saturating_add(size.saturating_sub(1))
-                        .div_euclid(state.world.block)
+                        .div_euclid(state.world.block())
                         .clamp(-1, limit - 1);
                     first as usize..(last + 1) as usize
                 };
-                for row in span(sprite.rect.y, sprite.rect.h, state.world.rows) {
-                    let seen = span(sprite.rect.x, sprite.rect.w, state.world.columns).take(room);
+                for row in span(sprite.rect.y, sprite.rect.h, state.world.rows()) {
+                    let seen = span(sprite.rect.x, sprite.rect.w, state.world.columns()).take(room);
                     for column in seen {
                         room -= 1;
                         cells[row * columns + column].push(info.name.clone());
@@ -156,7 +156,7 @@ impl Game {
             }
         }
         let resources = self.held_by_avatar(state);
-        let (ticks, score, outcome) = ((state.world.tick + 1) as u32, state.score(), state.world.outcome);
+        let (ticks, score, outcome) = ((state.world.tick() + 1) as u32, state.score(), state.world.outcome());
         let avatar = self.seen_avatar(state);
         Observation { ticks, score, outcome, columns, rows, cells, resources, avatar }
     }
@@ -165,8 +165,9 @@ impl Game {
     pub fn seen_avatar(&self, state: &State) -> Option<AvatarView> {
         let stype = state.avatar_type()?;
         let (sprite, overrides) =
-            (state.world.sprite(state.world.avatar), state.world.overrides(state.world.avatar));
-        let cell = |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block.max(1));
+            (state.world.sprite(state.world.avatar()), state.world.overrides(state.world.avatar()));
+        let cell =
+            |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block().max(1));
         Some(AvatarView {
             name: self.name(stype).to_owned(),
             column: cell(sprite.rect.x, sprite.rect.w),
@@ -178,7 +179,7 @@ impl Game {
 
     /// The resources that the avatar holds: names, sorted, with amounts.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
-        let held = state.world.held_by(state.world.avatar).iter();
+        let held = state.world.held_by(state.world.avatar()).iter();
         let mut resources: Vec<_> =
             held.map(|held| (self.name(held.resource).to_owned(), held.amount)).collect();
         resources.sort();
@@ -218,7 +219,7 @@ impl Game {
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
-        let next = state.world.tick.saturating_add(1);
+        let next = state.world.tick().saturating_add(1);
         let countdown = |sprite: Sprite| {
             let traits = &self.0.types[sprite.stype.index()].traits;
             if !is_a(sprite.stype, C::SpawnPoint) {
@@ -253,14 +254,14 @@ impl Game {
 
     /// The types that some sprite holds as resources; a type appears once for each holder.
     pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
-        let held = state.world.held.iter().filter(|held| held.amount != 0).map(|held| held.resource);
+        let held = state.world.held().iter().filter(|held| held.amount != 0).map(|held| held.resource);
         held.filter(|&stype| stype != SpriteType::NONE)
     }
 
     /// The termination that has ended an episode, as an index into [`Description::terminations`](crate::Description);
     /// `None` if the episode is not over, or ended otherwise.
     pub fn ended_by(&self, state: &State) -> Option<usize> {
-        let ended = matches!(state.world.outcome, Outcome::Won | Outcome::Lost);
+        let ended = matches!(state.world.outcome(), Outcome::Won | Outcome::Lost);
         let mut terminations = self.0.terminations.iter();
         terminations.position(|termination| termination.holds(&self.0, &state.world)).filter(|_| ended)
     }
@@ -291,12 +292,12 @@ impl State {
 
     /// The amount of a resource that the avatar holds. Cost: O(log holdings).
     pub fn amount_held(&self, resource: SpriteType) -> i32 {
-        self.world.amount(self.world.avatar, resource)
+        self.world.amount(self.world.avatar(), resource)
     }
 
     /// The number of messages that the reference engine would have logged so far; more than 25 end a game.
     pub fn messages(&self) -> u32 {
-        self.world.messages
+        self.world.messages()
     }
 
     /// The top-left corners of a type's sprites in pixels, in order of creation. Cost: O(such sprites).
@@ -306,9 +307,9 @@ impl State {
 
     /// The top-left corner of the player's avatar in pixels, disabled or not; `None` once the episode is over.
     pub fn avatar_place(&self) -> Option<(i32, i32)> {
-        let there = !self.is_over() && usize::from(self.world.avatar) < self.world.sprites.len();
+        let there = !self.is_over() && self.world.avatar_sprite().is_some();
         there.then(|| {
-            let rect = self.world.present(self.world.avatar).rect;
+            let rect = self.world.present(self.world.avatar()).rect;
             (rect.x, rect.y)
         })
     }

@@ -28,7 +28,7 @@ impl State {
         let mut bytes = Vec::with_capacity(512);
         self.world.put_differences(&base.world, &mut bytes);
         self.schedule.put_differences(&base.schedule, &mut bytes);
-        Packed { outcome: self.world.outcome, last_action: self.world.last_action, bytes: bytes.into() }
+        Packed { outcome: self.world.outcome(), last_action: self.world.last_action(), bytes: bytes.into() }
     }
 
     /// Makes this state the packed one again; keeps the buffers. `base` is the state that it was packed against. Cost:
@@ -38,7 +38,7 @@ impl State {
     /// May panic if the state was packed against another base.
     pub fn unpack_from(&mut self, packed: &Packed, base: &State) {
         self.clone_from(base);
-        (self.world.outcome, self.world.last_action) = (packed.outcome, packed.last_action);
+        self.world.set_outcome_and_action(packed.outcome, packed.last_action);
         let mut bytes = &*packed.bytes;
         self.world.take_differences(&mut bytes);
         self.schedule.take_differences(&mut bytes);

@@ -19,10 +19,12 @@ impl Game {
     /// [`Game::start`] with a given random number generator, such as a trace's.
     pub fn start_with(&self, level: &Level, chance: Chance) -> State {
         let rules = &self.0.rules;
-        let world = World::empty(rules, &self.0.models, level, chance);
+        let mut world =
+            World::empty(rules, &self.0.models, (level.columns() as i32, level.rows() as i32), chance);
+        world.add_messages(level.messages);
         let schedule = Schedule::empty(&self.0.plan, &world);
         let mut state = State { world, schedule };
-        let block = state.world.block;
+        let block = state.world.block();
         let mut step = Step { updating: -1, ..self.scheduled(&mut state) };
         for (at, &symbol) in level.cells().iter().enumerate() {
             let (column, row) = ((at % level.columns()) as i32, (at / level.columns()) as i32);
@@ -33,7 +35,7 @@ impl Game {
         step.remove_extra_avatars();
         step.find_avatar();
         if let Some(limit) = step.stopped {
-            state.world.outcome = Outcome::Stopped(limit);
+            state.world.end(Outcome::Stopped(limit));
         }
         for (at, timed) in rules.timed.iter().enumerate() {
             if let Some(due) = timed.first_due {
@@ -67,13 +69,13 @@ impl Game {
         watch: &mut (impl Watch + ?Sized),
     ) -> Outcome {
         if state.is_over() {
-            return state.world.outcome;
+            return state.world.outcome();
         }
         let action = self.allowed(state, action);
         let mut step = self.scheduled(state);
         step.cycle(action, watch);
         watch.worked(step.work);
-        state.world.outcome
+        state.world.outcome()
     }
 
     fn scheduled<'a>(&'a self, state: &'a mut State) -> Step<'a, Foresight<'a>> {
@@ -87,7 +89,7 @@ impl Game {
     #[doc(hidden)]
     pub fn step_unscheduled(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         if state.is_over() {
-            return state.world.outcome;
+            return state.world.outcome();
         }
         let action = self.allowed(state, action);
         Schedule::suspend(&mut self.scheduled(state));
@@ -96,7 +98,7 @@ impl Game {
         step.cycle(action, watch);
         watch.worked(step.work);
         state.schedule = Schedule::of(plan, models, &mut state.world);
-        state.world.outcome
+        state.world.outcome()
     }
 
     fn allowed(&self, state: &State, action: Action) -> Action {

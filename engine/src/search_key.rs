@@ -89,32 +89,32 @@ impl State {
 
 impl World {
     fn live_state(&self, rules: &Rules, abstraction: Option<&StateAbstraction>, to: &mut impl Absorb) {
-        to.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
+        to.pair(self.outcome_code(), u64::from(self.messages()) << 1 | u64::from(self.can_end()));
         if self.is_over() {
             return;
         }
         let reads_tick = abstraction.map_or(rules.reads_tick, |abstraction| abstraction.tick);
-        to.pair(if reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
+        to.pair(if reads_tick { self.tick() as u64 } else { 0 }, self.population() as u64);
         if rules.reads_score {
-            to.pair(2, self.score as u64);
+            to.pair(2, self.score() as u64);
         }
-        for &counter in self.counters.iter().filter(|_| rules.reads_counters) {
+        for &counter in self.counters().iter().filter(|_| rules.reads_counters) {
             to.pair(3, counter as u64);
         }
         for &clock in abstraction.map_or(&rules.clocks, |abstraction| &abstraction.clocks) {
-            to.pair(clock as u64, self.tick.rem_euclid(clock) as u64);
+            to.pair(clock as u64, self.tick().rem_euclid(clock) as u64);
         }
         for &first in abstraction.map_or(&rules.wizard_ticks, |abstraction| &abstraction.wizard_ticks) {
             to.pair(1, self.wait(first));
         }
         if abstraction.map_or(rules.draws, |abstraction| abstraction.chance) {
-            to.pair(self.chance.state(), self.jumps.state());
+            to.pair(self.chance().state(), self.jumps().state());
         }
-        to.pair(self.rank(self.avatar), self.timers.len() as u64);
-        for timer in &self.timers {
-            to.pair(u64::from(timer.timed), timer.due.saturating_sub(self.tick) as u64);
+        to.pair(self.rank(self.avatar()), self.timers().len() as u64);
+        for timer in self.timers() {
+            to.pair(u64::from(timer.timed), timer.due.saturating_sub(self.tick()) as u64);
         }
-        for (stype, group) in (0u16..).map(SpriteType).zip(&self.groups) {
+        for (stype, group) in (0u16..).map(SpriteType).zip(self.groups()) {
             let is = |left_out: fn(&StateAbstraction) -> &[bool]| {
                 abstraction.is_some_and(|k| left_out(k)[stype.index()])
             };
@@ -138,7 +138,7 @@ impl World {
 
     /// Identifies a sprite by its type and its place among the sprites of its type.
     fn rank(&self, slot: Slot) -> u64 {
-        let Some(sprite) = self.sprites.get(usize::from(slot)) else { return u64::MAX };
+        let Some(sprite) = self.get(slot) else { return u64::MAX };
         let place = self.slots(sprite.stype).position(|other| other == slot);
         u64::from(sprite.stype.0) << 32 | place.map_or(u64::from(u32::MAX), |place| place as u64)
     }
@@ -182,7 +182,7 @@ impl World {
         let age = if sprite.is(flag::FROZEN) {
             sprite.moved_at
         } else {
-            self.tick.wrapping_sub(sprite.moved_at).wrapping_add(1)
+            self.tick().wrapping_sub(sprite.moved_at).wrapping_add(1)
         };
         // The reference's counter overflows to the smallest number: then an old sprite is young again.
         if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
@@ -194,7 +194,7 @@ impl World {
             // The first update will set it.
             -1 => -1,
             start if info.class.is_some_and(SpriteClass::is_spawner) => {
-                start.wrapping_add(self.tick).rem_euclid(info.traits.cooldown)
+                start.wrapping_add(self.tick()).rem_euclid(info.traits.cooldown)
             }
             _ => 0,
         }
@@ -202,7 +202,7 @@ impl World {
 
     /// The number of ticks until a tick is reached; all ticks that the next step reaches are equivalent.
     fn wait(&self, until: i32) -> u64 {
-        (i64::from(until) - i64::from(self.tick)).max(1) as u64
+        (i64::from(until) - i64::from(self.tick())).max(1) as u64
     }
 
     fn extra_words(&self, extra: &Extra, info: &TypeInfo, to: &mut impl Absorb) {
@@ -227,11 +227,11 @@ impl World {
     fn remembered_words(&self, rules: &Rules, to: &mut impl Absorb) {
         let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
         for &effect in &rules.remembering {
-            to.pair(u64::from(effect), u64::from(self.memory[usize::from(effect)] & credits));
+            to.pair(u64::from(effect), u64::from(self.memory(effect) & credits));
         }
-        for (stype, info) in rules.types.iter().enumerate() {
-            if info.first_differs && self.templates[stype] != 0 {
-                to.pair(stype as u64, 2);
+        for (stype, info) in (0..).map(SpriteType).zip(&rules.types) {
+            if info.first_differs && self.has_had(stype) {
+                to.pair(u64::from(stype.0), 2);
             }
         }
     }

@@ -29,22 +29,22 @@ impl Clone for State {
 impl State {
     /// The number of ticks played, minus one: −1 at the start, 0 after the first step.
     pub fn tick(&self) -> i32 {
-        self.world.tick
+        self.world.tick()
     }
 
     /// The score.
     pub fn score(&self) -> f64 {
-        self.world.score as f64
+        self.world.score() as f64
     }
 
     /// The game's counters; `no_counters=` sets their number.
     pub fn counters(&self) -> &[i32] {
-        &self.world.counters
+        self.world.counters()
     }
 
     /// The outcome of the episode so far.
     pub fn outcome(&self) -> Outcome {
-        self.world.outcome
+        self.world.outcome()
     }
 
     /// Returns `true` once the episode is over.
@@ -54,20 +54,20 @@ impl State {
 
     /// The game's random number generator.
     pub fn chance(&self) -> Chance {
-        self.world.chance
+        self.world.chance()
     }
 
     /// Copies the state with another random future: for planners, which must not foresee random events.
     pub fn fork(&self, seed: crate::Seed) -> State {
         let mut state = self.clone();
-        (state.world.chance, state.world.jumps) = (seed.chance(), seed.child("jumps", 0).chance());
+        state.world.reseed(seed.chance(), seed.child("jumps", 0).chance());
         state
     }
 
     /// Overwrites this state with `source` and another random future; keeps the buffers.
     pub fn fork_from(&mut self, source: &State, chance: Chance) {
         self.clone_from(source);
-        (self.world.chance, self.world.jumps) = (chance, chance);
+        self.world.reseed(chance, chance);
     }
 
     /// The number of bytes that a copy of the state copies.
@@ -77,17 +77,17 @@ impl State {
 
     /// The size of a cell in pixels.
     pub fn block(&self) -> i32 {
-        self.world.block
+        self.world.block()
     }
 
     /// The columns and rows of the board.
     pub fn size(&self) -> (i32, i32) {
-        (self.world.columns, self.world.rows)
+        (self.world.columns(), self.world.rows())
     }
 
     /// The type of the player's avatar, if there is a living one.
     pub fn avatar_type(&self) -> Option<SpriteType> {
-        let sprite = self.world.sprites.get(usize::from(self.world.avatar))?;
+        let sprite = self.world.avatar_sprite()?;
         (!sprite.is(flag::DISABLED)).then_some(sprite.stype)
     }
 

@@ -55,10 +55,10 @@ impl Analysis {
             .map(|slot| state.world.overrides(slot).spawns);
         let making = making.filter(|&stype| stype != SpriteType::NONE).collect();
         let mut held = vec![false; rules.types.len()];
-        for holding in state.world.held.iter().filter(|holding| holding.amount > 0) {
+        for holding in state.world.held().iter().filter(|holding| holding.amount > 0) {
             held[holding.resource.index()] = true;
         }
-        let scheduled = state.world.timers.iter().map(|timer| timer.timed).collect();
+        let scheduled = state.world.timers().iter().map(|timer| timer.timed).collect();
         let start = Start { existing, making, scheduled, held: Some(held) };
         PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }

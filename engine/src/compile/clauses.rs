@@ -4,8 +4,8 @@
 use super::Names;
 use super::interactions::{NO_KEYWORD, Partner, number_of, partner};
 use super::params::{Value, convert};
-use crate::game::Game;
 use crate::geometry::Direction;
+use crate::keywords;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{self, Arguments, Effect, Undeclared};
 use crate::rules::terminations::{Condition, Decision};
@@ -107,19 +107,15 @@ pub struct Clauses {
     pub terminations: Vec<TerminationClause>,
 }
 
-impl Game {
-    /// The rules as clauses. Games with equal clauses play alike; the converse does not hold. Cost: O(types +
-    /// interactions).
-    pub fn clauses(&self) -> Clauses {
-        let rules = &*self.0;
-        let of_type = |(at, info): (usize, &TypeInfo)| type_clause(rules, SpriteType(at as u16), info);
-        Clauses {
-            header: header(rules),
-            types: rules.types.iter().enumerate().map(of_type).collect(),
-            mapping: mapping(rules),
-            interactions: interactions(rules),
-            terminations: terminations(rules),
-        }
+/// The rules as clauses.
+pub(crate) fn clauses(rules: &Rules) -> Clauses {
+    let of_type = |(at, info): (usize, &TypeInfo)| type_clause(rules, SpriteType(at as u16), info);
+    Clauses {
+        header: header(rules),
+        types: rules.types.iter().enumerate().map(of_type).collect(),
+        mapping: mapping(rules),
+        interactions: interactions(rules),
+        terminations: terminations(rules),
     }
 }
 
@@ -228,7 +224,7 @@ fn interactions(rules: &Rules) -> Vec<InteractionClause> {
     let mut clauses = Vec::new();
     for (at, line) in rules.description.interactions.iter().enumerate() {
         let mut written = Written { line, names, terms: Terms::new(), planned: None };
-        let keyword = effects::NAMES.iter().find(|known| **known == line.effect.text).copied();
+        let keyword = keywords::EFFECTS.iter().find(|known| **known == line.effect.text).copied();
         let built = keyword.and_then(|keyword| effects::build(keyword, &mut written));
         let (Some(effect), Some(built)) = (keyword, built) else { continue };
         written.common(&built);
@@ -419,13 +415,13 @@ impl Arguments for Written<'_> {
     fn keyword(&mut self, key: &'static str) -> u16 {
         let text = self.param(key).map_or("", |param| param.value.text.as_str());
         let number = number_of(text);
-        self.terms.extend(number.map(|number| (key, Term::Effect(effects::NAMES[usize::from(number)]))));
+        self.terms.extend(number.map(|number| (key, Term::Effect(keywords::EFFECTS[usize::from(number)]))));
         number.unwrap_or(NO_KEYWORD)
     }
 
     fn timed(&mut self) -> u16 {
         let at = self.keyword("ftype");
-        self.planned = effects::NAMES.get(usize::from(at)).copied();
+        self.planned = keywords::EFFECTS.get(usize::from(at)).copied();
         // The parameters of the planned effect are on the same line.
         if let Some(planned) = self.planned.filter(|&planned| planned != "addTimer") {
             effects::build(planned, self);
@@ -441,6 +437,7 @@ impl Arguments for Written<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Game;
 
     const GAME: &str = "BasicGame square_size=30\n  SpriteSet\n    egg > Immovable color=RED\n    moving > speed=0.5\n      fox > Chaser stype=hen\n      hen > RandomNPC speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    e > egg fox\n  InteractionSet\n    egg avatar hen > killSprite scoreChange=2\n    avatar EOS > stepBack\n    EOS fox > wrapAround offset=0\n    fox TIME > addTimer ftype=transformTo stype=hen timer=9\n  TerminationSet\n    SpriteCounter stype=egg limit=0 win=True\n    Timeout limit=99\n";
 

@@ -3,6 +3,7 @@
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Policy, Setting, too_many};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::keywords;
 use crate::limits::MAX_INTERACTIONS;
 use crate::rules::effects::{self, Arguments, Moves, Undeclared};
 use crate::rules::{Counting, EffectInfo, Pass, SpriteType, Timed, TypeInfo};
@@ -236,7 +237,7 @@ pub(super) fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnost
 
 /// The number of a keyword among those of all effects.
 pub(super) fn number_of(keyword: &str) -> Option<u16> {
-    effects::NAMES.iter().position(|known| *known == keyword).map(|at| at as u16)
+    keywords::EFFECTS.iter().position(|known| *known == keyword).map(|at| at as u16)
 }
 
 /// Reads a line.
@@ -315,7 +316,7 @@ impl<'a> Reader<'a> {
         let problem = Diagnostic::error("unknown-effect", name.span, message);
         let problem = problem.help("see `arcade docs effects` for all effects");
         let reported = self.reported + self.problems.len();
-        self.problems.push(problem.suggest_after(reported, &name.text, effects::NAMES.iter().copied()));
+        self.problems.push(problem.suggest_after(reported, &name.text, keywords::EFFECTS.iter().copied()));
     }
 
     /// Reports that the effect lacks a parameter with the name of a thing.
@@ -598,7 +599,7 @@ impl Arguments for Reader<'_> {
 
     fn timed(&mut self) -> u16 {
         let keyword = self.keyword("ftype");
-        let Some(&name) = effects::NAMES.get(usize::from(keyword)) else {
+        let Some(&name) = keywords::EFFECTS.get(usize::from(keyword)) else {
             self.failed = true;
             return 0;
         };

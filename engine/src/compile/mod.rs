@@ -7,11 +7,13 @@ mod interactions;
 mod outline;
 mod params;
 mod references;
+mod rename;
 mod scenery;
 mod space;
 mod sprites;
 mod terminations;
 
+pub(crate) use clauses::clauses;
 pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Terms, TypeClause};
 pub use params::BASE as SPRITE_PARAMETERS;
 

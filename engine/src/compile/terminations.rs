@@ -3,8 +3,9 @@
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Setting};
 use crate::diagnostic::Diagnostic;
+use crate::keywords::TERMINATIONS;
 use crate::rules::SpriteType;
-use crate::rules::terminations::{Condition, Decision, NAMES, Termination};
+use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
 use smallvec::SmallVec;
 
@@ -71,8 +72,12 @@ impl<'a> Reader<'a> {
                 let span = self.line.class.span;
                 let message = format!("no termination named `{name}`");
                 let problem = Diagnostic::error("unknown-termination", span, message);
-                let problem = problem.help(format!("terminations are {}", NAMES.join(", ")));
-                self.problems.push(problem.suggest_after(self.problems.len(), name, NAMES.iter().copied()));
+                let problem = problem.help(format!("terminations are {}", TERMINATIONS.join(", ")));
+                self.problems.push(problem.suggest_after(
+                    self.problems.len(),
+                    name,
+                    TERMINATIONS.iter().copied(),
+                ));
                 return None;
             }
         };

@@ -42,16 +42,6 @@ pub(crate) enum Condition {
     Timeout { limit: i32 },
 }
 
-/// The termination classes of VGDL (`spec/01` §4.8).
-pub const NAMES: &[&str] = &[
-    "SpriteCounter",
-    "SpriteCounterMore",
-    "MultiSpriteCounter",
-    "MultiSpriteCounterSubTypes",
-    "StopCounter",
-    "Timeout",
-];
-
 /// Tests whether anything can keep counting terminations that hold from ending the game.
 pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
     !rules.can_end

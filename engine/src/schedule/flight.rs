@@ -63,14 +63,14 @@ impl Step<'_, Foresight<'_>> {
     /// for sprites whose update comes later, but nothing looks before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self) {
-        if self.world.tick >= self.scheduler.schedule.next_due {
+        if self.world.tick() >= self.scheduler.schedule.next_due {
             self.fly_on();
         }
     }
 
     #[inline(never)]
     fn fly_on(&mut self) {
-        let tick = self.world.tick;
+        let tick = self.world.tick();
         let mut flights = std::mem::take(&mut self.scheduler.schedule.flights);
         let mut next = i32::MAX;
         for flight in &mut flights {
@@ -116,7 +116,7 @@ impl Step<'_, Foresight<'_>> {
     #[inline(never)]
     fn land_now(&mut self, slot: Slot) {
         self.strike_flight(slot);
-        self.land(slot, self.world.tick);
+        self.land(slot, self.world.tick());
     }
 
     /// Lands a sprite that is about to be updated in this tick.
@@ -134,7 +134,7 @@ impl Step<'_, Foresight<'_>> {
 
     /// Ends a flight before the update in this tick.
     fn land_late(&mut self, slot: Slot) {
-        self.land(slot, self.world.tick - 1);
+        self.land(slot, self.world.tick() - 1);
         let sprite = self.world.edit_motion(slot);
         sprite.last_corner = (sprite.rect.x, sprite.rect.y);
     }
@@ -144,7 +144,7 @@ impl Step<'_, Foresight<'_>> {
         let mut flights = std::mem::take(&mut self.scheduler.schedule.flights);
         for flight in flights.drain(..) {
             if self.has_moved(flight.slot) {
-                self.land(flight.slot, self.world.tick);
+                self.land(flight.slot, self.world.tick());
             } else {
                 self.land_late(flight.slot);
             }
@@ -164,7 +164,7 @@ impl Step<'_, Foresight<'_>> {
         let within = |most: i32| move |at: &i32| at.unsigned_abs() < most as u32;
         let near = [sprite.rect.x, sprite.rect.y].iter().all(within(FARTHEST));
         let near = near && [dx, dy].iter().all(within(FASTEST));
-        let tick = self.world.tick;
+        let tick = self.world.tick();
         if !near || sprite.is(flag::BIG | flag::KILLED | flag::RESIZED) || sprite.moved_at != tick {
             return false;
         }

@@ -4,7 +4,7 @@ use super::{Plan, Schedule, updates};
 use crate::geometry::Rect;
 use crate::rules::{EffectInfo, Pass};
 use crate::tick::{Scheduler, Step, Watch};
-use crate::world::{NONE, Slot, Watcher, World};
+use crate::world::{Slot, Watcher, World};
 
 /// A schedule at work in a step.
 pub(crate) struct Foresight<'a> {
@@ -22,7 +22,7 @@ impl<'a> Foresight<'a> {
     /// The scheduler of a step that starts with this world. Nothing sleeps without an avatar: a rule that scores would stop
     /// the game.
     pub(crate) fn new(plan: &'a Plan, schedule: &'a mut Schedule, world: &World) -> Foresight<'a> {
-        let sleeps = plan.any_sleep && world.avatar != NONE;
+        let sleeps = plan.any_sleep && world.has_avatar();
         Foresight { plan, schedule, sleeps, flies: plan.any_fly, any_moved: false }
     }
 }

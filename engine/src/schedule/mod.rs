@@ -4,13 +4,14 @@ mod contacts;
 mod flight;
 mod foresight;
 mod passes;
+mod recount;
 mod sleep;
 mod updates;
 
 use crate::flat::flat;
 use crate::rules::{Rules, SpriteType};
 use crate::tick::Step;
-use crate::world::{Models, World};
+use crate::world::{Models, Slot, World};
 pub(crate) use contacts::Contacts;
 pub(crate) use flight::Flight;
 pub(crate) use foresight::Foresight;
@@ -95,15 +96,15 @@ impl Schedule {
     /// Wakes and lands all sprites, between two steps.
     pub(crate) fn suspend(step: &mut Step<'_, Foresight<'_>>) {
         step.scheduler.wake_all(step.world);
-        step.land_all(step.world.tick);
-        step.world.sprites.iter_mut().for_each(|sprite| sprite.activity = mark::NOTHING);
+        step.land_all(step.world.tick());
+        (0..step.world.slot_count() as Slot).for_each(|slot| *step.world.activity(slot) = mark::NOTHING);
     }
 
     /// The schedule of a world without sprites.
     pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
         // Games without shortcuts do not pay for them.
-        let cells = if plan.any_sleep { World::cell_count(world.columns, world.rows) } else { 0 };
-        let types = if plan.any_sleep || plan.any_fly { world.groups.len() } else { 0 };
+        let cells = if plan.any_sleep { World::cell_count(world.columns(), world.rows()) } else { 0 };
+        let types = if plan.any_sleep || plan.any_fly { world.groups().len() } else { 0 };
         let mut schedule = Schedule {
             next_due: i32::MAX,
             together: Vec::new(),

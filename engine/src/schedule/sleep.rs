@@ -154,9 +154,8 @@ impl Foresight<'_> {
     pub(super) fn wake_all(&mut self, world: &mut World) {
         let Schedule { sleepers, skipped, watched, .. } = &mut *self.schedule;
         for sleeper in sleepers.drain(..) {
-            let sprite = &mut world.sprites[usize::from(sleeper.slot)];
-            sprite.activity = mark::NOTHING;
-            skipped[sprite.stype.index()] -= 1;
+            *world.activity(sleeper.slot) = mark::NOTHING;
+            skipped[world.sprite(sleeper.slot).stype.index()] -= 1;
         }
         watched.fill(0);
     }
@@ -174,7 +173,7 @@ impl Step<'_, Foresight<'_>> {
     /// Notes a permanent change where a sprite stands.
     pub(super) fn stamp(&mut self, slot: Slot) {
         let sprite = *self.world.sprite(slot);
-        self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick);
+        self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick());
     }
 
     /// [`Step::relocate`] in a game in which sprites sleep.
@@ -185,7 +184,7 @@ impl Step<'_, Foresight<'_>> {
         self.touch(slot);
         // The sprite's own move may yet be undone: its effect is known only at the end of the tick.
         if !self.is_try(&before) {
-            self.scheduler.schedule.stamp(self.world, &before, self.world.tick);
+            self.scheduler.schedule.stamp(self.world, &before, self.world.tick());
             self.stamp(slot);
         }
         self.wake();
@@ -213,7 +212,7 @@ impl Step<'_, Foresight<'_>> {
             self.land_one(partner);
             // Blocking another sprite changes nothing, unless it changes the score.
             let harmless = free && effect.puts_back.is_some();
-            let activity = &mut self.world.sprites[usize::from(partner)].activity;
+            let activity = self.world.activity(partner);
             if *activity != mark::NOTHING && !harmless {
                 *activity = mark::DISTURBED;
             }
@@ -223,7 +222,7 @@ impl Step<'_, Foresight<'_>> {
     /// Notes the execution of an effect on a sprite; `is_put_back` if it only puts the sprite back.
     fn note(&mut self, one: Slot, is_put_back: bool) {
         let pass = self.pass;
-        let activity = &mut self.world.sprites[usize::from(one)].activity;
+        let activity = self.world.activity(one);
         if *activity != mark::NOTHING {
             *activity = if is_put_back && *activity == mark::MOVED && pass >= 0 {
                 pass as u16 + 1
@@ -247,9 +246,8 @@ impl Step<'_, Foresight<'_>> {
         if self.scheduler.sleeps {
             self.stamp_moved();
         }
-        let mut kept = 0;
-        for at in 0..self.world.moved.len() {
-            let slot = self.world.moved[at];
+        for at in 0..self.world.moved().len() {
+            let slot = self.world.moved()[at];
             let sprite = self.world.sprite(slot);
             let (activity, back) = (sprite.activity, sprite.is_back());
             if activity == mark::MOVED && !back && self.take_off(slot) {
@@ -261,22 +259,20 @@ impl Step<'_, Foresight<'_>> {
             if activity < mark::DISTURBED && activity != mark::NOTHING && back && may_sleep() {
                 self.try_sleep(slot, activity - 1);
             }
-            self.world.moved[kept] = slot;
-            kept += 1;
         }
-        self.world.moved.truncate(kept);
+        self.world.shorten_moved();
     }
 
     /// Notes the moves that have not been undone; all other changes were noted when they happened.
     fn stamp_moved(&mut self) {
-        for at in 0..self.world.moved.len() {
-            let slot = self.world.moved[at];
+        for at in 0..self.world.moved().len() {
+            let slot = self.world.moved()[at];
             let (sprite, last) = (*self.world.sprite(slot), self.world.last(slot));
             if sprite.activity != mark::NOTHING && !sprite.is_back() {
-                self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick);
+                self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick());
                 let (column, row) = self.world.place_of(last);
                 let before = Sprite { rect: last, flags: sprite.flags | flag::BIG, column, row, ..sprite };
-                self.scheduler.schedule.stamp(self.world, &before, self.world.tick);
+                self.scheduler.schedule.stamp(self.world, &before, self.world.tick());
             }
         }
     }
@@ -293,7 +289,7 @@ impl Step<'_, Foresight<'_>> {
             return;
         }
         let sleeper = Sleeper { slot, pass, left, top, right, bottom };
-        let now = stamp_of(self.world.tick);
+        let now = stamp_of(self.world.tick());
         let quiet = sleeper.cells(self.world).all(|cell| {
             self.scheduler.schedule.stamps[cell] < now && self.scheduler.schedule.watched[cell] < u8::MAX
         });
@@ -305,7 +301,7 @@ impl Step<'_, Foresight<'_>> {
         for cell in sleeper.cells(self.world) {
             self.scheduler.schedule.watched[cell] += 1;
         }
-        self.world.sprites[usize::from(slot)].activity = mark::SKIPPED;
+        *self.world.activity(slot) = mark::SKIPPED;
         self.scheduler.schedule.skipped[sprite.stype.index()] += 1;
         self.scheduler.schedule.sleepers.push(sleeper);
     }
@@ -337,7 +333,7 @@ impl Step<'_, Foresight<'_>> {
                 continue;
             }
             self.work(self.scheduler.schedule.sleepers.len() / 64);
-            let stride = (self.world.columns + 2) as u32;
+            let stride = (self.world.columns() + 2) as u32;
             let (column, row) = ((cell % stride) as i16, (cell / stride) as i16);
             let mut at = 0;
             while at < self.scheduler.schedule.sleepers.len() {
@@ -357,8 +353,8 @@ impl Step<'_, Foresight<'_>> {
         for cell in sleeper.cells(self.world) {
             self.scheduler.schedule.watched[cell] -= 1;
         }
-        let sprite = &mut self.world.sprites[usize::from(slot)];
-        sprite.activity = mark::NOTHING;
+        *self.world.activity(slot) = mark::NOTHING;
+        let sprite = *self.world.sprite(slot);
         self.scheduler.schedule.skipped[sprite.stype.index()] -= 1;
         if sprite.is(flag::FREE) {
             return;
@@ -367,7 +363,7 @@ impl Step<'_, Foresight<'_>> {
             && self.pass < i32::from(sleeper.pass)
             && let Some(aim) = physics::aim(self, slot)
         {
-            self.world.sprites[usize::from(slot)].activity = mark::MOVED;
+            *self.world.activity(slot) = mark::MOVED;
             self.scheduler.any_moved = true;
             self.place(slot, aim);
             self.set_age(slot, 0);
@@ -397,7 +393,7 @@ impl Step<'_, Foresight<'_>> {
 
 impl Sleeper {
     fn cells(&self, world: &World) -> impl Iterator<Item = usize> + use<> {
-        let stride = world.columns + 2;
+        let stride = world.columns() + 2;
         let Sleeper { left, top, right, bottom, .. } = *self;
         (i32::from(top)..i32::from(bottom) + 1).flat_map(move |row| {
             (i32::from(left)..i32::from(right) + 1).map(move |column| (row * stride + column) as usize)

@@ -22,7 +22,7 @@ fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
 /// Tests whether a sprite does not move by itself because its cooldown has not passed.
 #[inline]
 fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
-    let age = world.tick.wrapping_sub(sprite.moved_at);
+    let age = world.tick().wrapping_sub(sprite.moved_at);
     traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
 }
 
@@ -96,7 +96,7 @@ fn threshold(prob: f64) -> i32 {
 /// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, the most frequent case. Returns the first
 /// one that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
-    let mut chance = world.chance;
+    let mut chance = world.chance();
     while slot != NONE {
         let sprite = world.sprite(slot);
         let lives = traits.total <= 0 || sprite.count < traits.total;
@@ -108,7 +108,7 @@ fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot)
         let misses = drawn.next(DRAW) >= threshold;
         let waits = || {
             let start = world.overrides_of(sprite).start;
-            traits.cooldown != 1 && start.wrapping_add(world.tick) % traits.cooldown != 0
+            traits.cooldown != 1 && start.wrapping_add(world.tick()) % traits.cooldown != 0
         };
         if !misses && !waits() {
             break;
@@ -116,7 +116,7 @@ fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot)
         chance = drawn;
         slot = sprite.next;
     }
-    world.chance = chance;
+    *world.dice() = chance;
     slot
 }
 
@@ -189,9 +189,8 @@ fn update_one(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, tra
     } else {
         step.update_sprite(slot, mover.class, traits.oriented_image);
     }
-    let sprite = &mut step.world.sprites[usize::from(slot)];
-    let moved = mover.may_fly && step.scheduler.flies && !sprite.is_back();
-    sprite.activity = if moved { mark::MOVED } else { mark::NOTHING };
+    let moved = mover.may_fly && step.scheduler.flies && !step.world.sprite(slot).is_back();
+    *step.world.activity(slot) = if moved { mark::MOVED } else { mark::NOTHING };
     step.scheduler.any_moved |= moved;
 }
 

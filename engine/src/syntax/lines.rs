@@ -11,9 +11,8 @@ use super::parse::Reader;
 use super::repair;
 use super::tokens::{Token, span, word};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::keywords::{CLASSES, EFFECTS};
 use crate::limits::MAX_NESTING;
-use crate::rules::class::SpriteClass;
-use crate::rules::effects;
 use pest::Parser;
 
 impl Reader {
@@ -70,7 +69,7 @@ impl Reader {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
             }
             // One of the words was meant as the arrow, or contains it: of the others only a class is certain.
-            let known = |word: &Word| SpriteClass::from_name(&word.text).is_some();
+            let known = |word: &Word| CLASSES.contains(&&*word.text);
             sprite.class = sprite.class.into_iter().chain(strays.drain(..)).find(known);
         }
         for word in strays {
@@ -169,7 +168,7 @@ impl Reader {
             self.mend_arrow(line, false, shape, "before the effect");
             return;
         };
-        let is_effect = |word: &Word| effects::NAMES.contains(&word.text.as_str());
+        let is_effect = |word: &Word| EFFECTS.contains(&&*word.text);
         if let ([_, ..], [effect, extra, ..]) = (&names[..], &after[..]) {
             let extra = if is_effect(effect) || !is_effect(extra) { extra } else { effect }.clone();
             self.stray_word(&extra, "an interaction has one effect");
@@ -246,7 +245,7 @@ impl Reader {
 
 /// Tests whether a word in the place of a class is a parameter without its `=`.
 fn glued(word: &Word) -> bool {
-    SpriteClass::from_name(&word.text).is_none() && repair::parameter(&word.text).is_some()
+    !CLASSES.contains(&&*word.text) && repair::parameter(&word.text).is_some()
 }
 
 pub(super) fn trivia(line: &Line<'_>) -> Trivia {

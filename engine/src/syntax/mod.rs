@@ -10,7 +10,6 @@ mod literal;
 mod parse;
 mod print;
 mod reference;
-mod rename;
 mod repair;
 mod sections;
 mod tokens;

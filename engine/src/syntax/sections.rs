@@ -5,8 +5,7 @@ use super::description::Section;
 use super::indents;
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, nearest};
-use crate::rules::class::SpriteClass;
-use crate::rules::{effects, terminations};
+use crate::keywords::{CLASSES, EFFECTS, TERMINATIONS};
 
 /// A section: the line of its name and the lines below it.
 pub(super) struct Part<'a, 'b> {
@@ -236,16 +235,16 @@ impl<'a> Guess<'a> {
         let has_params = line.text.contains('=');
         let Some(arrow) = words.iter().position(|&word| word == ">") else {
             let first = words.first()?;
-            return terminations::NAMES.contains(first).then_some(Section::TerminationSet);
+            return TERMINATIONS.contains(first).then_some(Section::TerminationSet);
         };
         let (left, right) = (&words[..arrow], &words[arrow + 1..]);
         if line.text.split_whitespace().any(|word| word.starts_with("values=")) {
             return Some(Section::ParameterSet);
         }
-        let is_class = |word: &str| SpriteClass::from_name(word).is_some();
+        let is_class = |word: &str| CLASSES.contains(&word);
         let is_sprite = |word: &str| self.sprites.binary_search(&word).is_ok();
         match (left, right) {
-            ([_, _, ..], [effect]) if effects::NAMES.contains(effect) => Some(Section::InteractionSet),
+            ([_, _, ..], [effect]) if EFFECTS.contains(effect) => Some(Section::InteractionSet),
             ([_], []) if has_params => Some(Section::SpriteSet),
             ([_], [class]) if is_class(class) && !is_sprite(class) => Some(Section::SpriteSet),
             ([symbol], [_, ..]) if !has_params && symbol.chars().count() == 1 => {

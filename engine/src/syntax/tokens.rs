@@ -5,8 +5,7 @@ use super::grammar::{Grammar, Rule};
 use super::layout::Line;
 use super::parse::Reader;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::rules::class::SpriteClass;
-use crate::rules::{effects, terminations};
+use crate::keywords::{CLASSES, EFFECTS, TERMINATIONS};
 use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use std::iter::Peekable;
@@ -55,13 +54,10 @@ impl Reader {
         rest: &mut Peekable<Pairs<'a, Rule>>,
     ) {
         let next = rest.peek().filter(|next| next.as_rule() == Rule::word).map(|next| word(line, next));
-        let known = |word: &Word| {
-            SpriteClass::from_name(&word.text).is_some() || effects::NAMES.contains(&word.text.as_str())
-        };
+        let known = |word: &Word| CLASSES.contains(&&*word.text) || EFFECTS.contains(&&*word.text);
         let has_arrow = line.text.split([' ', '\t']).any(|word| word == ">");
         // `gold = color=RED` in a line that needs an arrow.
-        let names_sprite =
-            |word: &Word| word.text != "BasicGame" && !terminations::NAMES.contains(&word.text.as_str());
+        let names_sprite = |word: &Word| word.text != "BasicGame" && !TERMINATIONS.contains(&&*word.text);
         let after_name = || matches!(&tokens[..], [Token::Word(first)] if names_sprite(first));
         let like_arrow = || next.as_ref().map_or_else(after_name, known);
         if whole.text == "=>" || whole.text == "=" && !has_arrow && like_arrow() {

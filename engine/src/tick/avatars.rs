@@ -319,7 +319,7 @@ fn platformer(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direct
 fn wizard(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction, action: Action) {
     platformer(step, slot, direction, action);
     let rules = step.rules;
-    let tick = step.world.tick;
+    let tick = step.world.tick();
     let ready = step.world.extra(rules, slot).block_time.wrapping_add(BLOCK_PAUSE) <= tick;
     if action == Action::Up && ready {
         physics::active(step, slot, Direction::DOWN, -1.0);

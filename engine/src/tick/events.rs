@@ -9,13 +9,13 @@ use crate::world::{Hit, Hits, NONE, Partners, Side, Slot, Timer, flag};
 
 impl<'a, S: Scheduler> Step<'a, S> {
     pub(crate) fn events(&mut self, watch: &mut (impl Watch + ?Sized)) {
-        if !self.world.timers.is_empty() {
+        if !self.world.timers().is_empty() {
             self.timers(watch);
             if self.stopped.is_some() {
                 return;
             }
         }
-        if self.world.off != 0 || self.rules.undeclared_at_edge {
+        if self.world.off() != 0 || self.rules.undeclared_at_edge {
             for &(stype, effect) in &self.rules.edge {
                 self.edge_pass(stype, effect, watch);
                 if self.stopped.is_some() {
@@ -41,11 +41,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
 
     /// Runs the effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
     fn timers(&mut self, watch: &mut (impl Watch + ?Sized)) {
-        while let Some(&Timer { due, timed: number }) = self.world.timers.last() {
-            if due > self.world.tick {
-                return;
-            }
-            self.world.timers.pop();
+        while let Some(Timer { timed: number, .. }) = self.world.take_due() {
             S::unsettles(self);
             // Counts also if there is no sprite: a timer that repeats at once would never end.
             self.work_of_effect();
@@ -64,7 +60,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
                 return;
             }
             if timed.repeating {
-                let due = self.world.tick.saturating_add(timed.timer);
+                let due = self.world.tick().saturating_add(timed.timer);
                 self.plan(Timer { due, timed: number });
             }
         }
@@ -72,7 +68,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
 
     /// Calls [`State::plan`](crate::State::plan), and counts the work of shifting timers in memory.
     pub(crate) fn plan(&mut self, timer: Timer) {
-        self.work(self.world.timers.len() / 64);
+        self.work(self.world.timers().len() / 64);
         self.world.plan(timer);
     }
 
@@ -122,14 +118,14 @@ impl<'a, S: Scheduler> Step<'a, S> {
         if remembered & memory::APPLY_SCORE == 0 {
             return;
         }
-        if self.world.avatar == NONE {
+        if self.world.avatar() == NONE {
             return self.stop(Limit::NoAvatar);
         }
         let (change, fault) = effects::score_change(info, remembered);
         if fault {
             self.message();
         }
-        self.world.score += i64::from(change) * i64::from(times);
+        self.world.add_score(i64::from(change) * i64::from(times));
     }
 
     fn count(&mut self, amounts: &[Option<i32>], times: i32) {
@@ -138,7 +134,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
                 self.message();
             }
             let change = amount.unwrap_or(0).wrapping_mul(times);
-            self.world.counters[at] = self.world.counters[at].wrapping_add(change);
+            self.world.add_to_counter(at, change);
         }
     }
 
@@ -174,11 +170,12 @@ impl<'a, S: Scheduler> Step<'a, S> {
     fn pair_pass(&mut self, pass: &Pass, watch: &mut (impl Watch + ?Sized)) {
         let tree = |side: SpriteType| &self.rules.types[side.index()].tree;
         self.work(tree(pass.first).len() + tree(pass.second).len());
-        if !self.world.shields.is_empty() && effects::is_shielded(self, pass) {
+        // Exact types and keyword (`spec/03` §5.7).
+        if self.world.is_shielded((pass.first, pass.second, pass.keyword)) {
             return;
         }
         // Sprites that this pass makes do not take part in it.
-        let newborn = self.world.next_id;
+        let newborn = self.world.next_id();
         S::run_pass(self, pass, newborn, watch);
     }
 
@@ -272,7 +269,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work_of_effect();
         S::executes(self, info, one, two.as_slice());
         effects::execute(self, effect, &info.effect, one, two);
-        let remembered = self.world.memory[usize::from(effect)];
+        let remembered = self.world.memory(effect);
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
@@ -280,7 +277,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     #[cold]
     fn tell(&self, watch: &mut (impl Watch + ?Sized), line: usize, one: Slot, two: Option<Slot>) {
         let first = self.world.present(one);
-        let cell = (first.rect.x.div_euclid(self.world.block), first.rect.y.div_euclid(self.world.block));
+        let cell = (first.rect.x.div_euclid(self.world.block()), first.rect.y.div_euclid(self.world.block()));
         let second = two.map(|two| self.world.sprite(two).stype);
         watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
@@ -301,7 +298,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work(EFFECT_WORK * partners.len());
         S::executes(self, info, one, partners);
         let times = effects::execute_batch(self, info, one, partners);
-        self.credit(info, self.world.memory[usize::from(effect)], times);
+        self.credit(info, self.world.memory(effect), times);
     }
 
     /// The partners of a sprite whose class detects the ground: testing a solid sprite just below it is how it detects

@@ -95,8 +95,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
 
     /// Plays one tick (`spec/01` §4).
     pub(crate) fn cycle(&mut self, action: Action, watch: &mut (impl Watch + ?Sized)) {
-        self.world.tick += 1;
-        self.world.last_action = action;
+        self.world.start_tick(action);
         S::begin(self);
         self.world.settle_moved();
         self.update(action);
@@ -110,26 +109,26 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.clear();
         S::ends(self);
         if let Some(limit) = self.stopped {
-            self.world.outcome = Outcome::Stopped(limit);
+            self.world.end(Outcome::Stopped(limit));
             return;
         }
         self.terminate();
-        if self.world.messages > MAX_MESSAGES {
-            self.world.messages = 0;
-            if self.world.outcome == Outcome::Ongoing {
-                self.world.outcome = Outcome::Ended;
+        if self.world.messages() > MAX_MESSAGES {
+            self.world.forget_messages();
+            if self.world.outcome() == Outcome::Ongoing {
+                self.world.end(Outcome::Ended);
             }
         }
-        if self.world.tick >= MAX_TICKS && self.world.outcome != Outcome::Won {
+        if self.world.tick() >= MAX_TICKS && self.world.outcome() != Outcome::Won {
             // The avatar loses: without one, the reference crashes.
-            let gone = self.world.avatar == NONE;
-            self.world.outcome = if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost };
+            let gone = self.world.avatar() == NONE;
+            self.world.end(if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost });
         }
     }
 
     /// Updates the avatar, then all other sprites.
     fn update(&mut self, action: Action) {
-        let avatar = self.world.avatar;
+        let avatar = self.world.avatar();
         if avatar != NONE && !self.world.sprite(avatar).is(flag::DISABLED) {
             let stype = self.world.sprite(avatar).stype;
             if self.rules.types[stype.index()].traits.oriented_image {
@@ -208,7 +207,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
 
     /// Removes all avatars but the first made, with a message, as the reference does; checked levels have one.
     pub(crate) fn remove_extra_avatars(&mut self) {
-        let slots = 0..self.world.sprites.len() as Slot;
+        let slots = 0..self.world.slot_count() as Slot;
         let counts = |slot: &Slot| self.world.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
         let avatars: Vec<Slot> = slots.filter(counts).collect();
         let Some((_, extra @ [_, ..])) = avatars.split_first() else { return };
@@ -222,28 +221,28 @@ impl<'a, S: Scheduler> Step<'a, S> {
     /// Removes the sprites that were killed in this tick (`spec/01` §4.10).
     #[inline]
     fn clear(&mut self) {
-        if !self.world.killed.is_empty() {
+        if !self.world.killed().is_empty() {
             self.clear_killed();
         }
-        self.world.shields.clear();
-        self.world.pulled.clear();
+        self.world.end_tick();
     }
 
     fn terminate(&mut self) {
         // The last result still holds: all terminations but Timeouts count sprites.
-        if !self.world.census_changed && self.world.tick < self.rules.first_timeout {
+        if !self.world.census_changed() && self.world.tick() < self.rules.first_timeout {
             return;
         }
-        self.world.census_changed = false;
+        self.world.settle_census(false);
         for termination in &self.rules.terminations {
             if let Some(can_end) = termination.permits(self.rules, self.world) {
                 // The terminations before it look again in the next tick.
-                self.world.census_changed |= can_end != self.world.can_end;
-                self.world.can_end = can_end;
+                if self.world.permit_end(can_end) {
+                    self.world.settle_census(true);
+                }
             }
             if termination.holds(self.rules, self.world) {
                 let won = termination.wins(self.world);
-                self.world.outcome = if won { Outcome::Won } else { Outcome::Lost };
+                self.world.end(if won { Outcome::Won } else { Outcome::Lost });
                 return;
             }
         }
@@ -270,12 +269,12 @@ impl<'a, S: Scheduler> Step<'a, S> {
     /// [`World::add_amount`], with the limit on resources.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         self.world.add_amount(holder, resource, change);
-        if self.world.held.len() > MAX_HELD {
+        if self.world.held().len() > MAX_HELD {
             self.stop(Limit::Resources);
         }
     }
 
     pub(crate) fn message(&mut self) {
-        self.world.messages = self.world.messages.saturating_add(1);
+        self.world.add_messages(1);
     }
 }

@@ -10,11 +10,15 @@ impl<S: Scheduler> Step<'_, S> {
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.world.sprite(slot);
         // The reference's counter overflows too.
-        if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.world.tick.wrapping_sub(sprite.moved_at) }
+        if sprite.is(flag::FROZEN) {
+            sprite.moved_at
+        } else {
+            self.world.tick().wrapping_sub(sprite.moved_at)
+        }
     }
 
     pub(crate) fn set_age(&mut self, slot: Slot, age: i32) {
-        let tick = self.world.tick;
+        let tick = self.world.tick();
         let sprite = self.world.edit_motion(slot);
         sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
     }
@@ -38,7 +42,7 @@ impl<S: Scheduler> Step<'_, S> {
 
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         S::changes(self, slot);
-        self.work(self.world.resized.len() / 64);
+        self.work(self.world.resized_count() / 64);
         self.world.edit(slot);
         self.world.set_last(slot, last);
     }
@@ -84,7 +88,7 @@ impl<S: Scheduler> Step<'_, S> {
             return;
         }
         // The common case, without separate calls.
-        self.world.sprites[usize::from(slot)].moved_at = self.world.tick;
+        self.world.start_move(slot);
         S::relocates(self, slot, aim);
     }
 

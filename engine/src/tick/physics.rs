@@ -15,7 +15,7 @@ pub(crate) enum Movement {
 
 /// The size of a grid cell in pixels as physics uses it: continuous physics has a constant of its own.
 pub(crate) fn grid_size(step: &Step<'_, impl Scheduler>, slot: Slot) -> f64 {
-    if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block) }
+    if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block()) }
 }
 
 fn is_continuous(rules: &Rules, step: &Step<'_, impl Scheduler>, slot: Slot) -> bool {
@@ -56,7 +56,7 @@ pub(crate) fn passive(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let &Overrides { orientation, speed, .. } = step.world.overrides_of(sprite);
     let speed = if speed == -1.0 { 1.0 } else { speed };
     if speed != 0.0 {
-        let block = f64::from(step.world.block);
+        let block = f64::from(step.world.block());
         step.displace(slot, orientation, (speed * block) as i32);
     }
 }
@@ -69,7 +69,7 @@ pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     if speed == 0.0 || !sprite.is(flag::ORIENTED) {
         return None;
     }
-    let block = f64::from(step.world.block);
+    let block = f64::from(step.world.block());
     step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn active(
     if traits.continuous {
         return accelerate(step, slot, direction, speed);
     }
-    let block = f64::from(step.world.block);
+    let block = f64::from(step.world.block());
     if traits.stationary || direction == Direction::NONE {
         return Movement::Still;
     }
@@ -113,7 +113,7 @@ pub(crate) fn active_along(
 ) -> Movement {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    let pixels = (speed * f64::from(step.world.block)) as i32;
+    let pixels = (speed * f64::from(step.world.block())) as i32;
     if traits.continuous || traits.stationary || traits.rotate_in_place || pixels == 0 {
         return active(step, slot, Direction::BASE[base], speed);
     }

@@ -35,7 +35,7 @@ impl<S: Scheduler> Step<'_, S> {
 
     /// Tests whether there are too many sprites to make another one, and logs a message if so.
     fn is_full(&mut self) -> bool {
-        let full = self.world.population > MAX_SPRITES as i32;
+        let full = self.world.population() > MAX_SPRITES as i32;
         if full {
             self.message();
         }
@@ -52,18 +52,17 @@ impl<S: Scheduler> Step<'_, S> {
         if info.incomplete {
             self.stop(Limit::UnfitSprite);
         }
-        let block = self.world.block;
+        let block = self.world.block();
         let mut sprite = self.models.of_type[stype.index()].prototype;
         let size = |factor: f64| if factor == 1.0 { block } else { (f64::from(block) * factor) as i32 };
         let (w, h) = (size(info.traits.width_factor), size(info.traits.height_factor));
         sprite.rect = Rect { x, y, w, h };
         sprite.last_corner = (x, y);
         let mut last = sprite.rect;
-        sprite.id = self.world.next_id;
-        let first = std::mem::replace(&mut self.world.templates[stype.index()], 1) == 0;
+        sprite.id = self.world.next_id();
+        let first = self.world.is_first_of(stype);
         if first {
-            self.world.memory_is_dirty = true;
-            self.world.messages = self.world.messages.saturating_add(info.unknown_parameters);
+            self.world.add_messages(info.unknown_parameters);
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
@@ -76,7 +75,7 @@ impl<S: Scheduler> Step<'_, S> {
                 return None;
             }
             due = order < self.updating;
-            sprite.moved_at = (self.world.tick - i32::from(due)).wrapping_sub(sprite.moved_at);
+            sprite.moved_at = (self.world.tick() - i32::from(due)).wrapping_sub(sprite.moved_at);
         }
         if first && !due {
             // The first sprite of a type keeps the unscaled size until its first update.
@@ -91,8 +90,6 @@ impl<S: Scheduler> Step<'_, S> {
             self.stop(Limit::Sprites);
             return None;
         };
-        self.world.next_id += 1;
-        self.world.population += 1;
         // Copies of the first one have lost the type that they leave behind; they leave type 0, which is `wall`.
         if first && class == SpriteClass::OngoingTurningAvatar {
             self.world.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
@@ -113,11 +110,8 @@ impl<S: Scheduler> Step<'_, S> {
         if sprite.is(flag::DISABLED) {
             return;
         }
-        let stype = sprite.stype;
         self.freeze(slot);
-        self.world.edit(slot).set(flag::DISABLED, true);
-        self.world.groups[stype.index()].disabled += 1;
-        self.world.census_changed = true;
+        self.world.disable(slot);
     }
 
     /// Stops the updates and the ageing of a sprite.
@@ -130,17 +124,16 @@ impl<S: Scheduler> Step<'_, S> {
 
     /// Kills a sprite for good, avatar or not.
     pub(crate) fn remove(&mut self, slot: Slot) {
-        self.world.edit_motion(slot).set(flag::KILLED, true);
-        self.world.killed.push(slot);
+        self.world.doom(slot);
     }
 
     /// Gives a sprite to the player: from now on it is updated and ages, and the previous avatar does not.
     pub(crate) fn control(&mut self, slot: Slot) {
-        let before = std::mem::replace(&mut self.world.avatar, slot);
+        let before = self.world.set_avatar(slot);
         if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {
             self.freeze(before);
         }
-        let tick = self.world.tick;
+        let tick = self.world.tick();
         let sprite = self.world.edit(slot);
         if sprite.is(flag::FROZEN) && !sprite.is(flag::DISABLED) {
             sprite.set(flag::FROZEN, false);
@@ -150,21 +143,19 @@ impl<S: Scheduler> Step<'_, S> {
 
     /// Removes the sprites in the kill list.
     pub(crate) fn clear_killed(&mut self) {
-        let mut killed = std::mem::take(&mut self.world.killed);
-        for &slot in &killed {
-            // The kill list may name a sprite twice; the counter goes down twice, as in the reference.
-            self.world.population -= 1;
+        let mut at = 0;
+        while let Some(slot) = self.world.killed().get(at).copied() {
+            at += 1;
             if self.world.sprite(slot).is(flag::FREE) {
                 continue;
             }
-            if slot == self.world.avatar {
-                self.world.avatar = NONE;
+            if slot == self.world.avatar() {
+                self.world.set_avatar(NONE);
             }
             S::removes(self, slot);
             self.world.release(self.models, slot, &mut self.scheduler);
         }
         self.world.forget_gone();
-        killed.clear();
-        self.world.killed = killed;
+        self.world.forget_killed();
     }
 }

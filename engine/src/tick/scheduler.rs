@@ -5,7 +5,7 @@ use crate::geometry::Rect;
 use crate::rules::{EffectInfo, Pass};
 use crate::world::{Slot, Watcher, World};
 
-/// A scheduler: it is told of a tick's changes, and may leave out work that has no effect.
+/// A scheduler: it hears of a tick's changes, and may leave out work that has no effect.
 ///
 /// By default nothing is left out, and a tick is the cycle of `spec/01` §4.
 pub(crate) trait Scheduler: Watcher + Sized {
@@ -69,9 +69,4 @@ pub(crate) struct Unscheduled;
 
 impl Scheduler for Unscheduled {}
 
-impl Watcher for Unscheduled {
-    fn arrives(&mut self, _: u64, _: u64) {}
-    fn departs(&mut self, _: u64, _: u64) {}
-    fn enlarged(&mut self, _: usize) {}
-    fn reduced(&mut self, _: usize) {}
-}
+impl Watcher for Unscheduled {}

@@ -25,18 +25,18 @@ impl Termination {
                     && tree.iter().filter(alive).count() as i32 == *kinds
             }
             Condition::StopCounter { .. } => false,
-            Condition::Timeout { limit } => return world.tick >= *limit,
+            Condition::Timeout { limit } => return world.tick() >= *limit,
         };
-        counted && world.can_end
+        counted && world.can_end()
     }
 
     /// Tests whether the player wins by it, given that it holds.
     pub(crate) fn wins(&self, world: &World) -> bool {
         match self.decided_by {
             Decision::Line => self.win,
-            Decision::Score => world.score != 0,
-            Decision::Difference => world.counters.windows(2).any(|pair| pair[0] != pair[1]),
-            Decision::Value(value) => world.counters.first() == Some(&value),
+            Decision::Score => world.score() != 0,
+            Decision::Difference => world.counters().windows(2).any(|pair| pair[0] != pair[1]),
+            Decision::Value(value) => world.counters().first() == Some(&value),
         }
     }
 

@@ -10,11 +10,13 @@ pub(crate) mod flight;
 mod hash;
 mod models;
 mod moved;
+mod numbers;
 mod occupancy;
 mod overlap;
 mod overrides;
 mod paths;
 mod placement;
+mod recount;
 mod scenery;
 mod side_tables;
 mod span;
@@ -22,7 +24,6 @@ mod sprite;
 
 use crate::chance::Chance;
 use crate::flat::{bytes_of_fields, flat};
-use crate::level::Level;
 use crate::limits::MAX_SLOTS;
 use crate::rules::{Action, EffectInfo, Outcome, Rules, SpriteType};
 use contribution::{Contribution, HashClass, Sum};
@@ -53,17 +54,20 @@ bytes_of_fields! { Timer { due timed } }
 pub(crate) trait Watcher {
     /// A sprite of the type with the bit `own` has come to cover a cell, beside types with the bits `partners`, with which
     /// rules pair it.
-    fn arrives(&mut self, own: u64, partners: u64);
+    fn arrives(&mut self, _own: u64, _partners: u64) {}
 
     /// Such a sprite has stopped covering a cell that such types cover.
-    fn departs(&mut self, own: u64, partners: u64);
+    fn departs(&mut self, _own: u64, _partners: u64) {}
 
     /// A type has its first sprite that is larger than a cell.
-    fn enlarged(&mut self, stype: usize);
+    fn enlarged(&mut self, _stype: usize) {}
 
     /// A type has no such sprite any more.
-    fn reduced(&mut self, stype: usize);
+    fn reduced(&mut self, _stype: usize) {}
 }
+
+/// A watcher that ignores everything.
+impl Watcher for () {}
 
 flat! {
     /// The world of an episode.
@@ -159,9 +163,13 @@ flat! {
 }
 
 impl World {
-    /// The world before the first tick, without sprites.
-    pub(crate) fn empty(rules: &Rules, models: &Models, level: &Level, chance: Chance) -> World {
-        let (columns, rows) = (level.columns() as i32, level.rows() as i32);
+    /// The world of a board of `columns` by `rows` cells before the first tick, without sprites.
+    pub(crate) fn empty(
+        rules: &Rules,
+        models: &Models,
+        (columns, rows): (i32, i32),
+        chance: Chance,
+    ) -> World {
         let cells = World::cell_count(columns, rows);
         World {
             outcome: Outcome::Ongoing,
@@ -172,7 +180,7 @@ impl World {
             avatar: NONE,
             next_id: 0,
             population: 0,
-            messages: rules.messages + level.messages,
+            messages: rules.messages,
             block: rules.square_size.unwrap_or_else(|| 2.max(SCREEN / columns.max(rows))),
             columns,
             rows,
@@ -223,11 +231,31 @@ impl World {
 
     /// The creation number of the player's avatar, disabled or not.
     pub(crate) fn avatar_id(&self) -> Option<u32> {
-        self.sprites.get(usize::from(self.avatar)).map(|sprite| sprite.id)
+        self.avatar_sprite().map(|sprite| sprite.id)
     }
 
     pub(crate) fn sprite(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]
+    }
+
+    /// The sprite in a slot; `None` for [`NONE`].
+    pub(crate) fn get(&self, slot: Slot) -> Option<&Sprite> {
+        self.sprites.get(usize::from(slot))
+    }
+
+    /// The player's avatar, disabled or not.
+    pub(crate) fn avatar_sprite(&self) -> Option<&Sprite> {
+        self.get(self.avatar)
+    }
+
+    /// The number of slots, free ones included.
+    pub(crate) fn slot_count(&self) -> usize {
+        self.sprites.len()
+    }
+
+    /// By type.
+    pub(crate) fn groups(&self) -> &[Group] {
+        &self.groups
     }
 
     pub(crate) fn group(&self, stype: SpriteType) -> &Group {
@@ -275,6 +303,39 @@ impl World {
         sprite
     }
 
+    /// The note of the schedule on a sprite.
+    #[inline(always)]
+    pub(crate) fn activity(&mut self, slot: Slot) -> &mut u16 {
+        &mut self.sprites[usize::from(slot)].activity
+    }
+
+    /// Disables an avatar: it stays, and terminations do not count it.
+    pub(crate) fn disable(&mut self, slot: Slot) {
+        let sprite = self.edit(slot);
+        sprite.set(flag::DISABLED, true);
+        let stype = sprite.stype;
+        self.groups[stype.index()].disabled += 1;
+        self.census_changed = true;
+    }
+
+    /// Enters a sprite into the kill list.
+    pub(crate) fn doom(&mut self, slot: Slot) {
+        self.edit_motion(slot).set(flag::KILLED, true);
+        self.killed.push(slot);
+    }
+
+    /// The kill list; it may name a sprite twice.
+    #[inline(always)]
+    pub(crate) fn killed(&self) -> &[Slot] {
+        &self.killed
+    }
+
+    /// Empties the kill list. The reference's counter goes down twice for a sprite that is in it twice.
+    pub(crate) fn forget_killed(&mut self) {
+        self.population -= self.killed.len() as i32;
+        self.killed.clear();
+    }
+
     /// Takes a slot out of its chains and frees it. The caller calls [`World::forget_gone`] after the last one.
     pub(crate) fn release(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
@@ -312,12 +373,6 @@ impl World {
                 extra.target = Target::Gone(sprites[usize::from(slot)].rect);
             }
         }
-    }
-
-    /// Schedules a timer before all others that are due at the same tick (`spec/03` §6.2).
-    pub(crate) fn plan(&mut self, timer: Timer) {
-        let at = self.timers.partition_point(|other| other.due >= timer.due);
-        self.timers.insert(at, timer);
     }
 
     /// Takes a slot for `sprite`, at the end of its type's chain; `None` if there is no slot left.
@@ -359,6 +414,8 @@ impl World {
             self.dirty.push(slot);
         }
         self.enter_cell(models, slot, watcher);
+        self.next_id += 1;
+        self.population += 1;
         Some(slot)
     }
 }

@@ -60,6 +60,29 @@ impl World {
         }
     }
 
+    /// The sprites that have moved, or may have.
+    #[inline(always)]
+    pub(crate) fn moved(&self) -> &[Slot] {
+        &self.moved
+    }
+
+    /// The number of those that have another size now.
+    pub(crate) fn resized_count(&self) -> usize {
+        self.resized.len()
+    }
+
+    /// Starts a move of a sprite by itself: its age starts anew. The caller relocates it.
+    #[inline(always)]
+    pub(crate) fn start_move(&mut self, slot: Slot) {
+        self.sprites[usize::from(slot)].moved_at = self.tick;
+    }
+
+    /// Shortens the list of the moved sprites to those with a flag that says so.
+    pub(crate) fn shorten_moved(&mut self) {
+        let World { moved, sprites, .. } = self;
+        moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
+    }
+
     /// Notes that a sprite that is not in the list has moved.
     pub(crate) fn note_moved(&mut self, slot: Slot) {
         self.sprites[usize::from(slot)].set(flag::MOVED, true);

@@ -125,12 +125,20 @@ impl World {
     }
 
     /// [`World::relocate_to`] for a sprite that may change its size.
+    #[inline(always)]
     pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
-        let (from, to) = self.locate_move(slot, rect);
         let before = self.sprite(slot).rect;
         if (before.w, before.h) == (rect.w, rect.h) {
-            return self.relocate_to(models, slot, rect, (from, to), watcher);
+            let places = self.locate_move(slot, rect);
+            self.relocate_to(models, slot, rect, places, watcher);
+        } else {
+            self.resize(models, slot, rect, watcher);
         }
+    }
+
+    #[inline(never)]
+    fn resize(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
+        let (from, to) = self.locate_move(slot, rect);
         let last = self.last(slot);
         self.edit(slot).rect = rect;
         self.set_last(slot, last);

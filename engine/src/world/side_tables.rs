@@ -32,6 +32,11 @@ impl World {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
     }
 
+    /// All resources that sprites hold.
+    pub(crate) fn held(&self) -> &[Held] {
+        &self.held
+    }
+
     /// The amount of a resource that a sprite holds.
     pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)

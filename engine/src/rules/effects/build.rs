@@ -43,8 +43,9 @@ pub(crate) enum Undeclared {
 /// Declares the effects once, sorted: the keyword, and the effect that its arguments make.
 macro_rules! effects {
     ($keyword:ident, $args:ident; $($($name:literal)|+ => $effect:expr,)*) => {
-        /// The keywords of all effects, sorted.
-        pub const NAMES: &[&str] = &[$($($name),+),*];
+        /// The keywords, to be compared with [`crate::keywords::EFFECTS`].
+        #[cfg(test)]
+        pub(super) const BUILT: &[&str] = &[$($($name),+),*];
 
         /// The effect with that keyword; `None` if there is none.
         pub(crate) fn build($keyword: &str, $args: &mut impl Arguments) -> Option<Effect> {

@@ -7,7 +7,6 @@ mod sentences;
 mod summary;
 
 use super::SpriteType;
-pub use build::NAMES;
 pub(crate) use build::{Arguments, Undeclared, build};
 pub use parameters::{ParameterKind, effect_parameters};
 pub(crate) use sentences::{CHANCE, Sentence, Value, sentences};

@@ -2,7 +2,8 @@
 //! [`Summary::of`], the summary of an effect that does nothing.
 
 use super::summary::*;
-use super::{Effect, NAMES, SpawnIf, SpawnIfCounterSubTypes};
+use super::{Effect, SpawnIf, SpawnIfCounterSubTypes};
+use crate::keywords::EFFECTS;
 use smallvec::{SmallVec, smallvec};
 
 impl Effect {
@@ -384,7 +385,7 @@ impl Effect {
             Effect::ShieldFrom { stype, keyword } => Summary {
                 effects: smallvec![Shield {
                     from: stype,
-                    keyword: NAMES.get(usize::from(keyword)).copied().unwrap_or_default(),
+                    keyword: EFFECTS.get(usize::from(keyword)).copied().unwrap_or_default(),
                 }],
                 shield: Some((stype, keyword)),
                 ..Summary::of(Family::Shield)

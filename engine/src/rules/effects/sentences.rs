@@ -7,7 +7,8 @@
 //! sprites on which an effect runs by the clock. All other holes have values of their own.
 
 use super::parameters::Recorder;
-use super::{Effect, NAMES, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
+use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
+use crate::keywords::EFFECTS;
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
@@ -104,7 +105,7 @@ impl Sentence {
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
     for contrary in [false, true] {
-        for keyword in NAMES {
+        for keyword in EFFECTS {
             let effect = build(keyword, &mut Recorder::contrary(contrary));
             let effect = effect.expect("every keyword builds an effect");
             let sentence = effect.sentence();

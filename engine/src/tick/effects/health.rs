@@ -45,7 +45,7 @@ pub(super) fn subtract(
     let overrides = step.world.edit_overrides(target);
     overrides.health = overrides.health.wrapping_sub(value);
     let killed = overrides.health <= limit;
-    step.remember(index, memory::KILLED, killed);
+    step.world.remember(index, memory::KILLED, killed);
     if killed {
         step.kill(target);
     }

@@ -87,8 +87,8 @@ pub(super) fn remove_score(
         step.work(1);
         if step.world.sprite(slot).is(flag::AVATAR) {
             // Each avatar has a score of its own; the player's is the game's.
-            if slot == step.world.avatar {
-                step.world.score = 0;
+            if slot == step.world.avatar() {
+                step.world.reset_score();
             }
             if let Some(victim) = victim {
                 step.remove(victim);

@@ -11,7 +11,7 @@ mod walls;
 use super::{Scheduler, Step};
 use crate::limits::MAX_TIMERS;
 use crate::rules::effects::{Batch, Draws, Effect, Summary};
-use crate::rules::{EffectInfo, Limit, Pass, memory};
+use crate::rules::{EffectInfo, Limit, memory};
 use crate::world::{Partners, Slot, Timer, flag};
 
 /// Runs an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a message.
@@ -62,10 +62,7 @@ pub(crate) fn execute(
             transform::random_child(step, one, two.filter(|_| *kill_second), options, *force_orientation);
         }
         (Effect::ShieldFrom { stype, keyword }, _) => {
-            let shield = (step.world.sprite(one).stype, *stype, *keyword);
-            if let Err(at) = step.world.shields.binary_search(&shield) {
-                step.world.shields.insert(at, shield);
-            }
+            step.world.shield((step.world.sprite(one).stype, *stype, *keyword));
         }
         (Effect::KillIfNotUpright, _) => kill::if_not_upright(step, one),
         (Effect::RemoveScore { stype, kill_second }, _) => {
@@ -221,25 +218,25 @@ fn draw_only(step: &mut Step<'_, impl Scheduler>, summary: &Summary, one: Slot, 
     match summary.draws {
         Draws::Nothing => {}
         Draws::Direction => {
-            step.world.chance.below(4);
+            step.world.dice().below(4);
         }
         Draws::Chance(_) => {
-            step.world.chance.double();
+            step.world.dice().double();
         }
         Draws::ChanceIfOriented(_) => two.into_iter().for_each(|two| motion::draw_gaze(step, one, two)),
         Draws::OneOf(0) => {}
         Draws::OneOf(types) => {
-            step.world.chance.below(types as i32);
+            step.world.dice().below(types as i32);
         }
         Draws::Exit => two.into_iter().for_each(|two| motion::draw_exit(step, two)),
     }
 }
 
 fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
-    if step.world.timers.len() >= MAX_TIMERS {
+    if step.world.timers().len() >= MAX_TIMERS {
         return step.stop(Limit::Timers);
     }
-    let due = step.world.tick.saturating_add(step.rules.timed[usize::from(timed)].timer);
+    let due = step.world.tick().saturating_add(step.rules.timed[usize::from(timed)].timer);
     step.plan(Timer { due, timed });
 }
 
@@ -252,38 +249,27 @@ pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     }
 }
 
-/// Tests whether a shield of this tick covers the pass (`spec/03` §5.7): exact types and keyword.
-pub(crate) fn is_shielded(step: &Step<'_, impl Scheduler>, pass: &Pass) -> bool {
-    step.world.shields.binary_search(&(pass.first, pass.second, pass.keyword)).is_ok()
-}
-
 impl<S: Scheduler> Step<'_, S> {
     /// Remembers whether the effect's score applies, which some effects decide as they run.
     fn apply_score(&mut self, index: u16, on: bool) {
-        self.remember(index, memory::APPLY_SCORE, on);
+        self.world.remember(index, memory::APPLY_SCORE, on);
     }
 
     /// Remembers whether `counter` counts.
     fn apply_count(&mut self, index: u16, on: bool) {
         if self.counts(index) {
-            self.remember(index, memory::NO_COUNT, !on);
+            self.world.remember(index, memory::NO_COUNT, !on);
         }
     }
 
     /// Remembers whether `counterElse` counts.
     fn apply_count_else(&mut self, index: u16, on: bool) {
         if self.counts(index) {
-            self.remember(index, memory::NO_COUNT_ELSE, !on);
+            self.world.remember(index, memory::NO_COUNT_ELSE, !on);
         }
     }
 
     fn counts(&self, index: u16) -> bool {
         self.rules.effects[usize::from(index)].counting.is_some()
-    }
-
-    fn remember(&mut self, index: u16, bit: u8, on: bool) {
-        let byte = &mut self.world.memory[usize::from(index)];
-        let before = std::mem::replace(byte, if on { *byte | bit } else { *byte & !bit });
-        self.world.memory_is_dirty |= before != *byte;
     }
 }

@@ -45,9 +45,9 @@ pub(super) fn undo_all(step: &mut Step<'_, impl Scheduler>, spare: &[SpriteType]
         }
     }
     // Only sprites that moved in this tick differ from their last rectangle.
-    step.work(step.world.moved.len());
-    for at in 0..step.world.moved.len() {
-        let slot = step.world.moved[at];
+    step.work(step.world.moved().len());
+    for at in 0..step.world.moved().len() {
+        let slot = step.world.moved()[at];
         let last = step.world.last(slot);
         if is_back(step.world.sprite(slot).stype) {
             step.place(slot, last);
@@ -75,7 +75,7 @@ pub(super) fn reverse(step: &mut Step<'_, impl Scheduler>, one: Slot) {
 }
 
 pub(super) fn flip(step: &mut Step<'_, impl Scheduler>, one: Slot) {
-    let drawn = Direction::BASE[step.world.chance.below(4) as usize];
+    let drawn = Direction::BASE[step.world.dice().below(4) as usize];
     step.world.face(one, drawn);
 }
 
@@ -120,7 +120,7 @@ pub(super) fn attract_gaze(
     if !step.world.sprite(one).is(flag::ORIENTED) || !other.is(flag::ORIENTED) {
         return;
     }
-    if step.world.chance.double() >= prob {
+    if step.world.dice().double() >= prob {
         return;
     }
     let facing = step.world.overrides(two).orientation;
@@ -136,7 +136,7 @@ pub(super) fn attract_gaze(
 /// Makes the draw of attractGaze without the consequences.
 pub(super) fn draw_gaze(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     if step.world.sprite(one).is(flag::ORIENTED) && step.world.sprite(two).is(flag::ORIENTED) {
-        step.world.chance.double();
+        step.world.dice().double();
     }
 }
 
@@ -163,9 +163,8 @@ pub(super) fn pull_with_it(
     two: Slot,
     onto: bool,
 ) {
-    let Err(at) = step.world.pulled.binary_search(&(index, one)) else { return };
-    step.work(step.world.pulled.len() / 64);
-    step.world.pulled.insert(at, (index, one));
+    let Some(others) = step.world.pull(index, one) else { return };
+    step.work(others / 64);
     let direction = step.last_direction(two).normalised();
     let amount = (step.world.overrides(two).speed * physics::grid_size(step, one)) as i32;
     step.displace(one, direction, amount);
@@ -188,7 +187,7 @@ pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot
         return step.kill(one);
     }
     step.work(usize::from(count));
-    let drawn = step.world.chance.below(i32::from(count));
+    let drawn = step.world.dice().below(i32::from(count));
     let exit = step.world.slots(exit_type).nth(drawn as usize).expect("one of the group");
     let (exit, facing) = (*step.world.sprite(exit), step.world.overrides(exit).orientation);
     step.place(one, exit.rect);
@@ -202,7 +201,7 @@ pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot
 pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     let count = exit_of(step, two).map_or(0, |exit_type| step.world.group(exit_type).count);
     if count > 0 {
-        step.world.chance.below(i32::from(count));
+        step.world.dice().below(i32::from(count));
     }
 }
 

@@ -8,7 +8,7 @@ use crate::world::{NONE, Slot};
 
 pub(super) fn here(step: &mut Step<'_, impl Scheduler>, one: Slot, stype: SpriteType, prob: f64) {
     // A `prob` of NaN always spawns.
-    if step.world.chance.double() >= prob {
+    if step.world.dice().double() >= prob {
         return;
     }
     let rect = step.world.sprite(one).rect;
@@ -19,7 +19,7 @@ pub(super) fn here(step: &mut Step<'_, impl Scheduler>, one: Slot, stype: Sprite
 pub(super) fn if_amount(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, rule: &SpawnIf) {
     let SpawnIf { resource, limit, stype, spend, prob, more } = *rule;
     step.apply_score(index, false);
-    if step.world.chance.double() >= prob {
+    if step.world.dice().double() >= prob {
         return;
     }
     let amount = step.world.amount(one, resource);
@@ -42,7 +42,7 @@ pub(super) fn beside(
     step_back: bool,
     prob: f64,
 ) {
-    if step.world.chance.double() >= prob {
+    if step.world.dice().double() >= prob {
         return;
     }
     let (rect, last) = (step.world.sprite(two).rect, step.world.last(two));
@@ -50,14 +50,14 @@ pub(super) fn beside(
         return;
     }
     let from = if step_back { last } else { rect };
-    let block = step.world.block;
+    let block = step.world.block();
     let (x, y) = (from.x.wrapping_add(shift.0 * block), from.y.wrapping_add(shift.1 * block));
     step.add(stype, x, y);
 }
 
 /// Spawns at the partner's last place, if the partner has left it.
 pub(super) fn behind(step: &mut Step<'_, impl Scheduler>, two: Slot, stype: SpriteType, prob: f64) {
-    if step.world.chance.double() >= prob {
+    if step.world.dice().double() >= prob {
         return;
     }
     let (rect, last) = (step.world.sprite(two).rect, step.world.last(two));

@@ -57,7 +57,7 @@ pub(super) fn random_child(
     if options.is_empty() {
         return;
     }
-    let drawn = options[step.world.chance.below(options.len() as i32) as usize];
+    let drawn = options[step.world.dice().below(options.len() as i32) as usize];
     if step.rules.types[drawn.index()].class.is_none() {
         return step.message();
     }
@@ -151,7 +151,7 @@ fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: 
 fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     let before = *step.world.sprite(old);
     step.set_last(new, step.world.last(old));
-    if !step.world.held.is_empty() {
+    if !step.world.held().is_empty() {
         let held: SmallVec<[Held; 4]> = step.world.held_by(old).into();
         for Held { resource, amount, .. } in held {
             step.add_amount(new, resource, amount);
@@ -160,7 +160,7 @@ fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     // The player moves on to the new avatar, if the new sprite can be one; otherwise the old avatar stays, disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
-        if step.world.avatar == NONE {
+        if step.world.avatar() == NONE {
             // The reference takes the score and the player from an avatar that does not exist.
             return step.stop(Limit::NoAvatar);
         }

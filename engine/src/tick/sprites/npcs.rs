@@ -78,7 +78,7 @@ fn random_move(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> Di
 /// [`random_move`] as an index of the base directions, or [`NO_HEADING`].
 #[inline]
 fn random_heading(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> u32 {
-    let mut chance = step.world.chance;
+    let mut chance = step.world.chance();
     let sprite = step.world.edit_motion(slot);
     if sprite.count < cons {
         sprite.count += 1;
@@ -87,7 +87,7 @@ fn random_heading(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) ->
         sprite.set_heading(chance.below(4) as u32);
     }
     let heading = sprite.heading();
-    step.world.chance = chance;
+    *step.world.dice() = chance;
     heading
 }
 
@@ -109,7 +109,7 @@ fn drawn(step: &mut Step<'_, impl Scheduler>, options: &[u8]) -> Option<Directio
     if options.is_empty() {
         return None;
     }
-    let drawn = step.world.chance.below(options.len() as i32) as usize;
+    let drawn = step.world.dice().below(options.len() as i32) as usize;
     Some(Direction::BASE[usize::from(options[drawn])])
 }
 
@@ -292,7 +292,7 @@ fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Tar
     // Among several types the reference chooses with an unseeded generator of its own.
     let chosen = match stypes.len() {
         1 => stypes[0],
-        count => stypes[step.world.jumps.below(count as i32) as usize],
+        count => stypes[step.world.second_dice().below(count as i32) as usize],
     };
     let targets = Targets { first: Some(chosen), others: &rules.types[chosen.index()].tree };
     step.work(stypes.len() + targets.count(step.world));
@@ -305,7 +305,7 @@ fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Directio
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let continuous = step.rules.types[stype.index()].traits.continuous;
     let options = options(continuous, false, own, targets.rects(step.world), |_| true);
-    drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.world.chance.below(4) as usize])
+    drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.world.dice().below(4) as usize])
 }
 
 /// RandomAltChaser and RandomPathAltChaser: occasionally a random step instead; the first draw is made in any case.
@@ -315,8 +315,8 @@ fn or_random<S: Scheduler>(
     otherwise: fn(&mut Step<'_, S>, Slot) -> Direction,
 ) -> Direction {
     let epsilon = step.rules.types[step.world.sprite(slot).stype.index()].traits.epsilon;
-    if step.world.chance.double() < epsilon {
-        Direction::BASE[step.world.chance.below(4) as usize]
+    if step.world.dice().double() < epsilon {
+        Direction::BASE[step.world.dice().below(4) as usize]
     } else {
         otherwise(step, slot)
     }
@@ -344,7 +344,7 @@ fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction
         },
     };
     let Some((target, rect)) = chosen else {
-        return Direction::BASE[step.world.chance.below(4) as usize];
+        return Direction::BASE[step.world.dice().below(4) as usize];
     };
     let mut way = first_step(step, own, (rect.x, rect.y));
     let extra = step.world.extra(rules, slot);
@@ -367,7 +367,7 @@ fn new_target(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Result<Option<
         if count == 0 {
             return Err(Limit::NoSprite);
         }
-        let drawn = step.world.chance.below(count as i32) as usize;
+        let drawn = step.world.dice().below(count as i32) as usize;
         targets.slots(step.world).nth(drawn)
     } else {
         let distance = |target: &Slot| physics::distance(traits.continuous, own, rect(step.world, *target));

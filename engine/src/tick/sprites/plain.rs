@@ -8,7 +8,7 @@ use crate::world::Slot;
 
 pub(super) fn random_missile(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     if step.world.overrides(slot).orientation == Direction::NIL {
-        let drawn = Direction::BASE[step.world.chance.below(4) as usize];
+        let drawn = Direction::BASE[step.world.dice().below(4) as usize];
         step.world.face(slot, drawn);
     }
     physics::passive(step, slot);
@@ -35,7 +35,7 @@ pub(super) fn spreader(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let stype = traits.stypes.first().copied().unwrap_or(sprite.stype);
     for direction in Direction::BASE {
-        if step.world.chance.double() < traits.spread_probability {
+        if step.world.dice().double() < traits.spread_probability {
             let at = |corner: i32, component: f64, size: i32| {
                 (f64::from(corner) + component * f64::from(size)) as i32
             };

@@ -20,12 +20,12 @@ pub(super) fn multi_sprite(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
 }
 
 fn produce(step: &mut Step<'_, impl Scheduler>, slot: Slot, stypes: &[SpriteType]) {
-    let tick = step.world.tick;
+    let tick = step.world.tick();
     if !step.world.sprite(slot).is(flag::STARTED) {
         step.world.edit_overrides(slot).start = tick;
         step.world.edit(slot).set(flag::STARTED, true);
     }
-    let draw = f64::from(step.world.chance.float());
+    let draw = f64::from(step.world.dice().float());
     let sprite = step.world.sprite(slot);
     let &Overrides { start, orientation, .. } = step.world.overrides_of(sprite);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -49,7 +49,7 @@ fn produce(step: &mut Step<'_, impl Scheduler>, slot: Slot, stypes: &[SpriteType
 
 /// Moves at random, then acts as a spawn point at its new place.
 pub(super) fn random_bomber(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
-    let direction = Direction::BASE[step.world.chance.below(4) as usize];
+    let direction = Direction::BASE[step.world.dice().below(4) as usize];
     let speed = step.world.overrides(slot).speed;
     physics::active(step, slot, direction, speed);
     spawn_point(step, slot);
@@ -61,7 +61,7 @@ pub(super) fn bomber_random_missile(step: &mut Step<'_, impl Scheduler>, slot: S
     if count == 0 {
         return step.stop(Limit::NoType);
     }
-    let drawn = step.world.chance.below(count as i32) as usize;
+    let drawn = step.world.dice().below(count as i32) as usize;
     let stype = step.world.missile(step.rules, slot, drawn);
     if step.world.overrides(slot).spawns != stype {
         step.world.edit_overrides(slot).spawns = stype;

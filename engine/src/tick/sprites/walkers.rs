@@ -16,7 +16,7 @@ pub(super) fn walker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
         } else if ahead < 0.0 {
             -1.0
         } else {
-            [-1.0, 1.0][step.world.chance.below(2) as usize]
+            [-1.0, 1.0][step.world.dice().below(2) as usize]
         };
         let direction = Direction { x, y: 0.0 };
         step.world.face(slot, direction);
@@ -33,7 +33,7 @@ pub(super) fn walker_jumper(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
     let sprite = *step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    if sprite.is(flag::ON_GROUND) && traits.probability > step.world.jumps.double() {
+    if sprite.is(flag::ON_GROUND) && traits.probability > step.world.second_dice().double() {
         jump(step, slot, traits.jump_strength);
     } else {
         let &Overrides { orientation, speed, .. } = step.world.overrides(slot);

@@ -1,7 +1,7 @@
 //! Renaming of the sprite types of a game, wherever the game names them.
 
-use super::description::{Description, Param, SpriteLine, Word};
 use crate::rules::effects::{ParameterKind, effect_parameters};
+use crate::syntax::{Description, Param, SpriteLine, Word};
 use std::collections::BTreeMap;
 
 impl Description {

@@ -1,0 +1,206 @@
+//! The numbers of a world beside its sprites: time, score, outcome, chance, timers and what effects remember.
+
+use super::{NONE, Slot, Timer, World};
+use crate::chance::Chance;
+use crate::rules::{Action, Outcome, SpriteType};
+
+/// Declares readers of copied fields.
+macro_rules! readers {
+    ($($(#[$doc:meta])* $field:ident: $Field:ty,)*) => {
+        impl World {
+            $($(#[$doc])*
+            #[inline(always)]
+            pub(crate) fn $field(&self) -> $Field {
+                self.$field
+            })*
+        }
+    };
+}
+
+readers! {
+    /// The number of ticks played, minus one.
+    tick: i32,
+    score: i64,
+    outcome: Outcome,
+    /// The slot of the player's avatar, disabled or not.
+    avatar: Slot,
+    /// The size of a cell in pixels.
+    block: i32,
+    columns: i32,
+    rows: i32,
+    /// The creation number of the next sprite.
+    next_id: u32,
+    /// The reference's sprite counter, including its drift (`spec/03` §5.1).
+    population: i32,
+    /// Messages logged so far.
+    messages: u32,
+    /// The flag that lets counters end the game.
+    can_end: bool,
+    /// The number of sprites that are not wholly on the screen.
+    off: u32,
+    /// `true` if the counts of sprites have changed since terminations looked at them.
+    census_changed: bool,
+}
+
+impl World {
+    /// Starts a tick with the player's action.
+    pub(crate) fn start_tick(&mut self, action: Action) {
+        self.tick += 1;
+        self.last_action = action;
+    }
+
+    /// Ends the episode.
+    pub(crate) fn end(&mut self, outcome: Outcome) {
+        self.outcome = outcome;
+    }
+
+    /// The action of the last tick.
+    pub(crate) fn last_action(&self) -> Action {
+        self.last_action
+    }
+
+    pub(crate) fn set_outcome_and_action(&mut self, outcome: Outcome, action: Action) {
+        (self.outcome, self.last_action) = (outcome, action);
+    }
+
+    /// The random number generator.
+    #[inline(always)]
+    pub(crate) fn chance(&self) -> Chance {
+        self.chance
+    }
+
+    /// The random number generator, to draw from.
+    #[inline(always)]
+    pub(crate) fn dice(&mut self) -> &mut Chance {
+        &mut self.chance
+    }
+
+    /// The second random stream.
+    pub(crate) fn jumps(&self) -> Chance {
+        self.jumps
+    }
+
+    /// The second random stream, to draw from.
+    pub(crate) fn second_dice(&mut self) -> &mut Chance {
+        &mut self.jumps
+    }
+
+    /// Sets the future of both random streams.
+    pub(crate) fn reseed(&mut self, chance: Chance, jumps: Chance) {
+        (self.chance, self.jumps) = (chance, jumps);
+    }
+
+    pub(crate) fn add_score(&mut self, change: i64) {
+        self.score += change;
+    }
+
+    pub(crate) fn reset_score(&mut self) {
+        self.score = 0;
+    }
+
+    /// The game's counters.
+    pub(crate) fn counters(&self) -> &[i32] {
+        &self.counters
+    }
+
+    pub(crate) fn add_to_counter(&mut self, at: usize, change: i32) {
+        self.counters[at] = self.counters[at].wrapping_add(change);
+    }
+
+    /// Logs messages.
+    pub(crate) fn add_messages(&mut self, count: u32) {
+        self.messages = self.messages.saturating_add(count);
+    }
+
+    pub(crate) fn forget_messages(&mut self) {
+        self.messages = 0;
+    }
+
+    /// Notes that terminations have looked at the counts, unless they are to look again.
+    pub(crate) fn settle_census(&mut self, look_again: bool) {
+        self.census_changed = look_again;
+    }
+
+    /// Sets the flag that lets counters end the game. Returns `true` if it changes.
+    pub(crate) fn permit_end(&mut self, can_end: bool) -> bool {
+        std::mem::replace(&mut self.can_end, can_end) != can_end
+    }
+
+    /// The scheduled timers, the next one last.
+    pub(crate) fn timers(&self) -> &[Timer] {
+        &self.timers
+    }
+
+    /// Schedules a timer before all others that are due at the same tick (`spec/03` §6.2).
+    pub(crate) fn plan(&mut self, timer: Timer) {
+        let at = self.timers.partition_point(|other| other.due >= timer.due);
+        self.timers.insert(at, timer);
+    }
+
+    /// Takes a timer that is due.
+    pub(crate) fn take_due(&mut self) -> Option<Timer> {
+        self.timers.pop_if(|timer| timer.due <= self.tick)
+    }
+
+    /// The memory of an effect, see [`crate::rules::memory`].
+    #[inline(always)]
+    pub(crate) fn memory(&self, effect: u16) -> u8 {
+        self.memory[usize::from(effect)]
+    }
+
+    /// Sets or clears a bit in the memory of an effect.
+    pub(crate) fn remember(&mut self, effect: u16, bit: u8, on: bool) {
+        let byte = &mut self.memory[usize::from(effect)];
+        let before = std::mem::replace(byte, if on { *byte | bit } else { *byte & !bit });
+        self.memory_is_dirty |= before != *byte;
+    }
+
+    /// Tests whether a sprite of a type has been made before.
+    pub(crate) fn has_had(&self, stype: SpriteType) -> bool {
+        self.templates[stype.index()] != 0
+    }
+
+    /// Notes that a sprite of a type is made. Returns `true` if it is the first one.
+    pub(crate) fn is_first_of(&mut self, stype: SpriteType) -> bool {
+        let first = std::mem::replace(&mut self.templates[stype.index()], 1) == 0;
+        self.memory_is_dirty |= first;
+        first
+    }
+
+    /// Gives the avatar's role to a sprite. Returns the sprite that had it.
+    pub(crate) fn set_avatar(&mut self, slot: Slot) -> Slot {
+        std::mem::replace(&mut self.avatar, slot)
+    }
+
+    /// Tests whether there is an avatar, disabled or not.
+    pub(crate) fn has_avatar(&self) -> bool {
+        self.avatar != NONE
+    }
+
+    /// Raises a shield for this tick.
+    pub(crate) fn shield(&mut self, shield: (SpriteType, SpriteType, u16)) {
+        if let Err(at) = self.shields.binary_search(&shield) {
+            self.shields.insert(at, shield);
+        }
+    }
+
+    /// Tests whether a shield has been raised in this tick.
+    #[inline]
+    pub(crate) fn is_shielded(&self, shield: (SpriteType, SpriteType, u16)) -> bool {
+        !self.shields.is_empty() && self.shields.binary_search(&shield).is_ok()
+    }
+
+    /// Notes that an effect has pulled a sprite in this tick. Returns the number of those that it was sorted among;
+    /// `None` if it has been pulled already.
+    pub(crate) fn pull(&mut self, effect: u16, slot: Slot) -> Option<usize> {
+        let at = self.pulled.binary_search(&(effect, slot)).err()?;
+        self.pulled.insert(at, (effect, slot));
+        Some(self.pulled.len() - 1)
+    }
+
+    /// Forgets what holds for one tick only.
+    pub(crate) fn end_tick(&mut self) {
+        self.shields.clear();
+        self.pulled.clear();
+    }
+}
