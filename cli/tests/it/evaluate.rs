@@ -1,7 +1,7 @@
 //! `arcade evaluate` as users run it: with players that come with the suite, and with a model behind a server that
 //! misbehaves, is killed and resumed.
 
-use crate::arcade::{arcade, files, run, text};
+use crate::arcade::{arcade, files, run, sweeping, text};
 use crate::server::{ReceivedRequest, Response, Server};
 use engine::Digest;
 use evaluation::log::{Event, ReplyClass, read, without_times};
@@ -146,7 +146,7 @@ fn killed_evaluations_lose_nothing() {
 
     let server = Server::start(slow);
     let url = server.base_url();
-    let kills = 20;
+    let kills = if sweeping() { 20 } else { 8 };
     for kill in 0..kills {
         let mut command = arcade(&broken);
         // Nothing can be resumed before the folder exists.
@@ -183,11 +183,14 @@ fn failing_servers_leave_episodes_open() {
         || Response::reply(200, ""),
         || Response::reply(200, "<html>not now</html>"),
     ];
+    let once = ["--tries", "1", "--concurrency", "1"];
+    let server = Server::start(answer);
+    let undisturbed = tempfile::tempdir().unwrap();
+    run(undisturbed.path(), &asking(&server.base_url(), &once), 0);
     for (kind, act) in bad.into_iter().enumerate() {
         let home = tempfile::tempdir().unwrap();
         let failing =
             Server::start(move |number, asked| if number < 5 { answer(number, asked) } else { act() });
-        let once = ["--tries", "1", "--concurrency", "1"];
         let output = run(home.path(), &asking(&failing.base_url(), &once), 3);
         assert!(text(&output.stderr).contains("with --resume"), "{kind}: {}", text(&output.stderr));
         let open = logs(&home.path().join("results"));
@@ -205,8 +208,6 @@ fn failing_servers_leave_episodes_open() {
         let resumed = asking(&url, &again);
         let played = json(&run(home.path(), &resumed, 0));
         assert_eq!(played["tally"]["open"], 0);
-        let undisturbed = tempfile::tempdir().unwrap();
-        run(undisturbed.path(), &asking(&server.base_url(), &once), 0);
         let without_halts = |folder: &Path| {
             let mut logs = logs(&folder.join("results"));
             logs.values_mut().for_each(|log| log.retain(|event| !matches!(event, Event::Halt { .. })));

@@ -81,6 +81,8 @@ fn impossible_requests_end_without_a_level() {
         "hailglass",
         "--count",
         "1",
+        "--size",
+        "8x8",
         "--with",
         "orchid=100",
         "--out",
