@@ -1,4 +1,18 @@
-//! The scheduler that leaves out what has no effect.
+//! The scheduler that leaves out what has no effect: the list of all that a tick may leave out, and why it may.
+//!
+//! | Left out | Because | Where |
+//! |---|---|---|
+//! | a pass of the event phase | no two sprites of its sides share a cell, so none overlap | `contacts.rs` |
+//! | a type within a pass | it shares no cell with the other side | `contacts.rs` |
+//! | the first side of a pass | the effect allows that meetings are found from the other side; they run in the same order | `passes.rs` |
+//! | an update that would not move the sprite | its speed, cooldown or class says so; draws are still made | `updates.rs` |
+//! | an update of a producer that only draws | the draw is made, and too high | `updates.rs` |
+//! | updates of a sprite that flies straight on | its place follows from the tick; it lands before anything else happens to it | `flight.rs` |
+//! | updates of a sprite that the same rule puts back every time | nothing entered or left its cells; whatever does wakes it | `sleep.rs` |
+//!
+//! Nothing else is left out. What cannot be foreseen wakes and lands all ([`Scheduler::unsettles`]): timers, effects on
+//! distant sprites, a tick that stops. Tests compare every tick with [`Unscheduled`](crate::tick::Unscheduled), on all games
+//! and on random ones; `docs/decisions/0005-foreseen-sprites.md` has the price and the gain of each.
 
 use super::{Plan, Schedule, updates};
 use crate::geometry::Rect;

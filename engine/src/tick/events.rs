@@ -66,7 +66,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Calls [`State::plan`](crate::State::plan), and counts the work of shifting timers in memory.
+    /// Calls [`World::plan`](crate::world::World::plan), and counts the work of shifting timers in memory.
     pub(crate) fn plan(&mut self, timer: Timer) {
         self.work(self.world.timers().len() / 64);
         self.world.plan(timer);

@@ -2,7 +2,7 @@
 //!
 //! [`World::state_hash`] covers everything that can influence the future, including the random number generator and the
 //! tick. It is a sum over the sprites that `step` keeps up to date as they change, plus a hash of the few numbers beside
-//! them. [`World::search_key`] covers live behaviour only, for transposition tables (`search_key.rs`).
+//! them. [`State::search_key`](crate::State::search_key) covers live behaviour only, for transposition tables (`search_key.rs`).
 
 use super::contribution::{Contribution, SideTables, Sum, exchange, minus, plus};
 use super::{Extra, NONE, Target, World, flag};

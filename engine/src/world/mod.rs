@@ -5,6 +5,7 @@
 //! the order of their creation (a group in the reference), and the sprites in one cell of the board (`occupancy.rs`).
 //! Effects read and write sprites only through the methods here, so that the layout can change without them.
 
+mod changes;
 mod contribution;
 pub(crate) mod flight;
 mod hash;
@@ -24,7 +25,6 @@ mod sprite;
 
 use crate::chance::Chance;
 use crate::flat::{bytes_of_fields, flat};
-use crate::limits::MAX_SLOTS;
 use crate::rules::{Action, EffectInfo, Outcome, Rules, SpriteType};
 use contribution::{Contribution, HashClass, Sum};
 pub(crate) use hash::{Mixer, bits, two};
@@ -286,136 +286,9 @@ impl World {
         tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
     }
 
-    /// A sprite for modification: marks its whole hash contribution as dirty.
-    pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
-        let sprite = self.edit_motion(slot);
-        sprite.flags |= flag::CHANGED;
-        sprite
-    }
-
-    /// A sprite for modification of flags, place, age, time to live, count and heading only.
-    pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
-        let sprite = &mut self.sprites[usize::from(slot)];
-        if sprite.flags & flag::DIRTY == 0 {
-            sprite.flags |= flag::DIRTY;
-            self.dirty.push(slot);
-        }
-        sprite
-    }
-
-    /// The note of the schedule on a sprite.
-    #[inline(always)]
-    pub(crate) fn activity(&mut self, slot: Slot) -> &mut u16 {
-        &mut self.sprites[usize::from(slot)].activity
-    }
-
-    /// Disables an avatar: it stays, and terminations do not count it.
-    pub(crate) fn disable(&mut self, slot: Slot) {
-        let sprite = self.edit(slot);
-        sprite.set(flag::DISABLED, true);
-        let stype = sprite.stype;
-        self.groups[stype.index()].disabled += 1;
-        self.census_changed = true;
-    }
-
-    /// Enters a sprite into the kill list.
-    pub(crate) fn doom(&mut self, slot: Slot) {
-        self.edit_motion(slot).set(flag::KILLED, true);
-        self.killed.push(slot);
-    }
-
     /// The kill list; it may name a sprite twice.
     #[inline(always)]
     pub(crate) fn killed(&self) -> &[Slot] {
         &self.killed
-    }
-
-    /// Empties the kill list. The reference's counter goes down twice for a sprite that is in it twice.
-    pub(crate) fn forget_killed(&mut self) {
-        self.population -= self.killed.len() as i32;
-        self.killed.clear();
-    }
-
-    /// Takes a slot out of its chains and frees it. The caller calls [`World::forget_gone`] after the last one.
-    pub(crate) fn release(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
-        let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
-        self.leave_cell(models, slot, watcher);
-        self.census_changed |= models.of_type[stype.index()].counted;
-        let group = &mut self.groups[stype.index()];
-        group.count -= 1;
-        if flags & flag::DISABLED != 0 {
-            group.disabled -= 1;
-        }
-        match previous {
-            NONE => group.head = next,
-            previous => self.sprites[usize::from(previous)].next = next,
-        }
-        match next {
-            NONE => self.groups[stype.index()].tail = previous,
-            next => self.sprites[usize::from(next)].previous = previous,
-        }
-        self.release_side_tables(slot);
-        self.release_overrides(slot);
-        let next = std::mem::replace(&mut self.free, slot);
-        let sprite = self.edit(slot);
-        // It stays in the list of dirty sprites, once.
-        (sprite.next, sprite.flags) = (next, flag::FREE | flag::DIRTY);
-    }
-
-    /// Clears references to slots that have been freed. Pursuers keep the last rectangle of their target.
-    pub(crate) fn forget_gone(&mut self) {
-        self.forget_moved();
-        let World { extras, sprites, .. } = self;
-        for extra in extras {
-            if let Target::Sprite(slot) = extra.target
-                && sprites[usize::from(slot)].is(flag::FREE)
-            {
-                extra.target = Target::Gone(sprites[usize::from(slot)].rect);
-            }
-        }
-    }
-
-    /// Takes a slot for `sprite`, at the end of its type's chain; `None` if there is no slot left.
-    pub(crate) fn admit(
-        &mut self,
-        models: &Models,
-        sprite: &Sprite,
-        watcher: &mut impl Watcher,
-    ) -> Option<Slot> {
-        let group = &mut self.groups[sprite.stype.index()];
-        let slot = match self.free {
-            NONE => {
-                let slot =
-                    Slot::try_from(self.sprites.len()).ok().filter(|&slot| usize::from(slot) < MAX_SLOTS)?;
-                self.sprites.push(*sprite);
-                self.contributions.push(Contribution::default());
-                slot
-            }
-            slot => slot,
-        };
-        let tail = std::mem::replace(&mut group.tail, slot);
-        group.count += 1;
-        if tail == NONE {
-            group.head = slot;
-        } else {
-            self.sprites[usize::from(tail)].next = slot;
-        }
-        self.census_changed |= models.of_type[sprite.stype.index()].counted;
-        let place = &mut self.sprites[usize::from(slot)];
-        if self.free == slot {
-            self.free = place.next;
-        }
-        // A slot that was freed in this tick may be in the list of dirty sprites already.
-        let dirty = place.is(flag::DIRTY);
-        *place = *sprite;
-        place.previous = tail;
-        place.flags |= flag::DIRTY | flag::CHANGED;
-        if !dirty {
-            self.dirty.push(slot);
-        }
-        self.enter_cell(models, slot, watcher);
-        self.next_id += 1;
-        self.population += 1;
-        Some(slot)
     }
 }

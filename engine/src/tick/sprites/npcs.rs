@@ -36,7 +36,7 @@ pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
     physics::active(step, slot, direction, speed);
 }
 
-/// Chooses the direction of a character that has to wait, see [`super::waits`].
+/// Chooses the direction of a character that has to wait.
 #[inline(always)]
 pub(crate) fn choose(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     if wanders(class) {
