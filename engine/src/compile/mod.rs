@@ -29,7 +29,7 @@ use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
 pub(crate) use outline::{Outline, outline};
-use scenery::{referenced, scenery};
+use scenery::{fixtures, referenced, scenery};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -138,6 +138,7 @@ fn compile_with(
         counters: header.counters,
         can_end,
         scenery: scenery(&types, &referenced),
+        fixtures: fixtures(description, &types, &program),
         referenced,
         order,
         mapping,

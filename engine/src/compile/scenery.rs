@@ -1,5 +1,8 @@
-//! Scenery: the types that no rule, no other sprite and no termination refers to, and that do nothing by themselves.
+//! Types whose sprites never change: scenery, which no rule, no other sprite and no termination refers to, and fixtures,
+//! which others only meet.
 
+use super::interactions::Program;
+use crate::rules::class::SpriteClass;
 use crate::rules::{SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, Word};
 use std::collections::BTreeSet;
@@ -10,18 +13,26 @@ const BY_NUMBER: &str = "itype";
 /// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it. `true` in case of doubt:
 /// a value that is only spelled like the type counts, too. Cost: O(words of the game × log).
 pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
+    let interactions = &description.interactions;
+    let sides = interactions.iter().flat_map(|line| line.second.iter().chain([&line.first]));
+    let sides: BTreeSet<&str> = sides.map(|word: &Word| word.text.as_str()).collect();
+    let at_side =
+        |info: &TypeInfo| info.tree.iter().any(|other| sides.contains(types[other.index()].name.as_str()));
+    let valued = valued(description, types);
+    types.iter().zip(valued).map(|(info, valued)| valued || at_side(info)).collect()
+}
+
+/// By type: `true` if the value of a parameter refers to it, in any line. Cost: as above.
+fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let lines = description.sprite_lines();
     let lines = lines.iter().flat_map(|(_, line)| &line.params);
-    let interactions = &description.interactions;
     let endings = description.terminations.iter().flat_map(|line| &line.params);
     let params: Vec<&Param> = lines
-        .chain(interactions.iter().flat_map(|line| &line.params))
+        .chain(description.interactions.iter().flat_map(|line| &line.params))
         .chain(endings)
         .chain(&description.header.params)
         .collect();
-    let sides = interactions.iter().flat_map(|line| line.second.iter().chain([&line.first]));
-    let words = sides.chain(params.iter().map(|param| &param.value));
-    let named: BTreeSet<&str> = words.flat_map(|word: &Word| word.text.split(',')).collect();
+    let named: BTreeSet<&str> = params.iter().flat_map(|param| param.value.text.split(',')).collect();
     let numbered: BTreeSet<usize> = params
         .iter()
         .filter(|param| param.key.text == BY_NUMBER)
@@ -33,16 +44,43 @@ pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<b
     types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
 }
 
+/// Tests whether sprites of a type stay as a level makes them, for all that they and the engine do by themselves.
+fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
+    let info = &types[stype.index()];
+    // The first sprite of a type differs from later ones only if its size differs from a cell's.
+    let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
+    let is_still = info.order.is_some() && info.is_idle() && !info.is_like_avatar();
+    // Some avatars leave walls behind without naming them.
+    let leave_walls = |info: &TypeInfo| info.class == Some(SpriteClass::OngoingTurningAvatar);
+    is_whole && is_still && (stype != SpriteType(0) || !types.iter().any(leave_walls))
+}
+
 /// By type: `true` if its sprites are scenery.
 pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool]) -> Vec<bool> {
-    let is_scenery = |(number, info): (u16, &TypeInfo)| {
-        let stype = SpriteType(number);
-        // The first sprite of a type differs from later ones only if its size differs from a cell's.
-        let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
-        let is_idle = info.is_idle();
-        let is_still = info.order.is_some() && is_idle && !info.is_like_avatar();
-        // Some avatars leave walls behind without naming them.
-        stype != SpriteType(0) && !referenced[stype.index()] && is_whole && is_still
+    // Type 0 is `wall`, of which the engine itself speaks.
+    let is_scenery = |stype: SpriteType| {
+        stype != SpriteType(0) && !referenced[stype.index()] && stays_as_made(types, stype)
     };
-    (0..).zip(types).map(is_scenery).collect()
+    (0..types.len() as u16).map(SpriteType).map(is_scenery).collect()
+}
+
+/// By type: `true` if its sprites are fixtures. Others meet them, and no rule makes, moves, changes or removes them: no
+/// parameter names them, no effect is executed on them, and those that are executed beside them leave them alone.
+pub(crate) fn fixtures(description: &Description, types: &[TypeInfo], program: &Program) -> Vec<bool> {
+    let firsts = program.passes.iter().map(|pass| pass.first);
+    let firsts = firsts.chain(program.edge.iter().map(|&(stype, _)| stype));
+    let firsts = firsts.chain(program.timed.iter().filter_map(|timed| timed.target));
+    let touched = program
+        .passes
+        .iter()
+        .filter(|pass| !program.effects[usize::from(pass.effect)].summary.spares_second());
+    let trees = firsts.chain(touched.map(|pass| pass.second)).filter_map(|stype| types.get(stype.index()));
+    let touched: BTreeSet<SpriteType> = trees.flat_map(|info| info.tree.iter().copied()).collect();
+    let valued = valued(description, types);
+    let is_fixture = |stype: SpriteType| {
+        let info = &types[stype.index()];
+        let is_single = info.path.iter().any(|ancestor| types[ancestor.index()].singleton);
+        !valued[stype.index()] && !touched.contains(&stype) && !is_single && stays_as_made(types, stype)
+    };
+    (0..types.len() as u16).map(SpriteType).map(is_fixture).collect()
 }

@@ -265,6 +265,8 @@ pub(crate) struct Rules {
     pub(crate) referenced: Vec<bool>,
     /// By type: `true` if its sprites are scenery (`scenery.rs`).
     pub(crate) scenery: Vec<bool>,
+    /// By type: `true` if its sprites are fixtures (`fixtures.rs`).
+    pub(crate) fixtures: Vec<bool>,
     /// The sprites that each character places, by ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
     /// Level characters that stand for an undeclared sprite: the reference crashes on a level that uses one.

@@ -212,9 +212,8 @@ impl Step<'_, Foresight<'_>> {
             self.land_one(partner);
             // Blocking another sprite changes nothing, unless it changes the score.
             let harmless = free && effect.puts_back.is_some();
-            let activity = self.world.activity(partner);
-            if *activity != mark::NOTHING && !harmless {
-                *activity = mark::DISTURBED;
+            if self.world.sprite(partner).activity != mark::NOTHING && !harmless {
+                *self.world.activity(partner) = mark::DISTURBED;
             }
         }
     }

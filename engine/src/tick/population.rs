@@ -86,6 +86,11 @@ impl<S: Scheduler> Step<'_, S> {
             self.world.add_scenery(sprite);
             return None;
         }
+        if rules.fixtures[stype.index()] {
+            // Only a level makes fixtures, and nothing needs their slots.
+            self.world.add_fixture(self.models, sprite, &mut self.scheduler);
+            return None;
+        }
         let Some(slot) = self.world.admit(self.models, &sprite, &mut self.scheduler) else {
             self.stop(Limit::Sprites);
             return None;

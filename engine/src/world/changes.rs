@@ -2,6 +2,7 @@
 //!
 //! - [`World::admit`] takes a new sprite in; [`World::release`] lets one go. Between them a sprite may be in the kill list
 //!   ([`World::doom`]), or an avatar disabled ([`World::disable`]).
+//! - [`World::add_fixture`] makes a sprite that never changes (`fixtures.rs`), [`World::add_scenery`] one that nobody meets.
 //! - [`World::relocate`] moves it to another place, and may change its size (`occupancy.rs`). [`World::set_last`] changes
 //!   where it was a tick ago (`moved.rs`).
 //! - [`World::edit`] and [`World::edit_motion`] give access to its other fields, and mark its part of the hash as stale.
@@ -23,17 +24,20 @@ impl World {
         sprite: &Sprite,
         watcher: &mut impl Watcher,
     ) -> Option<Slot> {
-        let group = &mut self.groups[sprite.stype.index()];
         let slot = match self.free {
             NONE => {
-                let slot =
-                    Slot::try_from(self.sprites.len()).ok().filter(|&slot| usize::from(slot) < MAX_SLOTS)?;
+                let slot = self.sprites.len();
+                if slot + self.fixture_count() >= MAX_SLOTS {
+                    return None;
+                }
+                let slot = slot as Slot;
                 self.sprites.push(*sprite);
                 self.contributions.push(Contribution::default());
                 slot
             }
             slot => slot,
         };
+        let group = &mut self.groups[sprite.stype.index()];
         let tail = std::mem::replace(&mut group.tail, slot);
         group.count += 1;
         if tail == NONE {
@@ -136,9 +140,9 @@ impl World {
         let World { extras, sprites, .. } = self;
         for extra in extras {
             if let Target::Sprite(slot) = extra.target
-                && sprites[usize::from(slot)].is(flag::FREE)
+                && let Some(sprite) = sprites.get(usize::from(slot)).filter(|sprite| sprite.is(flag::FREE))
             {
-                extra.target = Target::Gone(sprites[usize::from(slot)].rect);
+                extra.target = Target::Gone(sprite.rect);
             }
         }
     }

@@ -7,6 +7,7 @@
 
 mod changes;
 mod contribution;
+mod fixtures;
 pub(crate) mod flight;
 mod hash;
 mod models;
@@ -27,6 +28,7 @@ use crate::chance::Chance;
 use crate::flat::{bytes_of_fields, flat};
 use crate::rules::{Action, EffectInfo, Outcome, Rules, SpriteType};
 use contribution::{Contribution, HashClass, Sum};
+use fixtures::Fixtures;
 pub(crate) use hash::{Mixer, bits, two};
 pub use hash::{SearchKey, StateHash};
 pub(crate) use models::{Models, TypeBits, ones};
@@ -156,6 +158,8 @@ flat! {
         shared {
             /// The path finding tables (`paths.rs`); `None` without `obs=`.
             paths: Paths,
+            /// The fixtures (`fixtures.rs`); `None` if there are none.
+            fixtures: Fixtures,
             /// The scenery (`scenery.rs`); `None` if there is none.
             scenery: Scenery,
         }
@@ -220,6 +224,7 @@ impl World {
             replaced: Vec::new(),
             counters: vec![0; rules.counters],
             paths: None,
+            fixtures: None,
             scenery: None,
         }
     }
@@ -234,11 +239,15 @@ impl World {
         self.avatar_sprite().map(|sprite| sprite.id)
     }
 
+    #[inline(always)]
     pub(crate) fn sprite(&self, slot: Slot) -> &Sprite {
-        &self.sprites[usize::from(slot)]
+        match self.sprites.get(usize::from(slot)) {
+            Some(sprite) => sprite,
+            None => self.fixture(slot),
+        }
     }
 
-    /// The sprite in a slot; `None` for [`NONE`].
+    /// The sprite in a slot; `None` for [`NONE`] and fixtures.
     pub(crate) fn get(&self, slot: Slot) -> Option<&Sprite> {
         self.sprites.get(usize::from(slot))
     }
@@ -248,7 +257,7 @@ impl World {
         self.get(self.avatar)
     }
 
-    /// The number of slots, free ones included.
+    /// The number of slots, free ones included, without those of fixtures.
     pub(crate) fn slot_count(&self) -> usize {
         self.sprites.len()
     }

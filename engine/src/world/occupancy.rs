@@ -36,9 +36,10 @@ impl World {
         }
         (self.big, self.off, self.multi_cell_bits) = (0, 0, 0);
         (self.big_bits, self.vast, self.left_behind) = (0, 0, 0);
+        self.reenter_fixtures(models, watcher);
         for stype in (0..self.groups.len() as u16).map(SpriteType) {
             let mut slot = self.group(stype).head;
-            while slot != NONE {
+            while usize::from(slot) < self.sprites.len() {
                 match self.sprite(slot).flies() {
                     true => self.enter_cell_again(models, slot, watcher),
                     false => self.enter_cell(models, slot, watcher),
@@ -263,7 +264,12 @@ impl World {
 
     /// Notes that a sprite has started to cover a cell.
     #[inline(always)]
-    fn arrive(&mut self, TypeBits { own, partners }: TypeBits, cell: usize, watcher: &mut impl Watcher) {
+    pub(super) fn arrive(
+        &mut self,
+        TypeBits { own, partners }: TypeBits,
+        cell: usize,
+        watcher: &mut impl Watcher,
+    ) {
         let mask = &mut self.masks[cell];
         let others =
             if *mask & own == 0 { std::mem::replace(mask, *mask | own) } else { self.crowd(own, cell) };
@@ -376,8 +382,9 @@ impl World {
     fn link(&mut self, slot: Slot, cell: usize) {
         let sprites = &mut self.sprites[..];
         let head = std::mem::replace(&mut self.cells[cell], slot);
-        if head != NONE {
-            sprites[usize::from(head)].cell_previous = slot;
+        // A fixture is not linked back.
+        if let Some(head) = sprites.get_mut(usize::from(head)) {
+            head.cell_previous = slot;
         }
         let sprite = &mut sprites[usize::from(slot)];
         (sprite.cell_next, sprite.cell_previous) = (head, NONE);
@@ -391,8 +398,8 @@ impl World {
             NONE => self.cells[cell] = cell_next,
             previous => sprites[usize::from(previous)].cell_next = cell_next,
         }
-        if cell_next != NONE {
-            sprites[usize::from(cell_next)].cell_previous = cell_previous;
+        if let Some(next) = sprites.get_mut(usize::from(cell_next)) {
+            next.cell_previous = cell_previous;
         }
     }
 

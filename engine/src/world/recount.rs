@@ -1,5 +1,6 @@
 //! A recount of everything that a world maintains incrementally: chains, cells, counts and lists. For tests and fuzzing.
 
+use super::fixtures::mirrored;
 use super::{Group, Models, NONE, Slot, Sprite, World, flag};
 use crate::geometry::Rect;
 use crate::rules::class::SpriteClass;
@@ -12,7 +13,7 @@ impl World {
     /// # Errors
     /// The first difference, in words.
     pub(crate) fn recount(&self, rules: &Rules, models: &Models) -> Result<Vec<usize>, String> {
-        let mut alive = vec![false; self.sprites.len()];
+        let mut alive = vec![false; self.sprites.len() + self.fixture_count()];
         let mut counts = Vec::new();
         for stype in (0..rules.types.len() as u16).map(SpriteType) {
             let counted = self.recount_group(rules, stype, &mut alive)?;
@@ -25,7 +26,7 @@ impl World {
         }
         self.recount_cells(models, &alive)?;
         self.recount_masks(models)?;
-        self.recount_lists(rules, &alive)?;
+        self.recount_lists(rules, &alive[..self.sprites.len()])?;
         Ok(counts)
     }
 
@@ -67,6 +68,14 @@ impl World {
         off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
     }
 
+    /// The place of a slot in lists of all sprites: fixtures follow the others.
+    fn counted_at(&self, slot: Slot) -> usize {
+        match usize::from(slot) {
+            slot if slot < self.sprites.len() => slot,
+            slot => self.sprites.len() + mirrored(slot),
+        }
+    }
+
     /// Walks the chain of a type.
     fn recount_group(&self, rules: &Rules, stype: SpriteType, alive: &mut [bool]) -> Result<Group, String> {
         let kept = self.group(stype);
@@ -75,7 +84,7 @@ impl World {
         for slot in self.slots(stype) {
             let sprite = self.sprite(slot);
             let name = &rules.types[stype.index()].name;
-            if std::mem::replace(&mut alive[usize::from(slot)], true) || sprite.is(flag::FREE) {
+            if std::mem::replace(&mut alive[self.counted_at(slot)], true) || sprite.is(flag::FREE) {
                 return Err(format!("slot {slot} of `{name}` is in two chains, or free"));
             }
             let ordered = counted.tail == NONE || self.sprite(counted.tail).id < sprite.id;
@@ -111,7 +120,9 @@ impl World {
             let (mut slot, mut previous) = (head, NONE);
             while slot != NONE {
                 let sprite = self.sprite(slot);
-                if std::mem::replace(&mut seen[usize::from(slot)], true) || sprite.cell_previous != previous {
+                let at = self.counted_at(slot);
+                let is_linked_back = sprite.cell_previous == previous || at >= self.sprites.len();
+                if std::mem::replace(&mut seen[at], true) || !is_linked_back {
                     return Err(format!("slot {slot} is out of place in the chain of cell {cell}"));
                 }
                 let Rect { x, y, .. } = self.rect(sprite);
@@ -124,8 +135,8 @@ impl World {
             }
         }
         let takes_part = |sprite: &Sprite| models.bit(sprite.stype) != 0;
-        let expected = |(at, &alive): (usize, &bool)| alive && takes_part(&self.sprites[at]);
-        if !alive.iter().enumerate().map(expected).eq(seen) {
+        let sprites = self.sprites.iter().chain(self.all_fixtures());
+        if !alive.iter().zip(sprites).map(|(&alive, sprite)| alive && takes_part(sprite)).eq(seen) {
             Err("the cells hold other sprites than the types".to_owned())
         } else {
             Ok(())

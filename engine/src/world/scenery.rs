@@ -70,7 +70,8 @@ mod tests {
         let game = Game::from_source(MEADOW).unwrap();
         let state = game.start(&game.level("A..\n.sz\n").unwrap(), Seed::from_text("meadow"));
         let grass = game.sprite_type("grass").unwrap();
-        assert_eq!((state.world.sprites.len(), state.alive(grass)), (3, 4));
+        // The sand is a fixture: the hero meets it.
+        assert_eq!((state.world.sprites.len(), state.world.fixture_count(), state.alive(grass)), (2, 1, 4));
         assert_eq!(state.places(grass).collect::<Vec<_>>(), [(0, 0), (10, 0), (20, 0), (0, 10)]);
         assert_eq!(
             game.records(&state).iter().map(|record| record.id).collect::<Vec<_>>(),

@@ -535,6 +535,25 @@ impl Summary {
         }
     }
 
+    /// Tests whether an execution leaves the second sprite as it is, provided that no parameter names its type.
+    pub(crate) fn spares_second(&self) -> bool {
+        use EffectSummary as E;
+        let spares = |effect: &EffectSummary| match effect {
+            E::Kill(side) | E::Change { side, .. } => *side == Side::First,
+            E::Collect => false,
+            E::KillAll(_) | E::Become(_) | E::BecomeAny(_) | E::BecomeAll(..) | E::Stop | E::Undo(_) => true,
+            E::Turn | E::Push | E::Carry | E::Teleport | E::Wrap | E::Speed(_) | E::Make(_) | E::Clone => {
+                true
+            }
+            E::Health { .. } | E::Shield { .. } => true,
+        };
+        let stays = match self.moves {
+            Moves::Nothing | Moves::First => true,
+            Moves::Anything => false,
+        };
+        stays && self.redirects.is_none() && self.effects.iter().all(spares)
+    }
+
     /// The part that a tick reads.
     pub(crate) fn in_tick(&self) -> TickSummary {
         TickSummary {
