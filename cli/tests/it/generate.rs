@@ -82,7 +82,7 @@ fn impossible_requests_end_without_a_level() {
         "--count",
         "1",
         "--size",
-        "8x8",
+        "10x10",
         "--with",
         "orchid=100",
         "--out",
