@@ -3,7 +3,8 @@
 //!
 //! This crate depends on no other crate of the workspace. It uses only `+ - * /` and square roots, in a fixed order;
 //! random draws come from ChaCha8 with the caller's seed. The exceptions are for reports only: the p-values of
-//! [`student_p`], [`correlation_p`] and [`welch()`] and the sizes of [`Power`] come from a library's distributions,
+//! [`student_p`], [`correlation_p`] and [`welch()`], the intervals over games and the sizes of [`Power`] and [`Design`] come
+//! from a library's distributions,
 //! whose last digits may differ between machines.
 //!
 //! ```
@@ -18,11 +19,14 @@ mod bootstrap;
 mod clustered;
 mod cohen;
 mod correction;
+mod design;
 mod difference;
 mod fisher;
+mod over_games;
 mod pearson;
 mod power;
 mod quantile;
+pub mod simulation;
 mod spearman;
 mod stratified;
 mod student;
@@ -34,14 +38,16 @@ pub use bootstrap::{bootstrap, bootstrap_difference};
 pub use clustered::{clustered_difference, clustered_mean};
 pub use cohen::cohens_h;
 pub use correction::{benjamini_hochberg, bonferroni};
+pub use design::{Design, Spread};
 pub use difference::difference;
 pub use fisher::fisher;
+pub use over_games::{PairedOverGames, RateOverGames, paired_over_games, rate_over_games};
 pub use pearson::{correlation_p, pearson};
 pub use power::{Power, fisher_power};
 pub use quantile::quantile;
 pub use spearman::spearman;
 pub use stratified::{Stratified, Stratum, stratified};
-pub use student::student_p;
+pub use student::{student_p, student_quantile};
 pub use summary::Summary;
 pub use welch::{Welch, welch};
 pub use wilson::{Interval, Z95, wilson};

@@ -28,15 +28,20 @@ pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
         return Interval { low: 0.0, high: 1.0 };
     }
     let n = trials as f64;
-    let p = successes as f64 / n;
+    score_interval(successes as f64 / n, n, z)
+}
+
+/// Returns Wilson's interval for a proportion `p` of `n` trials, which need not be whole: an effective sample size. `p` must be
+/// a proportion, and `n` positive.
+pub(crate) fn score_interval(p: f64, n: f64, z: f64) -> Interval {
     let z2 = z * z;
     let scale = 1.0 + z2 / n;
     let centre = (p + z2 / (2.0 * n)) / scale;
     let half = z * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt() / scale;
     // Rounding can move the ends slightly beyond their exact values.
     Interval {
-        low: if successes == 0 { 0.0 } else { (centre - half).clamp(0.0, p) },
-        high: if successes == trials { 1.0 } else { (centre + half).clamp(p, 1.0) },
+        low: if p == 0.0 { 0.0 } else { (centre - half).clamp(0.0, p) },
+        high: if p == 1.0 { 1.0 } else { (centre + half).clamp(p, 1.0) },
     }
 }
 

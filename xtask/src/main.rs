@@ -7,6 +7,7 @@ mod episode_run;
 mod fidelity;
 mod instructions;
 mod levels;
+mod simulate;
 mod solve;
 mod survey;
 mod sweep;
@@ -26,6 +27,7 @@ enum Task {
     Bench(bench::Args),
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
+    Simulate(simulate::Args),
     SideBySide(survey::side_by_side::Args),
     Solve(solve::Args),
     Survey(survey::levels::Args),
@@ -37,6 +39,7 @@ fn main() -> anyhow::Result<()> {
         Task::Bench(args) => bench::run(&args),
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),
+        Task::Simulate(args) => simulate::run(&args),
         Task::SideBySide(args) => survey::side_by_side::run(&args),
         Task::Solve(args) => solve::run(&args),
         Task::Survey(args) => survey::levels::run(&args),
