@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "a task prints for its user")]
 
+mod agreement;
 mod bench;
 mod episode_run;
 mod fidelity;
@@ -24,6 +25,7 @@ struct Args {
 
 #[derive(Subcommand)]
 enum Task {
+    Agreement(agreement::Args),
     Bench(bench::Args),
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
@@ -36,6 +38,7 @@ enum Task {
 
 fn main() -> anyhow::Result<()> {
     match Args::parse().task {
+        Task::Agreement(args) => agreement::run(&args),
         Task::Bench(args) => bench::run(&args),
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),
