@@ -296,7 +296,7 @@ fn results_folders_are_read_within_bounds() {
 #[test]
 fn logs_are_compared_with_their_replay() {
     let home = tempfile::tempdir().unwrap();
-    let log = "episodes/lanterns-lvl1-run0.jsonl";
+    let log = "episodes/lanterns-lvl0-run0.jsonl";
     let line = |at: usize, from: &'static str, to: &'static str| {
         move |content: Vec<u8>| {
             let text = String::from_utf8(content).unwrap();
