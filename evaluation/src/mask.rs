@@ -2,7 +2,7 @@
 
 use crate::error::EvaluationError;
 use engine::syntax::{SpriteLine, Trivia};
-use engine::{Description, Game, Observation, Seed};
+use engine::{Description, Digest, Game, Observation, Seed};
 use itertools::Itertools;
 use std::collections::BTreeMap;
 
@@ -51,6 +51,19 @@ impl Mask {
         }
         masked
     }
+}
+
+/// Returns a digest of the rules without the names of types, characters of levels, colours, pictures and comments: games with the
+/// same lines in the same order under other names have the same.
+pub(crate) fn nameless(game: &Game) -> Digest {
+    let description = game.description();
+    let own = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone());
+    let own = own.filter(|name| !RESERVED.contains(&name.as_str())).unique();
+    let names = own.zip(1..).map(|(name, number)| (name, format!("t{number}"))).collect();
+    let mut rules = description.renamed(&names);
+    strip(&mut rules, &["img", "color"]);
+    rules.mapping.clear();
+    Digest::of(engine::syntax::print_bare(&rules).as_bytes())
 }
 
 /// Removes comments and these parameters of sprite types.

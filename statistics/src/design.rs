@@ -29,7 +29,7 @@ impl Default for Spread {
 }
 
 /// A number of games, of levels of each, and of runs on each level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Design {
     /// Games.
     pub games: u64,

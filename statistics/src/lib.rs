@@ -35,7 +35,7 @@ mod welch;
 mod wilson;
 
 pub use bootstrap::{bootstrap, bootstrap_difference};
-pub use clustered::{clustered_difference, clustered_mean};
+pub use clustered::clustered_mean;
 pub use cohen::cohens_h;
 pub use correction::{benjamini_hochberg, bonferroni};
 pub use design::{Design, Spread};

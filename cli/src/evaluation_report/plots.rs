@@ -210,7 +210,7 @@ pub(super) fn win_rates(study: &Study) -> Plot {
     Plot {
         head: "Win rates".to_owned(),
         svg: forest("win rates with Wilson intervals", &rows),
-        caption: "Wilson's intervals: episodes taken for independent. The table has intervals that draw whole games too.".to_owned(),
+        caption: "95 % intervals for games like these; of one game, for exactly its levels.".to_owned(),
     }
 }
 

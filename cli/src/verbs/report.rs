@@ -69,7 +69,7 @@ fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
                 "player": player,
                 "reference": player.is_reference(),
                 "scores": row.scores,
-                "win_rate_by_game": row.by_game,
+                "bounds": row.bounds,
                 "choices": row.choices,
                 "spending": row.spending,
                 "broken_off": row.aborted,

@@ -6,8 +6,9 @@ use crate::metrics::choices::{Choices, Spending};
 use crate::metrics::movement::Movement;
 use crate::metrics::replay::{Replayed, replay};
 use crate::subject::Subject;
-use engine::Outcome;
+use engine::{Digest, Outcome};
 use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// The metrics of an episode. Ratios are within 0..=1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -40,6 +41,12 @@ pub struct EpisodeMetrics {
     pub choices: Choices,
     /// The cost of the choices.
     pub spending: Spending,
+    /// The versions of the model that answered, as the provider calls them.
+    #[serde(skip_serializing_if = "BTreeSet::is_empty")]
+    pub served_by: BTreeSet<String>,
+    /// The digest of all actions, boards, scores and outcomes: equal for identical episodes. `None` if it is not known.
+    #[serde(skip)]
+    pub course: Option<Digest>,
     /// The duration of each decision, ms.
     #[serde(skip)]
     pub decision_ms: Vec<f64>,
@@ -95,6 +102,8 @@ impl EpisodeMetrics {
             movement: Movement::of(meaningful, cells),
             choices: Choices::of(log),
             spending: Spending::of(log),
+            served_by: served_by(log),
+            course: Some(replayed.course),
             decision_ms,
             calls,
         })
@@ -146,6 +155,15 @@ impl EpisodeStatus {
             EpisodeStatus::Interrupted => Some("interrupted"),
         }
     }
+}
+
+/// Returns the versions of the model that answered.
+fn served_by(log: &[Event]) -> BTreeSet<String> {
+    let replies = log.iter().filter_map(|event| match event {
+        Event::Reply(reply) => reply.served_by.clone(),
+        _ => None,
+    });
+    replies.collect()
 }
 
 /// Returns the fraction of flags that are `true`.

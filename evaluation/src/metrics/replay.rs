@@ -6,7 +6,7 @@ use crate::metrics::answers::Answers;
 use crate::metrics::as_code::{AsCode, flags_as_code};
 use crate::metrics::meaningful::{Effect, meaningful};
 use crate::subject::{Subject, SubjectLevel};
-use engine::{Action, Game, Outcome, SEMANTICS, State};
+use engine::{Action, Digest, Game, Outcome, SEMANTICS, State};
 
 /// The results of an episode's replay.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub struct Replayed {
     pub outcome: Outcome,
     /// The score after the last step.
     pub score: f64,
+    /// The digest of all actions, visible boards, scores and outcomes, without the state of chance.
+    pub course: Digest,
 }
 
 /// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar position. Values that
@@ -54,11 +56,14 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
         cells: vec![cell(&subject.game, &state)],
         outcome: state.outcome(),
         score: state.score(),
+        course: Digest::of(b""),
     };
+    let mut course = blake3::Hasher::new();
     let mut code = AsCode::new(&subject.game);
     let (mut effects, mut texts) = (Vec::new(), Vec::new());
     let mut seen = Seen::of(&subject.game, &state);
     let mut places = vec![seen.place()];
+    seen.absorb(&mut course);
     let mut answers = Answers::default();
     for (event, line) in log.iter().zip(1..).skip(1) {
         let malformed =
@@ -84,6 +89,8 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                 replayed.rewards.push(reward);
                 replayed.cells.push(cell(&subject.game, &state));
                 (replayed.outcome, replayed.score) = (state.outcome(), state.score());
+                seen.absorb(&mut course);
+                course.update(format!("{action:?} {:?} {}\n", replayed.outcome, replayed.score).as_bytes());
                 compare(event, &state, &replayed).map_err(malformed)?;
                 answers.step(event).map_err(malformed)?;
             }
@@ -97,6 +104,7 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
             Event::Request { .. } | Event::Message { .. } | Event::Halt { .. } => answers.other(event),
         }
     }
+    replayed.course = Digest::from_bytes(*course.finalize().as_bytes());
     replayed.meaningful = meaningful(&effects, &places);
     replayed.meaningful_as_code = flags_as_code(&texts, &replayed.actions, &replayed.rewards);
     Ok(replayed)
@@ -236,6 +244,18 @@ impl Seen {
     /// Returns the top left corner of the avatar.
     fn place(&self) -> Option<(i32, i32)> {
         self.avatar.map(|(_, x, y, _, _)| (x, y))
+    }
+
+    /// Adds all sprites to a digest.
+    fn absorb(&self, digest: &mut blake3::Hasher) {
+        digest.update(&[u8::from(self.avatar.is_some())]);
+        for (stype, x, y, w, h) in self.avatar.iter().chain(&self.others) {
+            digest.update(&stype.to_le_bytes());
+            for number in [x, y, w, h] {
+                digest.update(&number.to_le_bytes());
+            }
+        }
+        digest.update(&(self.others.len() as u64).to_le_bytes());
     }
 
     fn avatar_type(&self) -> Option<u16> {

@@ -1,14 +1,13 @@
 //! Comparisons of two players: different models, a model in both modes, and a model with and without an aid.
 
-use crate::study::Study;
 use crate::study::player::{CONTEXTUAL, ZERO_SHOT};
-use crate::study::scores::Estimate;
-use crate::study::{LEVEL, RESAMPLES, seed};
+use crate::study::scores::{Estimate, StudyEpisode, observations};
+use crate::study::{LEVEL, Study};
 use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{
-    Stratum, Z95, benjamini_hochberg, clustered_difference, cohens_h, difference, fisher, stratified,
+    Stratum, Z95, benjamini_hochberg, cohens_h, difference, fisher, paired_over_games, stratified,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +20,7 @@ pub struct Contrasts {
     pub by_level: Vec<Comparison>,
     /// A comparison for each pair and game, with all its levels together.
     pub by_game: Vec<Comparison>,
-    /// A comparison for each pair over all levels that both played, stratified by level.
+    /// A comparison for each pair over all games that both played.
     pub overall: Vec<OverallComparison>,
 }
 
@@ -34,9 +33,9 @@ pub struct Comparison {
     pub game: usize,
     /// The level's number, or `None` for all levels.
     pub level: Option<usize>,
-    /// The wins of each player.
+    /// The wins of each player, with identical episodes counted once.
     pub wins: [u64; 2],
-    /// The episodes of each player.
+    /// The episodes of each player, with identical ones counted once.
     pub episodes: [u64; 2],
     /// The p-value of Fisher's exact test, two-sided.
     pub p: f64,
@@ -48,7 +47,8 @@ pub struct Comparison {
     pub difference: Estimate,
 }
 
-/// A comparison of two players on all levels that both played.
+/// A comparison of two players on all levels that both played. Difference, interval, h, p and q are of the same two rates: means
+/// over games, of means over the levels of a game. They are about games like these.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
     /// The indices into the players of the study.
@@ -59,23 +59,49 @@ pub struct OverallComparison {
     pub episodes: [u64; 2],
     /// The number of levels that both played.
     pub levels: u64,
-    /// The p-value of the exact stratified test (Cochran, Mantel, Haenszel), two-sided. It refers to these levels only.
-    pub p: f64,
-    /// The p-value corrected for all pairs of the list, by Benjamini and Hochberg.
-    pub q: f64,
-    /// Cohen's h of the pooled win rates.
-    pub h: f64,
-    /// The mean difference of the win rates over the levels, weighted by their episodes.
+    /// The number of games that both played.
+    pub games: u64,
+    /// The rate of each player.
+    pub rates: [f64; 2],
+    /// The first rate minus the second.
     pub difference: f64,
-    /// The difference of the pooled win rates with a confidence interval from a bootstrap over whole games: it generalises
-    /// to games like these. Missing with fewer than two games.
-    pub by_game: Option<Estimate>,
+    /// The same with the interval of the paired t test over games. Missing with fewer than two games.
+    pub over_games: Option<Estimate>,
+    /// The difference if all aborted episodes of the first player had been lost and all of the second won, and the reverse.
+    /// Missing if none was aborted.
+    pub bounds: Option<[f64; 2]>,
+    /// The p-value of the paired t test over games, two-sided. Missing with fewer than two games.
+    pub p: Option<f64>,
+    /// The p-value corrected for all pairs of the list that have one, by Benjamini and Hochberg.
+    pub q: Option<f64>,
+    /// Cohen's h of the two rates.
+    pub h: f64,
+    /// The exact test within levels: about exactly these levels, and not about other games.
+    pub within_levels: WithinLevels,
+}
+
+/// The exact stratified test (Cochran, Mantel, Haenszel). Identical episodes are one observation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WithinLevels {
+    /// The p-value, two-sided.
+    pub p: f64,
     /// The common odds ratio of Mantel and Haenszel; missing if infinite.
     pub odds_ratio: Option<f64>,
 }
 
-/// Numbers of wins and episodes.
-type Counts = (u64, u64);
+/// The results of a player on a level.
+#[derive(Clone, Copy, Default)]
+struct Counts {
+    /// Wins and ended episodes.
+    all: (u64, u64),
+    /// The same, with identical episodes counted once.
+    distinct: (u64, u64),
+    /// Aborted episodes.
+    aborted: u64,
+}
+
+/// The results of a player by game and level.
+type Results = BTreeMap<(usize, usize), Counts>;
 
 impl Contrasts {
     pub(crate) fn of(study: &Study, pairs: &[[usize; 2]]) -> Contrasts {
@@ -83,17 +109,20 @@ impl Contrasts {
         let mut contrasts = Contrasts::default();
         for &players in pairs {
             let [ours, theirs] = players.map(|player| &counts[player]);
+            let ended =
+                |results: &Results, level: &(usize, usize)| results.get(level).is_some_and(|it| it.all.1 > 0);
             let levels: Vec<(usize, usize)> =
-                ours.keys().filter(|level| theirs.contains_key(level)).copied().collect();
+                ours.keys().filter(|level| ended(ours, level) && ended(theirs, level)).copied().collect();
             for &(game, level) in &levels {
-                let both = [ours[&(game, level)], theirs[&(game, level)]];
+                let both = [ours, theirs].map(|results| results[&(game, level)].distinct);
                 contrasts.by_level.push(Comparison::of(players, game, Some(level), both));
             }
             let games: BTreeSet<usize> = levels.iter().map(|(game, _)| *game).collect();
             for game in games {
-                let on = |counts: &BTreeMap<(usize, usize), Counts>| {
-                    let levels = levels.iter().filter(|level| level.0 == game);
-                    levels.fold((0, 0), |sum, level| (sum.0 + counts[level].0, sum.1 + counts[level].1))
+                let on = |results: &Results| {
+                    let counts =
+                        levels.iter().filter(|level| level.0 == game).map(|level| results[level].distinct);
+                    counts.fold((0, 0), |sum, (wins, of)| (sum.0 + wins, sum.1 + of))
                 };
                 contrasts.by_game.push(Comparison::of(players, game, None, [on(ours), on(theirs)]));
             }
@@ -104,18 +133,21 @@ impl Contrasts {
             let q = correct(list.iter().map(|comparison| comparison.p).collect());
             list.iter_mut().zip(q).for_each(|(comparison, q)| comparison.q = q);
         }
-        let q = correct(contrasts.overall.iter().map(|comparison| comparison.p).collect());
-        contrasts.overall.iter_mut().zip(q).for_each(|(comparison, q)| comparison.q = q);
+        let mut tested: Vec<&mut OverallComparison> =
+            contrasts.overall.iter_mut().filter(|comparison| comparison.p.is_some()).collect();
+        let q = correct(tested.iter().filter_map(|comparison| comparison.p).collect());
+        tested.iter_mut().zip(q).for_each(|(comparison, q)| comparison.q = Some(q));
         contrasts
     }
 
-    /// Compares models in the same mode with each other, and with players that are not models. Variants of one model are
-    /// compared in [`Contrasts::modes`] and [`Contrasts::aids`].
+    /// Compares models in the same mode with each other, and with players that are not models. Modes and aids of one model are
+    /// compared in [`Contrasts::modes`] and [`Contrasts::aids`], its other conditions here.
     pub(crate) fn pairs(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.tuple_combinations().filter(|((_, ours), (_, theirs))| {
-            let comparable = ours.mode == theirs.mode || ours.is_reference() || theirs.is_reference();
-            comparable && ours.name != theirs.name
+            let comparable = ours.mode == theirs.mode || ours.mode.is_none() || theirs.mode.is_none();
+            let same = (&ours.name, &ours.conditions) == (&theirs.name, &theirs.conditions);
+            comparable && !same && (ours.name != theirs.name || ours.aids == theirs.aids)
         });
         Contrasts::of(study, &pairs.map(|((a, _), (b, _))| [a, b]).collect_vec())
     }
@@ -124,7 +156,7 @@ impl Contrasts {
     pub(crate) fn modes(study: &Study) -> Contrasts {
         let partner = |(a, ours): (usize, &super::Player)| {
             let is_partner = |theirs: &super::Player| {
-                (&theirs.name, &theirs.aids) == (&ours.name, &ours.aids)
+                (&theirs.name, &theirs.aids, &theirs.conditions) == (&ours.name, &ours.aids, &ours.conditions)
                     && theirs.mode.as_deref() == Some(CONTEXTUAL)
             };
             let b = study.players.iter().position(is_partner)?;
@@ -138,7 +170,10 @@ impl Contrasts {
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
-            let same = (&without.name, &without.mode) == (&with.name, &with.mode);
+            let of = |player: &super::Player| {
+                (player.name.clone(), player.mode.clone(), player.conditions.clone())
+            };
+            let same = of(without) == of(with);
             let more = with.aids.len() == without.aids.len() + 1;
             same && more && without.aids.iter().all(|aid| with.aids.contains(aid))
         });
@@ -160,31 +195,39 @@ impl Contrasts {
         let overall = Table::of(
             &format!("{id}-overall"),
             &format!("{title}, over all levels"),
-            "p: exact test within levels (Cochran, Mantel, Haenszel). q: corrected for the pairs of this table (Benjamini, Hochberg). \
-             h: Cohen's effect size (0.2 small, 0.5 medium, 0.8 large). The difference of win rates, with a bootstrap \
-             interval over whole games.",
+            "Difference of the rates, means over games of means over levels, with the 95 % interval and the p of the paired t test over \
+             games: it is about games like these. Fewer than six games prove no difference at 5 %. q: corrected for the pairs of this \
+             table (Benjamini, Hochberg). h: Cohen's effect size of the same rates (0.2 small, 0.5 medium, 0.8 large). Bounds: the \
+             difference if the episodes that were broken off had all gone against the first player, and all for it. The last two \
+             columns are about exactly these levels: the exact test within levels (Cochran, Mantel, Haenszel) and its odds ratio, with \
+             identical episodes counted once.",
             &self.overall,
             &[
                 ("first", &|found| label(found.players[0])),
                 ("second", &|found| label(found.players[1])),
+                ("games", &|found| TableCell::Count(found.games)),
                 ("levels", &|found| TableCell::Count(found.levels)),
                 ("wins", &|found| share(found.wins[0], found.episodes[0])),
                 ("wins of second", &|found| share(found.wins[1], found.episodes[1])),
-                ("difference", &|found| match found.by_game {
+                ("difference", &|found| match found.over_games {
                     Some(estimate) => Estimate::cell(Some(estimate), 2),
                     None => TableCell::number(found.difference, 2),
                 }),
-                ("odds ratio", &|found| TableCell::number(found.odds_ratio, 2)),
+                ("bounds", &|found| {
+                    TableCell::figure(found.bounds.map(|[low, high]| format!("{low:.2} to {high:.2}")))
+                }),
                 ("h", &|found| TableCell::number(found.h, 2)),
-                ("p", &|found| TableCell::Probability(found.p)),
-                ("q", &|found| TableCell::Probability(found.q)),
+                ("p", &|found| TableCell::probability(found.p)),
+                ("q", &|found| TableCell::probability(found.q)),
+                ("p, these levels", &|found| TableCell::Probability(found.within_levels.p)),
+                ("odds ratio", &|found| TableCell::number(found.within_levels.odds_ratio, 2)),
             ],
         );
         let list = |grain: &str, list: &[Comparison]| {
             let sorted = list.iter().sorted_by(|a, b| a.p.total_cmp(&b.p)).collect_vec();
             let believed = list.iter().filter(|comparison| comparison.q <= 0.05).count();
             let note = format!(
-                "Fisher's exact test, two-sided; q: corrected for all {} comparisons (Benjamini, Hochberg), of which {believed} have at \
+                "Fisher's exact test, two-sided, about exactly these levels; identical episodes are counted once. q: corrected for all {} comparisons (Benjamini, Hochberg), of which {believed} have at \
                  most 0.05. The difference of win rates with Newcombe's 95 % interval.{}",
                 list.len(),
                 if list.len() > most {
@@ -216,7 +259,7 @@ impl Contrasts {
 }
 
 impl Comparison {
-    fn of(players: [usize; 2], game: usize, level: Option<usize>, counts: [Counts; 2]) -> Comparison {
+    fn of(players: [usize; 2], game: usize, level: Option<usize>, counts: [(u64, u64); 2]) -> Comparison {
         let (wins, episodes) = (counts.map(|count| count.0), counts.map(|count| count.1));
         let rates = [0, 1].map(|side: usize| wins[side] as f64 / episodes[side] as f64);
         let p = fisher(wins, episodes);
@@ -239,53 +282,94 @@ impl OverallComparison {
     fn of(
         players: [usize; 2],
         levels: &[(usize, usize)],
-        counts: [&BTreeMap<(usize, usize), Counts>; 2],
+        results: [&Results; 2],
     ) -> Option<OverallComparison> {
+        let counts = |side: usize| levels.iter().map(move |level| results[side][level]);
+        let total = |of: fn(&Counts) -> u64| [0, 1].map(|side: usize| counts(side).map(|it| of(&it)).sum());
+        let games = by_game(levels, results, |it| it.all.0 as f64 / it.all.1 as f64);
+        let count = games.len() as f64;
+        let rates = [0, 1].map(|side: usize| games.iter().map(|game| game[side]).sum::<f64>() / count);
+        let paired = paired_over_games(&games, LEVEL);
         let stratum = |level: &(usize, usize)| {
-            let both = counts.map(|counts| counts[level]);
+            let both = results.map(|results| results[level].distinct);
             Stratum { successes: both.map(|count| count.0), trials: both.map(|count| count.1) }
         };
-        let strata: Vec<Stratum> = levels.iter().map(stratum).collect();
-        let test = stratified(&strata);
-        let total =
-            |of: fn(&Stratum) -> [u64; 2]| [0, 1].map(|side: usize| strata.iter().map(|s| of(s)[side]).sum());
-        let (wins, episodes): ([u64; 2], [u64; 2]) = (total(|s| s.successes), total(|s| s.trials));
-        let rates = [0, 1].map(|side: usize| wins[side] as f64 / episodes[side].max(1) as f64);
-        // The wins and losses of each game on either side.
-        let mut games: BTreeMap<usize, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
-        for ((game, _), stratum) in levels.iter().zip(&strata) {
-            let sides = games.entry(*game).or_default();
-            for (side, values) in [&mut sides.0, &mut sides.1].into_iter().enumerate() {
-                let (won, of) = (stratum.successes[side], stratum.trials[side]);
-                values.extend((0..of).map(|episode| f64::from(u8::from(episode < won))));
-            }
-        }
-        let games: Vec<(Vec<f64>, Vec<f64>)> = games.into_values().collect();
-        let place = players[0] << 16 | players[1];
-        let interval =
-            clustered_difference(&games, RESAMPLES, LEVEL, seed("pairs", place)).filter(|_| games.len() > 1);
-        Some(OverallComparison {
+        let test = stratified(&levels.iter().map(stratum).collect::<Vec<Stratum>>());
+        (!games.is_empty()).then(|| OverallComparison {
             players,
-            wins,
-            episodes,
+            wins: total(|it| it.all.0),
+            episodes: total(|it| it.all.1),
             levels: levels.len() as u64,
-            p: test.p,
-            q: test.p,
-            h: cohens_h(rates[0], rates[1]),
-            difference: test.difference?,
-            by_game: interval.map(|interval| Estimate::new(rates[0] - rates[1], interval)),
-            odds_ratio: test.odds_ratio.filter(|ratio| ratio.is_finite()),
+            games: games.len() as u64,
+            rates,
+            difference: rates[0] - rates[1],
+            over_games: paired.map(|found| Estimate::new(found.difference, found.interval)),
+            bounds: bounds(results),
+            p: paired.map(|found| found.p),
+            q: None,
+            h: cohens_h(rates[0].clamp(0.0, 1.0), rates[1].clamp(0.0, 1.0)),
+            within_levels: WithinLevels {
+                p: test.p,
+                odds_ratio: test.odds_ratio.filter(|ratio| ratio.is_finite()),
+            },
         })
     }
 }
 
-/// Counts the wins and ended episodes of each player on each level.
-fn counts(study: &Study) -> Vec<BTreeMap<(usize, usize), Counts>> {
-    let mut counts = vec![BTreeMap::<(usize, usize), Counts>::new(); study.players.len()];
-    for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
-        let count = counts[episode.player].entry((episode.game, episode.metrics.level)).or_default();
-        count.0 += u64::from(episode.metrics.won());
-        count.1 += 1;
+/// Returns the rates of both players on each game, means over its levels.
+fn by_game(
+    levels: &[(usize, usize)],
+    results: [&Results; 2],
+    rate: impl Fn(&Counts) -> f64,
+) -> Vec<[f64; 2]> {
+    let mut games: BTreeMap<usize, Vec<[f64; 2]>> = BTreeMap::new();
+    for level in levels {
+        games.entry(level.0).or_default().push(results.map(|results| rate(&results[level])));
+    }
+    let mean = |levels: Vec<[f64; 2]>| {
+        [0, 1].map(|side: usize| levels.iter().map(|rates| rates[side]).sum::<f64>() / levels.len() as f64)
+    };
+    games.into_values().map(mean).collect()
+}
+
+/// Returns the differences if all aborted episodes had gone against the first player, and if all for it, over the levels that
+/// both started. `None` if none was aborted.
+fn bounds(results: [&Results; 2]) -> Option<[f64; 2]> {
+    let levels: Vec<(usize, usize)> =
+        results[0].keys().filter(|level| results[1].contains_key(level)).copied().collect();
+    let any = levels.iter().any(|level| results.iter().any(|results| results[level].aborted > 0));
+    any.then(|| {
+        let rates = |all_won: bool| {
+            let rate = |it: &Counts| {
+                let wins = it.all.0 + if all_won { it.aborted } else { 0 };
+                wins as f64 / (it.all.1 + it.aborted) as f64
+            };
+            by_game(&levels, results, rate)
+        };
+        let (lost, won) = (rates(false), rates(true));
+        let mean = |ours: &[[f64; 2]], theirs: &[[f64; 2]]| {
+            let sum: f64 = ours.iter().zip(theirs).map(|(ours, theirs)| ours[0] - theirs[1]).sum();
+            sum / ours.len() as f64
+        };
+        [mean(&lost, &won), mean(&won, &lost)]
+    })
+}
+
+/// Counts the results of each player on each level.
+fn counts(study: &Study) -> Vec<Results> {
+    let mut counts = vec![Results::new(); study.players.len()];
+    let key = |episode: &&StudyEpisode| (episode.player, episode.game, episode.metrics.level);
+    for ((player, game, level), episodes) in &study.episodes.iter().chunk_by(key) {
+        let (ended, aborted): (Vec<_>, Vec<_>) = episodes.partition(|episode| episode.metrics.counts());
+        let wins = ended.iter().filter(|episode| episode.metrics.won()).count() as u64;
+        counts[player].insert(
+            (game, level),
+            Counts {
+                all: (wins, ended.len() as u64),
+                distinct: observations(ended.into_iter()),
+                aborted: aborted.len() as u64,
+            },
+        );
     }
     counts
 }

@@ -1,11 +1,10 @@
 //! The win rates of the players, and their cost.
 
 use crate::metrics::{Choices, Spending};
-use crate::study::scores::{Estimate, Scores, mean};
-use crate::study::{LEVEL, RESAMPLES, Study, seed};
+use crate::study::Study;
+use crate::study::scores::{Estimate, Scores};
 use report::{Table, TableCell};
 use serde::Serialize;
-use statistics::clustered_mean;
 use std::collections::BTreeMap;
 
 /// The results of a player on all levels it played.
@@ -13,11 +12,10 @@ use std::collections::BTreeMap;
 pub struct LeaderRow {
     /// The index into the players of the study.
     pub player: usize,
-    /// The scores. The confidence interval of the win rate treats episodes as independent.
+    /// The scores.
     pub scores: Scores,
-    /// The win rate with a confidence interval from a bootstrap over whole games, which treats games rather than episodes as
-    /// independent. Missing with fewer than two games.
-    pub by_game: Option<Estimate>,
+    /// The win rate if all aborted episodes had been lost, and if all had been won. Missing if none was aborted.
+    pub bounds: Option<[f64; 2]>,
     /// The origins of the choices.
     pub choices: Choices,
     /// The cost of the choices.
@@ -54,17 +52,10 @@ fn row(study: &Study, player: usize) -> LeaderRow {
     let tokens = spending.input_tokens.zip(spending.output_tokens).map(|(input, output)| input + output);
     let tokens_per_step =
         tokens.filter(|_| choices.total() > 0).map(|sum| sum as f64 / choices.total() as f64);
-    let mut games: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-    for episode in episodes.iter().filter(|episode| episode.metrics.counts()) {
-        games.entry(episode.game).or_default().push(f64::from(u8::from(episode.metrics.won())));
-    }
-    let games: Vec<Vec<f64>> = games.into_values().collect();
-    let interval = clustered_mean(&games, RESAMPLES, LEVEL, seed("leaderboard", player));
-    let by_game = mean(games.iter().flatten().copied())
-        .zip(interval)
-        .filter(|_| games.len() > 1)
-        .map(|(value, interval)| Estimate::new(value, interval));
-    LeaderRow { player, scores, by_game, choices, spending, tokens_per_step, aborted }
+    let started = scores.episodes + scores.excluded;
+    let bounds = [scores.wins, scores.wins + scores.excluded].map(|wins| wins as f64 / started as f64);
+    let bounds = (scores.excluded > 0).then_some(bounds);
+    LeaderRow { player, scores, bounds, choices, spending, tokens_per_step, aborted }
 }
 
 /// Returns the leaderboard and the table of the choices' origins.
@@ -73,17 +64,21 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let leaders = Table::of(
         "leaderboard",
         "Leaderboard",
-        "Win rate: wins divided by ended episodes, with Wilson's 95 % interval, and with a bootstrap interval over whole games (for \
-         games like these; wide with few games). The overall score is the mean of meaningful step ratio, spared steps, normalised \
+        "Win rate: wins divided by ended episodes, with a 95 % interval for games like these (of one game: for exactly these levels). \
+         Bounds: the win rate if all episodes that were broken off had been lost, and if all had been won. Different: identical \
+         episodes of a level counted once. The overall score is the mean of meaningful step ratio, spared steps, normalised \
          reward and win rate; it rewards quick losses too. Optimality: proved fewest ticks divided by steps, over wins. Broken off: \
-         episodes aborted by the network, caps or interruptions; they are excluded from all other columns.",
+         episodes aborted by the network, caps or interruptions; they are excluded from all columns but the bounds.",
         &study.leaderboard,
         &[
             ("player", &player),
             ("episodes", &|row| TableCell::Count(row.scores.episodes)),
+            ("different", &|row| TableCell::Count(row.scores.observations)),
             ("wins", &|row| TableCell::Count(row.scores.wins)),
             ("win rate", &|row| Estimate::cell(row.scores.win_rate, 2)),
-            ("win rate, games drawn", &|row| Estimate::cell(row.by_game, 2)),
+            ("bounds", &|row| {
+                TableCell::figure(row.bounds.map(|[low, high]| format!("{low:.2} to {high:.2}")))
+            }),
             ("overall", &|row| TableCell::number(row.scores.overall, 3)),
             ("meaningful", &|row| TableCell::number(row.scores.meaningful, 3)),
             ("spared steps", &|row| TableCell::number(row.scores.unused_steps, 3)),

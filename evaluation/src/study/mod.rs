@@ -17,6 +17,7 @@ mod difficulty;
 mod failures;
 mod leaderboard;
 mod matrix;
+mod person;
 mod player;
 mod power;
 mod read;
@@ -25,7 +26,7 @@ mod sweep;
 mod taxonomy;
 mod times;
 
-pub use contrast::{Comparison, Contrasts, OverallComparison};
+pub use contrast::{Comparison, Contrasts, OverallComparison, WithinLevels};
 pub use correlations::{CORRELATED, Correlation, Correlations, Test};
 pub use difficulty::{DifficultyLabel, DifficultyRow};
 pub use failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
@@ -41,14 +42,11 @@ pub use times::TimeRow;
 
 use crate::metrics::EpisodeMetrics;
 use crate::subject::Subject;
-use engine::Seed;
 use itertools::Itertools;
 use report::Table;
 use serde::Serialize;
 
 const LEVEL: f64 = 0.95;
-/// The number of resamples of a bootstrap over whole games.
-const RESAMPLES: usize = 2000;
 /// The maximum number of rows of a comparison table in a report; the data has all.
 const MAX_COMPARISONS: usize = 100;
 
@@ -131,8 +129,8 @@ impl From<&Subject> for StudyGame {
 
 impl Study {
     /// Builds a study from the episodes of players. A game of an episode that is not among `games` is added with its id
-    /// only; so are levels. Cost: O(episodes log episodes), a Fisher test for each pair of players and level, and 2000
-    /// resamples for each pair.
+    /// only; so are levels. Cost: O(episodes log episodes), and a Fisher test for each pair of players
+    /// and level.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
         let mut study = Study { games, ..Study::default() };
         for (player, episodes) in results {
@@ -191,7 +189,7 @@ impl Study {
         let broken = self.episodes.iter().filter(|episode| !episode.metrics.counts()).count();
         if broken > 0 {
             self.notes.push(format!(
-                "{broken} of {} episodes were aborted or are unfinished; they are excluded from all numbers.",
+                "{broken} of {} episodes were aborted or are unfinished; they are excluded from all numbers but the bounds.",
                 self.episodes.len()
             ));
         }
@@ -255,9 +253,4 @@ impl Study {
 /// Returns player, game and level, the sort key of episodes.
 fn place(episode: &StudyEpisode) -> (usize, usize, usize) {
     (episode.player, episode.game, episode.metrics.level)
-}
-
-/// Returns the seed of an interval's resamples: the same study always gets the same.
-fn seed(purpose: &str, index: usize) -> [u8; 32] {
-    *Seed::from_text("intervals of a study").child(purpose, index as u64).as_bytes()
 }

@@ -12,6 +12,10 @@ pub struct Player {
     pub mode: Option<String>,
     /// The differences of its prompts from the default, a flag each, sorted.
     pub aids: Vec<String>,
+    /// The settings in which it differs from other players of the same name, mode and aids, in words, sorted: `temperature 0`,
+    /// `served by m-2026-08`. Empty if there are no others.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conditions: Vec<String>,
 }
 
 /// The mode without memory.
@@ -22,7 +26,7 @@ pub const CONTEXTUAL: &str = "contextual";
 impl Player {
     /// Creates a player that is not a model.
     pub fn reference(name: &str) -> Player {
-        Player { name: name.to_owned(), mode: None, aids: Vec::new() }
+        Player { name: name.to_owned(), mode: None, aids: Vec::new(), conditions: Vec::new() }
     }
 
     /// Creates a model in a mode, without aids.
@@ -35,7 +39,7 @@ impl Player {
         self.mode.is_none()
     }
 
-    /// Returns the name with mode and aids, which is unique within a study.
+    /// Returns the name with mode, aids and conditions, which is unique within a study.
     ///
     /// ```
     /// use infinite_arcade_evaluation::study::{CONTEXTUAL, Player};
@@ -43,11 +47,12 @@ impl Player {
     /// assert_eq!(player.label(), "a-model (contextual, coordinates)");
     /// ```
     pub fn label(&self) -> String {
-        let notes: Vec<&str> = self.mode.iter().chain(&self.aids).map(String::as_str).collect();
+        let notes: Vec<&str> =
+            self.mode.iter().chain(&self.aids).chain(&self.conditions).map(String::as_str).collect();
         if notes.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, notes.join(", ")) }
     }
 
-    /// Returns the name with aids, for tables that already show the mode.
+    /// Returns the name with aids and conditions, for tables that already show the mode.
     pub fn short_label(&self) -> String {
         Player { mode: None, ..self.clone() }.label()
     }
@@ -57,6 +62,6 @@ impl From<&Entrant> for Player {
     fn from(entrant: &Entrant) -> Player {
         let mut aids = entrant.aids.clone();
         aids.sort();
-        Player { name: entrant.name.clone(), mode: entrant.mode.clone(), aids }
+        Player { name: entrant.name.clone(), mode: entrant.mode.clone(), aids, conditions: Vec::new() }
     }
 }

@@ -1,84 +1,109 @@
-//! The statistical power of a number of episodes: planned before the run, or played.
+//! The statistical power of a plan of games, levels and runs: before the run, or of the episodes played.
 
 use crate::study::Study;
+use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
-use statistics::Power;
+use statistics::{Design, Spread};
 
-/// The smallest differences between two players that are detected at a level of 5 % with a power of 80 %.
+/// The power of a plan: the test over games at 5 % ([`statistics::paired_over_games`]), with the standard deviations of
+/// [`Spread::default`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PowerRow {
-    /// The unit: a level, a game, or all games.
-    pub grain: String,
+    /// The plan in words.
+    pub plan: String,
+    /// The number of games.
+    pub games: u64,
+    /// The number of levels of each game.
+    pub levels: u64,
+    /// The number of episodes of each player on each level.
+    pub runs: u64,
     /// The number of episodes of each player.
     pub episodes: u64,
-    /// The smallest Cohen's h that is detected; above π, none is.
-    pub h: f64,
-    /// The smallest win rate that is distinguished from 0.1.
+    /// The smallest win rate that is told from 0.1 with a power of 80 %.
     pub from_tenth: Option<f64>,
-    /// The smallest win rate that is distinguished from 0.5.
+    /// The smallest win rate that is told from 0.5 with a power of 80 %.
     pub from_half: Option<f64>,
 }
 
-/// Computes the power of `runs` episodes of each player on a level, with `levels_of_game` levels per game and `levels` in
-/// all. Episodes are treated as independent, without a correction for multiple comparisons, so that a study of many
-/// comparisons detects less.
+/// Returns the power of a plan, and of plans with as many or fewer episodes, for comparison.
 ///
 /// ```
 /// use infinite_arcade_evaluation::study::power;
-/// let rows = power(5, 5, 30);
-/// assert_eq!(rows.iter().map(|row| row.episodes).collect::<Vec<u64>>(), [5, 25, 150]);
-/// assert!(rows[1].from_tenth.is_some_and(|rate| (rate - 0.43).abs() < 0.01));
+/// use infinite_arcade_statistics::Design;
+/// let rows = power(Design { games: 6, levels: 5, runs: 5 });
+/// let episodes: Vec<(u64, u64)> = rows.iter().map(|row| (row.games, row.episodes)).collect();
+/// assert_eq!(episodes, [(6, 150), (6, 30), (30, 150), (150, 150)]);
+/// assert!(rows[2].from_tenth < rows[0].from_tenth, "more games show more than more runs");
 /// ```
-pub fn power(runs: u64, levels_of_game: u64, levels: u64) -> Vec<PowerRow> {
-    let grains =
-        [("a level", runs), ("a game", runs * levels_of_game), ("all games", runs * levels)].into_iter();
-    let row = |(grain, episodes): (&str, u64)| {
-        let ask = Power::default();
-        let above = |base: f64| ask.detectable(episodes, base)[1];
-        let (from_tenth, from_half) = (above(0.1), above(0.5));
-        PowerRow { grain: grain.to_owned(), episodes, h: ask.detectable_h(episodes), from_tenth, from_half }
-    };
-    grains.filter(|(_, episodes)| *episodes > 0).map(row).collect()
+pub fn power(planned: Design) -> Vec<PowerRow> {
+    let Design { games, levels, runs } = planned;
+    if planned.episodes() == 0 {
+        return Vec::new();
+    }
+    let plans = [
+        ("as planned", planned),
+        ("one run on each level", Design { runs: 1, ..planned }),
+        ("as many episodes, one run, on more games", Design { games: games * runs, runs: 1, ..planned }),
+        (
+            "as many episodes, each on another game",
+            Design { games: games * levels * runs, levels: 1, runs: 1 },
+        ),
+    ];
+    plans.into_iter().unique_by(|(_, design)| *design).map(|(plan, design)| row(plan, design)).collect()
 }
 
-/// Computes the power of the episodes of a study: those of the player with the fewest.
+fn row(plan: &str, design: Design) -> PowerRow {
+    let Design { games, levels, runs } = design;
+    let from = |base| design.detectable(base, Spread::default(), 0.05, 0.8);
+    let (from_tenth, from_half) = (from(0.1), from(0.5));
+    PowerRow {
+        plan: plan.to_owned(),
+        games,
+        levels,
+        runs,
+        episodes: design.episodes(),
+        from_tenth,
+        from_half,
+    }
+}
+
+/// Returns the power of the episodes of a study: those of the player on the fewest games.
 pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
-    let fewest = |counts: &dyn Fn(usize) -> Vec<u64>| {
-        (0..study.players.len()).flat_map(counts).filter(|count| *count > 0).min().unwrap_or(0)
+    let played = |player: usize| {
+        let ended = || study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());
+        let games = ended().map(|episode| episode.game).unique().count() as u64;
+        let levels = ended().map(|episode| (episode.game, episode.metrics.level)).unique().count() as u64;
+        let rounded = |all: u64, each: u64| (all + each / 2) / each.max(1);
+        Design { games, levels: rounded(levels, games), runs: rounded(ended().count() as u64, levels) }
     };
-    let ended = |player: usize, game: Option<usize>, level: Option<usize>| {
-        study.on(player, game, level).iter().filter(|episode| episode.metrics.counts()).count() as u64
-    };
-    let games = || 0..study.games.len();
-    let on_levels = |player: usize| {
-        let levels =
-            games().flat_map(|game| study.games[game].levels.iter().map(move |level| (game, level.number)));
-        levels.map(|(game, level)| ended(player, Some(game), Some(level))).collect::<Vec<u64>>()
-    };
-    let counts = [
-        ("a level", fewest(&on_levels)),
-        ("a game", fewest(&|player| games().map(|game| ended(player, Some(game), None)).collect())),
-        ("all games", fewest(&|player| vec![ended(player, None, None)])),
-    ];
-    let row = |(grain, episodes): (&str, u64)| {
-        power(episodes, 0, 0).into_iter().next().map(|row| PowerRow { grain: grain.to_owned(), ..row })
-    };
-    counts.into_iter().filter_map(row).collect()
+    let designs = (0..study.players.len()).map(played).filter(|design| design.episodes() > 0);
+    let fewest = designs.min_by_key(|design| (design.games, design.episodes()));
+    let mut rows = fewest.map_or(Vec::new(), power);
+    rows.iter_mut().take(1).for_each(|row| "as played".clone_into(&mut row.plan));
+    rows
 }
 
 /// Returns the rows as a table.
 pub fn table(rows: &[PowerRow]) -> Table {
+    let Spread { games, levels, matches } = Spread::default();
+    let note = format!(
+        "The smallest win rates that are told from 0.1 and from 0.5, with a power of 80 %, by the paired test over games at 5 %. \
+         Assumed standard deviations: games {games}, levels {levels}, match of player and game {matches} logit. A dash: none, and with \
+         fewer than six games none at all. More games show more than more runs. With a correction for many comparisons, the power is \
+         lower."
+    );
     Table::of(
         "power",
         "Statistical power",
-        "The smallest difference of two win rates that a two-sided test at 5 % detects with a power of 80 %, by the arcsine \
-         approximation (Cohen 1988). Episodes of the player with the fewest; with correction for many comparisons, the power is lower.",
+        &note,
         rows,
         &[
-            ("on", &|row| TableCell::text(&row.grain)),
+            ("plan", &|row| TableCell::text(&row.plan)),
+            ("games", &|row| TableCell::Count(row.games)),
+            ("levels", &|row| TableCell::Count(row.levels)),
+            ("runs", &|row| TableCell::Count(row.runs)),
             ("episodes a side", &|row| TableCell::Count(row.episodes)),
-            ("h", &|row| TableCell::number(row.h, 2)),
             ("0.1 against", &|row| TableCell::number(row.from_tenth, 2)),
             ("0.5 against", &|row| TableCell::number(row.from_half, 2)),
         ],

@@ -2,11 +2,13 @@
 
 use crate::error::EvaluationError;
 use crate::log::Event;
+use crate::mask;
 use crate::metrics::EpisodeMetrics;
 use crate::run::{Evaluation, Task};
+use crate::study::person::{PersonResults, told_apart};
 use crate::study::{Player, Study, StudyGame};
-use crate::subject::Subject;
-use engine::Digest;
+use crate::subject::{Subject, SubjectLevel};
+use engine::{Digest, Seed, StateHash};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -15,21 +17,27 @@ use std::path::{Path, PathBuf};
 pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
 
 impl Study {
-    /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same player (name, mode
-    /// and aids) are merged. Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the
+    /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same person (name, mode,
+    /// aids, prompts, decoding, version served) are merged. Games of one id with the same rules under
+    /// other names, and with levels that start in the same states, are one game; their results are of separate players. Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the
     /// current rayon pool.
     ///
     /// # Errors
     /// A folder or log cannot be read, a replay differs from its log, two folders hold the same episode of the same player,
     /// or the same name stands for different games or levels.
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
-        let mut results: Vec<(Player, Vec<EpisodeMetrics>)> = Vec::new();
+        let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();
-        let (mut notes, mut seeds) = (Vec::new(), BTreeSet::new());
+        let (mut notes, mut seeds, mut origins) = (Vec::new(), BTreeSet::new(), Vec::new());
         for folder in folders {
             let evaluation = Evaluation::open(folder)?;
             let player = Player::from(&evaluation.settings.entrant);
-            evaluation.subjects.iter().try_for_each(|subject| names.add(subject, folder))?;
+            let mut twins: BTreeSet<&str> = BTreeSet::new();
+            for subject in &evaluation.subjects {
+                if names.add(subject, folder)? {
+                    twins.insert(&subject.id);
+                }
+            }
             seeds.insert(evaluation.settings.seed.clone());
             let tasks = evaluation.tasks();
             evaluation.check_logs(&tasks)?;
@@ -44,8 +52,19 @@ impl Study {
                     player.label()
                 ));
             }
-            names.claim(&player, measured.iter(), folder)?;
-            results.push((player, measured));
+            let (renamed, own): (Vec<_>, Vec<_>) =
+                measured.into_iter().partition(|episode| twins.contains(episode.game.as_str()));
+            for (twin, episodes) in [(false, own), (true, renamed)] {
+                if !episodes.is_empty() || twin == (twins.len() == evaluation.subjects.len()) {
+                    let parts = PersonResults::of(&evaluation.settings.entrant, twin, episodes);
+                    origins.extend(parts.iter().map(|_| folder));
+                    results.extend(parts);
+                }
+            }
+        }
+        let results = told_apart(results);
+        for ((player, episodes), folder) in results.iter().zip(origins) {
+            names.claim(player, episodes.iter(), folder)?;
         }
         let mut study = Study::new(results, names.games());
         study.notes.extend(notes);
@@ -86,29 +105,57 @@ impl Study {
 /// The games and levels by name in the folders so far.
 #[derive(Default)]
 struct Names {
-    games: Vec<(StudyGame, Digest, BTreeMap<usize, Digest>)>,
+    games: Vec<KnownGame>,
     episodes: BTreeMap<(Player, String, usize, u64), PathBuf>,
 }
 
+/// A game of the folders so far, with the digests of its text and of the texts and first states of its levels.
+struct KnownGame {
+    game: StudyGame,
+    digest: Digest,
+    levels: BTreeMap<usize, Digest>,
+    starts: BTreeMap<usize, StateHash>,
+    /// The digest of the rules without names.
+    nameless: Digest,
+}
+
 impl Names {
-    fn add(&mut self, subject: &Subject, folder: &Path) -> Result<(), EvaluationError> {
+    /// Adds a game. Returns `true` if it is one of an earlier folder under other names: with the same rules, and levels that
+    /// start in the same states.
+    fn add(&mut self, subject: &Subject, folder: &Path) -> Result<bool, EvaluationError> {
         let levels = subject.levels.iter().map(|level| (level.number, level.level.digest()));
-        let Some((game, digest, known)) = self.games.iter_mut().find(|(game, ..)| game.id == subject.id)
+        let start = |level: &SubjectLevel| {
+            (level.number, subject.game.start(&level.level, Seed::from_text("start")).state_hash())
+        };
+        let starts: BTreeMap<usize, StateHash> = subject.levels.iter().map(start).collect();
+        let Some(KnownGame { game, digest, levels: known, starts: begun, nameless }) =
+            self.games.iter_mut().find(|known| known.game.id == subject.id)
         else {
-            self.games.push((StudyGame::from(subject), subject.game.digest(), levels.collect()));
-            return Ok(());
+            let (game, digest) = (StudyGame::from(subject), subject.game.digest());
+            let (levels, nameless) = (levels.collect(), mask::nameless(&subject.game));
+            self.games.push(KnownGame { game, digest, levels, starts, nameless });
+            return Ok(false);
         };
         let differs = |what: String| {
             let what = format!("its {what} `{}` differs from that of an earlier folder", subject.id);
             EvaluationError::malformed(folder, format!("{what}; report on them separately"))
         };
-        if *digest != subject.game.digest() {
-            return Err(differs("game".to_owned()));
-        }
-        for (number, digest) in levels {
-            if *known.entry(number).or_insert(digest) != digest {
-                return Err(differs(format!("level {number} of")));
+        let is_twin = *digest != subject.game.digest();
+        if is_twin {
+            let other =
+                starts.iter().find(|(number, start)| begun.get(number).is_some_and(|own| own != *start));
+            if *nameless != mask::nameless(&subject.game) || other.is_some() {
+                return Err(differs("game".to_owned()));
             }
+        } else {
+            for (number, digest) in levels {
+                if *known.entry(number).or_insert(digest) != digest {
+                    return Err(differs(format!("level {number} of")));
+                }
+            }
+        }
+        for (number, start) in starts {
+            begun.entry(number).or_insert(start);
         }
         for level in StudyGame::from(subject).levels {
             if game.levels.iter().all(|known| known.number != level.number) {
@@ -116,7 +163,7 @@ impl Names {
             }
         }
         game.levels.sort_by_key(|level| level.number);
-        Ok(())
+        Ok(is_twin)
     }
 
     /// Checks that no other folder has these episodes.
@@ -141,7 +188,7 @@ impl Names {
     }
 
     fn games(&self) -> Vec<StudyGame> {
-        self.games.iter().map(|(game, ..)| game.clone()).collect()
+        self.games.iter().map(|known| known.game.clone()).collect()
     }
 
     /// Returns a note if not every player has played every episode.

@@ -1,9 +1,11 @@
 //! The scores of a set of episodes: of a player on a level, on a game, or on all.
 
 use crate::metrics::EpisodeMetrics;
+use crate::study::LEVEL;
+use engine::Digest;
 use report::TableCell;
 use serde::Serialize;
-use statistics::{Interval, Z95, wilson};
+use statistics::{Interval, RateOverGames, Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A number with a 95 % confidence interval.
@@ -23,9 +25,25 @@ impl Estimate {
         Estimate { value, low, high }
     }
 
-    /// Returns a win rate with its Wilson interval; `None` without trials.
-    pub fn rate(wins: u64, trials: u64) -> Option<Estimate> {
-        (trials > 0).then(|| Estimate::new(wins as f64 / trials as f64, wilson(wins, trials, Z95)))
+    /// Returns the win rate of ended episodes; `None` without any. On several games its interval is for games like these
+    /// ([`rate_over_games`]); on one game it is Wilson's, for exactly its levels.
+    ///
+    /// Identical episodes of a player on a level are one observation: the rate counts them all, the interval does not.
+    fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
+        let mut games: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
+        for episode in ended {
+            let game = games.entry(episode.game).or_default();
+            *game = (game.0 + u64::from(episode.metrics.won()), game.1 + 1);
+        }
+        let counts: Vec<(u64, u64)> = games.into_values().collect();
+        if let Some(RateOverGames { rate, interval, .. }) = rate_over_games(&counts, LEVEL) {
+            return Some(Estimate::new(rate, interval));
+        }
+        let &[(wins, episodes)] = &counts[..] else { return None };
+        let (seen, of) = observations(ended.iter().copied());
+        // Copies of a won and of a lost episode may differ in number; the rate stays that of all episodes.
+        let (rate, interval) = (wins as f64 / episodes as f64, wilson(seen, of, Z95));
+        Some(Estimate { value: rate, low: interval.low.min(rate), high: interval.high.max(rate) })
     }
 
     /// Returns a table cell.
@@ -64,7 +82,9 @@ pub struct Scores {
     pub wins: u64,
     /// The number of episodes ended by the step limit.
     pub timeouts: u64,
-    /// Wins divided by episodes, with Wilson's interval.
+    /// The number of observations: identical episodes of a player on a level are one.
+    pub observations: u64,
+    /// Wins divided by episodes. The interval is for games like these, or for these levels if they are of one game.
     pub win_rate: Option<Estimate>,
     /// The mean meaningful step ratio.
     pub meaningful: Option<f64>,
@@ -100,7 +120,7 @@ impl Scores {
         let mean_of = |of: &dyn Fn(&StudyEpisode) -> Option<f64>| mean(ended.iter().filter_map(|e| of(e)));
         let wins = ended.iter().filter(|episode| episode.metrics.won()).count() as u64;
         let count = ended.len() as u64;
-        let win_rate = Estimate::rate(wins, count);
+        let win_rate = Estimate::rate(&ended);
         let meaningful = mean_of(&|e| e.metrics.meaningful);
         let unused_steps = mean_of(&|e| e.metrics.unused_steps());
         let normalised_reward = mean_of(&|e| e.normalised_reward);
@@ -108,6 +128,7 @@ impl Scores {
         let sum: Option<f64> = parts.into_iter().sum();
         Scores {
             episodes: count,
+            observations: observations(ended.iter().copied()).1,
             excluded: (all.len() - ended.len()) as u64,
             wins,
             timeouts: ended
@@ -127,6 +148,16 @@ impl Scores {
             bump_rate: mean_of(&|e| e.metrics.movement.bump_rate),
         }
     }
+}
+
+/// Returns the wins and the number of different episodes: those of a player on a level with the same actions and boards are one.
+pub(crate) fn observations<'a>(ended: impl Iterator<Item = &'a StudyEpisode>) -> (u64, u64) {
+    let mut seen: BTreeSet<(usize, usize, usize, Digest)> = BTreeSet::new();
+    let new = ended.filter(|episode| {
+        let course = episode.metrics.course;
+        course.is_none_or(|course| seen.insert((episode.player, episode.game, episode.metrics.level, course)))
+    });
+    new.fold((0, 0), |(wins, all), episode| (wins + u64::from(episode.metrics.won()), all + 1))
 }
 
 /// Returns the mean of the step efficiencies of all levels that were won.

@@ -24,6 +24,7 @@ use indicatif::ProgressBar;
 use itertools::Itertools;
 use model::{ConnectedModel, ModelArgs};
 use serde_json::json;
+use statistics::Design;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -189,7 +190,9 @@ fn forecast(
         }
     };
     let levels: u64 = subjects.iter().map(|subject| subject.levels.len() as u64).sum();
-    let power = study::power(settings.runs, levels.div_ceil(subjects.len() as u64), levels);
+    let games = subjects.len() as u64;
+    let planned = Design { games, levels: levels.div_ceil(games), runs: settings.runs };
+    let power = study::power(planned);
     document["power"] = json!(power);
     console.document(&document)?;
     console.say(text);

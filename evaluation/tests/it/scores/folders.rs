@@ -22,18 +22,23 @@ fn planner(name: &str) -> Contestant {
 }
 
 /// Lets a built-in player play all levels of these games twice, 30 steps each.
-fn evaluate(folder: &Path, name: &str, subjects: Vec<Subject>) -> PathBuf {
+pub(super) fn evaluate(folder: &Path, name: &str, subjects: Vec<Subject>) -> PathBuf {
+    with_details(folder, name, subjects, serde_json::Value::Null)
+}
+
+/// The same for a player with these details.
+pub(super) fn with_details(
+    folder: &Path,
+    name: &str,
+    subjects: Vec<Subject>,
+    details: serde_json::Value,
+) -> PathBuf {
     let settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,
         suite: "test".to_owned(),
         snapshot: None,
-        entrant: Entrant {
-            name: name.to_owned(),
-            mode: None,
-            aids: Vec::new(),
-            details: serde_json::Value::Null,
-        },
+        entrant: Entrant { name: name.to_owned(), mode: None, aids: Vec::new(), details },
         seed: "test".to_owned(),
         runs: 2,
         max_steps: 30,

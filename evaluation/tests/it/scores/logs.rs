@@ -58,7 +58,7 @@ impl Agent for Script {
     }
 }
 
-fn log(subject: &Subject, level: usize, actions: &[Action], max_steps: u64) -> Vec<Event> {
+pub(super) fn log(subject: &Subject, level: usize, actions: &[Action], max_steps: u64) -> Vec<Event> {
     let level = subject.levels.iter().find(|found| found.number == level).expect("a level of the game");
     let task = Task { subject, level, run: 2, seed: Seed::from_text("by hand"), max_steps };
     let mut journal = Journal::in_memory();

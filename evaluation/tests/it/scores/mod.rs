@@ -1,6 +1,7 @@
 //! Tests of the metrics of episodes and of studies.
 
 mod folders;
+mod honest;
 mod logs;
 mod paper;
 mod study;
@@ -25,6 +26,8 @@ fn episode(game: &str, level: usize, run: u64, outcome: Outcome, score: f64, ste
         movement: Movement::default(),
         choices: Choices::default(),
         spending: Spending::default(),
+        served_by: Default::default(),
+        course: None,
         decision_ms: Vec::new(),
         calls: Vec::new(),
     }

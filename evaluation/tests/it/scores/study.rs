@@ -53,7 +53,7 @@ fn scores_worked_by_hand() {
     close(scores.optimality, 0.5);
     close(scores.bump_rate, 0.5);
     assert_eq!(row.aborted.get("infrastructure"), Some(&1));
-    assert_eq!(row.by_game, None, "one game says nothing about others");
+    assert_eq!(row.bounds, Some([1.0 / 3.0, 2.0 / 3.0]), "one of three was broken off");
     let random = &study.leaderboard[1].scores;
     assert_eq!((random.timeouts, random.efficiency, random.optimality), (1, None, None));
     close(random.normalised_reward, 0.5);
@@ -129,7 +129,8 @@ fn heat_maps() {
     close(modes.difference, -0.75);
     // Level 0: one of two against two; level 1: none against two. Among the tables with these totals, the observed one has
     // probability (1/2) · (1/6), and so has its mirror image.
-    close(modes.p, 1.0 / 6.0);
+    close(modes.within_levels.p, 1.0 / 6.0);
+    assert_eq!((modes.p, modes.over_games), (None, None), "one game says nothing about others");
     assert_eq!(study.pairs.overall.len(), 2);
 }
 

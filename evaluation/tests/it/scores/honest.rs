@@ -1,0 +1,181 @@
+//! Scores mean what they say: a test for each way in which numbers once misled.
+
+use super::episode;
+use super::folders::{evaluate, with_details};
+use super::logs::{log, subject};
+use engine::Action::{Left, Right};
+use engine::Outcome::{Lost, Ongoing, Won};
+use engine::{Digest, Outcome};
+use evaluation::metrics::{EpisodeMetrics, EpisodeStatus};
+use evaluation::study::{Player, Study};
+use evaluation::{Evaluation, Event, Subject, SubjectFacts};
+use serde_json::json;
+use std::collections::BTreeSet;
+
+/// Returns `runs` episodes on each of these games and levels, with these wins.
+fn episodes(
+    games: usize,
+    levels: usize,
+    runs: u64,
+    wins: impl Fn(usize, usize) -> u64,
+) -> Vec<EpisodeMetrics> {
+    let mut all = Vec::new();
+    for (game, level) in (0..games).flat_map(|game| (0..levels).map(move |level| (game, level))) {
+        for run in 0..runs {
+            let outcome = if run < wins(game, level) { Won } else { Lost };
+            all.push(episode(&format!("game{game}"), level, run, outcome, 0.0, 9));
+        }
+    }
+    all
+}
+
+fn two(ours: Vec<EpisodeMetrics>, theirs: Vec<EpisodeMetrics>) -> Study {
+    Study::new(vec![(Player::reference("a"), ours), (Player::reference("b"), theirs)], Vec::new())
+}
+
+#[test]
+fn a_player_without_a_win_may_have_luck_elsewhere() {
+    let study = two(episodes(6, 5, 5, |_, _| 0), episodes(6, 5, 5, |_, _| 5));
+    let rates: Vec<_> = study.leaderboard.iter().filter_map(|row| row.scores.win_rate).collect();
+    assert!(rates[0].value == 1.0 && rates[0].high == 1.0 && (0.4..0.5).contains(&rates[0].low), "{rates:?}");
+    assert!(rates[1].value == 0.0 && rates[1].low == 0.0 && (0.5..0.6).contains(&rates[1].high), "{rates:?}");
+    // The same on one game is about its levels.
+    let study = two(episodes(1, 5, 5, |_, _| 0), episodes(1, 5, 5, |_, _| 5));
+    assert!(study.leaderboard[1].scores.win_rate.is_some_and(|rate| rate.high < 0.14));
+}
+
+/// The second player is worse on easy and on hard levels, but most of its episodes on hard ones were broken off.
+#[test]
+fn differences_and_tests_are_of_the_same_rates() {
+    let ours = episodes(8, 2, 10, |game, level| if level == 0 { 8 } else { (game % 2) as u64 });
+    let mut theirs = episodes(8, 2, 10, |game, level| if level == 0 { 7 - (game % 2) as u64 } else { 0 });
+    for episode in theirs.iter_mut().filter(|episode| episode.level == 1 && episode.run >= 2) {
+        episode.status = EpisodeStatus::Halted("infrastructure".to_owned());
+        episode.outcome = Ongoing;
+    }
+    let study = two(ours, theirs);
+    let found = &study.pairs.overall[0];
+    let pooled = found.wins.map(|wins| wins as f64);
+    let pooled = pooled[0] / found.episodes[0] as f64 - pooled[1] / found.episodes[1] as f64;
+    assert!(pooled < -0.1, "pooled, the worse player seems better: {pooled}");
+    let interval = found.over_games.expect("eight games");
+    assert!((found.difference - 0.1).abs() < 1e-9 && (interval.value - found.difference).abs() < 1e-12);
+    assert!((found.rates[0] - found.rates[1] - found.difference).abs() < 1e-12 && found.h > 0.0);
+    assert!(found.p.is_some_and(|p| p < 0.05) && interval.low > 0.0, "{found:?}");
+    // 64 episodes were broken off: all of them may have been wins of the second player, or losses.
+    let [least, most] = found.bounds.expect("some were broken off");
+    assert!((least + 0.3).abs() < 1e-9 && (most - 0.1).abs() < 1e-9, "{least} {most}");
+    let row = study.leaderboard.iter().find(|row| row.player == 1).unwrap();
+    let bounds = row.bounds.expect("some were broken off");
+    assert!(
+        (bounds[0] - 52.0 / 160.0).abs() < 1e-9 && (bounds[1] - 116.0 / 160.0).abs() < 1e-9,
+        "{bounds:?}"
+    );
+    assert!(study.leaderboard.iter().any(|row| row.player == 0 && row.bounds.is_none()));
+}
+
+#[test]
+fn five_games_prove_nothing_about_others() {
+    let p = |games: usize| {
+        let study = two(episodes(games, 5, 5, |_, _| 5), episodes(games, 5, 5, |_, _| 0));
+        (study.pairs.overall[0].p, study.pairs.overall[0].within_levels.p)
+    };
+    assert_eq!((p(1).0, p(5).0, p(6).0), (None, Some(0.0625), Some(0.03125)));
+    assert!(p(1).1 < 1e-10 && p(5).1 < 1e-10, "on exactly these levels there is no doubt");
+}
+
+#[test]
+fn identical_episodes_are_one_observation() {
+    let copies = |outcome: Outcome, name: &str| {
+        let mut all = episodes(1, 1, 5, |_, _| if outcome == Won { 5 } else { 0 });
+        all.iter_mut().for_each(|episode| episode.course = Some(Digest::of(name.as_bytes())));
+        all
+    };
+    let study = two(copies(Won, "won"), copies(Lost, "lost"));
+    let found = &study.pairs.by_level[0];
+    assert_eq!((found.wins, found.episodes, found.p), ([1, 0], [1, 1], 1.0));
+    assert_eq!(study.pairs.overall[0].within_levels.p, 1.0);
+    let scores = &study.leaderboard[0].scores;
+    assert_eq!((scores.episodes, scores.observations), (5, 1));
+    assert!(scores.win_rate.is_some_and(|rate| rate.value == 1.0 && rate.low < 0.21));
+    // Different ways to the same result count.
+    let mut different = copies(Won, "won");
+    different.iter_mut().for_each(|episode| episode.course = Some(Digest::of(&[episode.run as u8])));
+    assert_eq!(two(different, copies(Lost, "lost")).leaderboard[0].scores.observations, 5);
+}
+
+/// Which episodes are identical is seen in their logs: by actions and boards.
+#[test]
+fn courses_of_episodes() {
+    let subject = subject();
+    let course = |actions: &[engine::Action]| {
+        EpisodeMetrics::of(&subject, &log(&subject, 0, actions, 50)).unwrap().course.expect("it is known")
+    };
+    assert_eq!(course(&[Right, Left, Right]), course(&[Right, Left, Right]));
+    let all = [course(&[Right]), course(&[Left]), course(&[Right, Left]), course(&[Right, Left, Left])];
+    assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), 4);
+}
+
+/// One model at two temperatures is two persons, and the rows say how they differ.
+#[test]
+fn decoding_and_prompts_tell_persons_apart() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = |name: &str, temperature: f64, server: &str| {
+        let details = json!({
+            "model": { "decoding": { "temperature": temperature, "top_p": 1 }, "server": server },
+            "prompt_digest": "5fe01b2c9d",
+        });
+        with_details(&home.path().join(name), "random", vec![subject()], details)
+    };
+    let folders = [folder("cold", 0.0, "here"), folder("hot", 1.5, "there")];
+    let study = Study::read(&folders).unwrap();
+    let labels: Vec<String> = study.players.iter().map(Player::label).collect();
+    assert_eq!(labels, ["random (temperature 0.0)", "random (temperature 1.5)"]);
+    assert_eq!(study.pairs.overall.len(), 1, "and they are compared");
+    // The same on another server is the same person, who played twice.
+    let again = folder("again", 0.0, "there");
+    let error = Study::read(&[folders[0].clone(), again]).unwrap_err().to_string();
+    assert!(error.contains("also played run"), "{error}");
+}
+
+/// The game under other names: its episodes have the same chance, and the same states after the same actions.
+#[test]
+fn twins_share_chance_and_states() {
+    let own = subject();
+    let rename = |text: &str| {
+        ["door", "gem", "box", "guard"]
+            .iter()
+            .zip(["t1", "t2", "t3", "t4"])
+            .fold(text.to_owned(), |text, (name, mask)| text.replace(name, mask))
+    };
+    let levels: Vec<(usize, String, Option<usize>)> = own
+        .levels
+        .iter()
+        .map(|level| (level.number, level.text.replace('d', "q"), level.optimal_ticks))
+        .collect();
+    let source = rename(&own.source).replace("        d > t1", "        q > t1");
+    let twin =
+        Subject::read(&own.id, &source, &levels, SubjectFacts::default()).expect("renaming keeps it sound");
+    assert_ne!(own.game.digest(), twin.game.digest());
+    let home = tempfile::tempdir().unwrap();
+    let folders = [("own", own), ("twin", twin)]
+        .map(|(name, game)| evaluate(&home.path().join(name), "random", vec![game]));
+    let hashes = |folder| {
+        let evaluation = Evaluation::open(folder).unwrap();
+        let tasks = evaluation.tasks();
+        let logs = tasks.iter().map(|task| evaluation.events(task).unwrap());
+        let of_event = |event: Event| match event {
+            Event::Start { hash, seed, .. } => Some((hash, Some(seed))),
+            Event::Step { hash, .. } => Some((hash, None)),
+            _ => None,
+        };
+        logs.map(|log| log.into_iter().filter_map(of_event).collect()).collect::<Vec<Vec<_>>>()
+    };
+    let (ours, theirs) = (hashes(&folders[0]), hashes(&folders[1]));
+    assert!(ours.len() == 4 && ours.iter().all(|log| log.len() > 5));
+    assert_eq!(ours, theirs, "a player that heeds no names plays the same");
+    let study = Study::read(&folders).unwrap();
+    let labels: Vec<String> = study.players.iter().map(Player::label).collect();
+    assert_eq!(labels, ["random", "random (games under other names)"]);
+    assert_eq!((study.games.len(), study.pairs.overall.len()), (1, 1));
+}
