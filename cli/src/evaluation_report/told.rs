@@ -29,7 +29,8 @@ impl Told {
             words::many(games, "game"),
             words::many(levels, "level")
         );
-        let mut counted = vec![episodes(study), common(study, levels)];
+        let mut counted = study.verdict();
+        counted.extend([episodes(study), common(study, levels)]);
         counted.extend(answers(study));
         counted.push(
             "Intervals are for 95 %. A dash is a value that is not known, never 0. `arcade docs report` explains each section, \

@@ -25,6 +25,7 @@ mod scores;
 mod sweep;
 mod taxonomy;
 mod times;
+mod verdict;
 
 pub use contrast::{Comparison, Contrasts, OverallComparison, WithinLevels};
 pub use correlations::{CORRELATED, Correlation, Correlations, Test};

@@ -34,9 +34,17 @@ impl Player {
         Player { mode: Some(mode.to_owned()), ..Player::reference(name) }
     }
 
-    /// Returns `true` if it is not a model but a baseline: random, a planner, a replay.
+    /// Returns `true` if it is a baseline to compare with: random, a planner, a replay. Models, programs (`cmd:`), people and
+    /// mailboxes are none.
+    ///
+    /// ```
+    /// use infinite_arcade_evaluation::study::Player;
+    /// assert!(Player::reference("mcts:100").is_reference());
+    /// assert!(!Player::reference("cmd:python3 my_agent.py").is_reference());
+    /// ```
     pub fn is_reference(&self) -> bool {
-        self.mode.is_none()
+        let examined = ["cmd:", "human", "mailbox"].iter().any(|name| self.name.starts_with(name));
+        self.mode.is_none() && !examined
     }
 
     /// Returns the name with mode, aids and conditions, which is unique within a study.

@@ -104,6 +104,28 @@ fn identical_episodes_are_one_observation() {
     assert_eq!(two(different, copies(Lost, "lost")).leaderboard[0].scores.observations, 5);
 }
 
+/// The first sentences of a report say who is best, how sure that is, and how players fail.
+#[test]
+fn verdicts() {
+    let said = |games: usize, theirs: u64| {
+        let ours = episodes(games, 5, 5, |game, _| if game % 2 == 0 { 5 } else { 3 });
+        two(ours, episodes(games, 5, 5, |_, _| theirs)).verdict()
+    };
+    let clear = said(12, 1);
+    assert_eq!(clear[0], "a won most: 80 % (240 of 300 episodes); in games like these, 64 to 90 %.");
+    assert!(
+        clear[1].starts_with("It is better than b in games like these (+60 points, +47 to +73, p = 0.0"),
+        "{}",
+        clear[1]
+    );
+    assert_eq!(clear[2], "Of 60 episodes that a did not win, 60 were lost by the rules of the game.");
+    assert!(said(12, 4)[1].contains("not proved"), "{:?}", said(12, 4));
+    assert!(said(5, 0)[1].starts_with("Fewer than six games do not tell"), "{:?}", said(5, 0));
+    assert!(said(1, 0)[0].contains("on exactly these levels"), "{:?}", said(1, 0));
+    assert!(said(1, 0)[1].starts_with("One game says nothing"), "{:?}", said(1, 0));
+    assert!(Study::new(vec![(Player::reference("a"), Vec::new())], Vec::new()).verdict().is_empty());
+}
+
 /// Which episodes are identical is seen in their logs: by actions and boards.
 #[test]
 fn courses_of_episodes() {
