@@ -82,6 +82,11 @@ impl Console {
         }
     }
 
+    /// Returns `true` if the answer is wanted as JSON.
+    pub(crate) fn is_json(&self) -> bool {
+        self.json
+    }
+
     /// Prints the answer for people; nothing if JSON is wanted.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {

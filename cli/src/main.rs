@@ -78,6 +78,7 @@ verbs! {
     Generate: generate,
     Run: run,
     Evaluate: evaluate,
+    Mailbox: mailbox,
     ServePlayer: serve_player,
     #[command(hide = true)]
     PlayerGuard: player_guard,

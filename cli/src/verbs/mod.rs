@@ -10,6 +10,7 @@ pub(crate) mod evaluate;
 pub(crate) mod export;
 pub(crate) mod fmt;
 pub(crate) mod generate;
+pub(crate) mod mailbox;
 pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod play;

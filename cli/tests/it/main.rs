@@ -7,6 +7,7 @@ mod evaluate;
 mod export;
 mod generate;
 mod generate_games;
+mod mailbox;
 mod pictures;
 mod regenerate;
 mod release;

@@ -1,6 +1,7 @@
 //! Players: planners that see the state, and agents that are shown turns.
 
 mod builtin;
+pub mod mailbox;
 mod model;
 pub mod process;
 

@@ -24,7 +24,7 @@ use crate::tokens;
 use crate::turn::Turn;
 use engine::describe::Guide;
 use engine::syntax::print_bare;
-use engine::{Action, Analysis, Digest};
+use engine::{Action, Analysis, Digest, Outcome};
 use minijinja::Environment;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
@@ -34,11 +34,12 @@ use serde::Serialize;
 /// The version of the templates, raised when a word of them changes, so that results tell prompts apart at a glance.
 pub const VERSION: u32 = 2;
 
-const TEMPLATES: [(&str, &str); 5] = [
+const TEMPLATES: [(&str, &str); 6] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
     ("standard_turn.j2", include_str!("templates/standard_turn.j2")),
     ("reference_static.j2", include_str!("templates/reference_static.j2")),
     ("reference_turn.j2", include_str!("templates/reference_turn.j2")),
+    ("ending.j2", include_str!("templates/ending.j2")),
     ("complaint.j2", include_str!("templates/complaint.j2")),
 ];
 
@@ -234,6 +235,28 @@ impl Prompter {
                 "actions": self.words(),
             })),
         )
+    }
+
+    /// Returns the last message of an episode, which expects no answer: the outcome, the score and the final state. `last`
+    /// shows the final observation. Language models are not sent it, because nothing follows.
+    pub fn ending(&self, last: &Turn<'_>) -> String {
+        let outcome = match last.observation.outcome {
+            Outcome::Won => "won",
+            Outcome::Lost => "lost",
+            Outcome::Ended => "ended",
+            Outcome::Ongoing => "ongoing",
+            Outcome::Stopped(_) => "stopped",
+        };
+        let end = self.render(
+            "ending.j2",
+            data(serde_json::json!({
+                "outcome": outcome,
+                "limit": last.limit,
+                "steps": last.number,
+                "score": last.observation.score.to_string(),
+            })),
+        );
+        format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
     }
 
     /// Reads an answer to a turn.

@@ -60,7 +60,8 @@ impl View<'_> {
         let offered = |action: &&Action| self.turn.actions.contains(action);
         let actions: Vec<String> = self.actions.iter().filter(offered).map(ToString::to_string).collect();
         json!({
-            "actions_now": (actions.len() < self.actions.len()).then_some(actions),
+            // None are offered after the end of an episode.
+            "actions_now": (!actions.is_empty() && actions.len() < self.actions.len()).then_some(actions),
             "feedback": self.settings.has_feedback().then(|| self.feedback()).flatten(),
             "grid": grid.then(|| board(encoding::grid(now, legend), spaced)),
             "stacks": if grid { encoding::stacks(now, legend) } else { Vec::new() },

@@ -4,6 +4,7 @@ extern crate infinite_arcade_evaluation as evaluation;
 
 mod boards;
 mod games;
+mod mailbox;
 mod misbehaving_servers;
 mod prompts;
 mod runs;

@@ -1,6 +1,7 @@
 //! `arcade evaluate`: measures a player on games.
 
 mod human;
+mod mailbox;
 mod model;
 mod subjects;
 
@@ -13,6 +14,7 @@ use crate::verbs::release::in_pool;
 use agents::{Budget, PlannerSpec};
 use engine::{Outcome, SEMANTICS};
 use evaluation::client::Spent;
+use evaluation::player::mailbox::Mailbox;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
 use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
@@ -22,6 +24,7 @@ use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, 
 use human::Human;
 use indicatif::ProgressBar;
 use itertools::Itertools;
+use mailbox::RequestedMailbox;
 use model::{ConnectedModel, ModelArgs};
 use serde_json::json;
 use statistics::Design;
@@ -47,10 +50,14 @@ pub(crate) struct Args {
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
     /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see
-    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`); or a program of yours,
-    /// `"cmd:python3 my_agent.py"` (see `arcade docs agents`)
+    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`); a program of yours,
+    /// `"cmd:python3 my_agent.py"` (see `arcade docs agents`); or whoever answers the files in a folder, `mailbox:DIR`
+    /// (see `arcade docs mailbox`)
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
     player: Option<String>,
+    /// The name of the person or program that plays as `human` or `mailbox:DIR`, for results
+    #[arg(long, value_name = "NAME", requires = "player")]
+    name: Option<String>,
     /// Only these games
     #[arg(long, value_name = "GAME", value_delimiter = ',')]
     games: Vec<String>,
@@ -92,6 +99,7 @@ enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
     Human(PromptSettings),
+    Mailbox(RequestedMailbox),
     Prompted(PromptPlayer, PromptSettings),
     Process(Box<Process>),
     Model(Box<model::RequestedModel>),
@@ -99,6 +107,19 @@ enum RequestedPlayer {
 
 /// Makes the player of an episode.
 type PlayerOf = Box<dyn Fn(&Task<'_>) -> Contestant + Sync>;
+
+/// The players of the episodes, and their sides that outlive an episode.
+struct Connected {
+    contestant: PlayerOf,
+    model: Option<Arc<ConnectedModel>>,
+    mailbox: Option<Arc<Mailbox>>,
+}
+
+impl From<PlayerOf> for Connected {
+    fn from(contestant: PlayerOf) -> Connected {
+        Connected { contestant, model: None, mailbox: None }
+    }
+}
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.runs == 0 || args.max_steps == 0 {
@@ -135,7 +156,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             folder.display()
         );
     }
-    let (contestant, model) = requested.connect(args, &subjects.games, console)?;
+    let Connected { contestant, model, mailbox } =
+        requested.connect(args, &settings, &subjects.games, console)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
     } else {
@@ -167,6 +189,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         other => other,
     })?;
     bar.bar.finish_and_clear();
+    if let Some(mailbox) = &mailbox {
+        mailbox.finish(&tally)?;
+    }
     print_results(console, &folder, &evaluation.settings.entrant, &tally, model.as_deref())
 }
 
@@ -215,7 +240,10 @@ impl RequestedPlayer {
                 (name, json!({ "planner": spec.name(), "budget": budget }))
             }
             RequestedPlayer::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
-            RequestedPlayer::Human(prompts) => ("human".to_owned(), json!({ "prompt": prompts })),
+            RequestedPlayer::Human(prompts) => {
+                (args.name.clone().unwrap_or("human".to_owned()), json!({ "prompt": prompts }))
+            }
+            RequestedPlayer::Mailbox(mailbox) => return mailbox.entrant(args, subjects),
             RequestedPlayer::Prompted(player, prompts) => (player.to_string(), json!({ "prompt": prompts })),
             RequestedPlayer::Process(process) => {
                 let command = process.command();
@@ -229,13 +257,14 @@ impl RequestedPlayer {
         Ok(Entrant { name, mode: None, aids, details })
     }
 
-    /// Returns the players of the episodes, and the language model, if it is one.
+    /// Returns the players of the episodes.
     fn connect(
         &self,
         args: &Args,
+        settings: &Settings,
         subjects: &[Subject],
         console: &Console,
-    ) -> Result<(PlayerOf, Option<Arc<ConnectedModel>>), Failure> {
+    ) -> Result<Connected, Failure> {
         let contestant: PlayerOf = match self {
             RequestedPlayer::Planner(spec) => {
                 let (spec, budget) = (spec.clone(), Budget(args.budget));
@@ -265,13 +294,18 @@ impl RequestedPlayer {
                 };
                 Box::new(move |_| Contestant::Agent(Box::new(process())))
             }
+            RequestedPlayer::Mailbox(mailbox) => {
+                let (contestant, mailbox) = mailbox.connect(args, settings, subjects, console)?;
+                return Ok(Connected { mailbox: Some(mailbox), ..contestant.into() });
+            }
             RequestedPlayer::Model(model) => {
                 let model = Arc::new(model.connect(subjects)?);
                 let connected = model.clone();
-                return Ok((Box::new(move |task| connected.contestant(task)), Some(model)));
+                let contestant: PlayerOf = Box::new(move |task| connected.contestant(task));
+                return Ok(Connected { model: Some(model), ..contestant.into() });
             }
         };
-        Ok((contestant, None))
+        Ok(contestant.into())
     }
 
     /// Returns the number of concurrent episodes, at most their number. Episodes of models wait most of the time.
@@ -279,6 +313,7 @@ impl RequestedPlayer {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.concurrency.get(),
             RequestedPlayer::Human(_) => 1,
+            RequestedPlayer::Mailbox(_) => args.jobs.unwrap_or(1),
             _ => {
                 args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
             }
@@ -312,7 +347,13 @@ fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), F
     if let Some(flag) = args.model.unused_without_model() {
         bail!("{flag} applies to language models (--model) only; remove it for the player `{player}`");
     }
-    let is_shown_prompts = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Prompted(..));
+    let is_named = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Mailbox(_));
+    if args.name.is_some() && !is_named {
+        bail!(
+            "--name applies to the players `human` and `mailbox:DIR` only; remove it for the player `{player}`"
+        );
+    }
+    let is_shown_prompts = is_named || matches!(requested, RequestedPlayer::Prompted(..));
     if !is_shown_prompts && args.model.prompt.settings()? != PromptSettings::default() {
         bail!(
             "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
@@ -338,6 +379,9 @@ fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
     }
     if player == "human" {
         return Ok(RequestedPlayer::Human(args.model.prompt.settings()?));
+    }
+    if let Some(folder) = player.strip_prefix("mailbox:") {
+        return Ok(RequestedPlayer::Mailbox(RequestedMailbox::new(folder, args)?));
     }
     if let Some(command) = player.strip_prefix("cmd:") {
         let process = process(command, args.model.timeout).map_err(Failure::malformed)?;

@@ -51,7 +51,7 @@ pub(crate) struct ModelArgs {
     reasoning_effort: Option<String>,
     /// Number of repeated requests after an answer without a usable action
     #[arg(long, value_name = "N", default_value_t = 1)]
-    reasks: u32,
+    pub(crate) reasks: u32,
     /// The most US dollars to spend, by the table of prices
     #[arg(long, value_name = "USD", requires = "model")]
     max_cost: Option<f64>,
@@ -254,6 +254,13 @@ impl ModelArgs {
     }
 }
 
+pub(super) fn mode_name(mode: Mode) -> &'static str {
+    match mode {
+        Mode::ZeroShot => "zero-shot",
+        Mode::Contextual => "contextual",
+    }
+}
+
 /// The prompters of the games, by game id.
 type Prompters = BTreeMap<String, Arc<Prompter>>;
 
@@ -319,13 +326,9 @@ impl RequestedModel {
     pub(crate) fn entrant(&self, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest =
             subjects.first().map(|subject| self.prompter(subject).map(|own| own.digest())).transpose()?;
-        let mode = match self.prompts.mode {
-            Mode::ZeroShot => "zero-shot",
-            Mode::Contextual => "contextual",
-        };
         Ok(Entrant {
             name: self.settings.model.clone(),
-            mode: Some(mode.to_owned()),
+            mode: Some(mode_name(self.prompts.mode).to_owned()),
             aids: self.prompts.aids(),
             details: json!({
                 "model": self.settings,

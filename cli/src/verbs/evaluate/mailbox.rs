@@ -1,0 +1,74 @@
+//! The player `mailbox:DIR`: whoever answers the prompts in a folder.
+
+use super::model::{mode_name, prompters};
+use super::{Args, PlayerOf};
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::shell;
+use evaluation::player::Contestant;
+use evaluation::player::mailbox::{Mailbox, MailboxPlayer};
+use evaluation::prompt::{PromptSettings, Prompter};
+use evaluation::run::Task;
+use evaluation::{Entrant, Settings, Subject};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A requested mailbox, not yet opened.
+pub(super) struct RequestedMailbox {
+    folder: PathBuf,
+    prompts: PromptSettings,
+    reasks: u32,
+}
+
+impl RequestedMailbox {
+    pub(super) fn new(folder: &str, args: &Args) -> Result<RequestedMailbox, Failure> {
+        if folder.is_empty() {
+            bail!("`mailbox:` names no folder; name an absent or empty one, such as `mailbox:alice`");
+        }
+        let (prompts, reasks) = (args.model.prompt.settings()?, args.model.reasks);
+        Ok(RequestedMailbox { folder: folder.into(), prompts, reasks })
+    }
+
+    /// Returns the player as results name it: by `--name`, or else by the last part of the folder.
+    pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
+        let digest = match subjects.first() {
+            Some(subject) => Some(Prompter::new(subject, self.prompts.clone())?.digest()),
+            None => None,
+        };
+        let folder = self.folder.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy();
+        Ok(Entrant {
+            name: args.name.clone().unwrap_or_else(|| format!("mailbox:{folder}")),
+            mode: Some(mode_name(self.prompts.mode).to_owned()),
+            aids: self.prompts.aids(),
+            details: json!({
+                "mailbox": true,
+                "prompt": self.prompts,
+                "prompt_digest": digest,
+                "reasks": self.reasks,
+            }),
+        })
+    }
+
+    /// Opens the mailbox, and returns the players of the episodes.
+    pub(super) fn connect(
+        &self,
+        args: &Args,
+        settings: &Settings,
+        subjects: &[Subject],
+        console: &Console,
+    ) -> Result<(PlayerOf, Arc<Mailbox>), Failure> {
+        let prompters = prompters(subjects, &self.prompts)?;
+        let mailbox = Arc::new(Mailbox::open(&self.folder, settings, args.resume, console.remarks())?);
+        console.remark(format_args!(
+            "prompts appear in {}; answer them with `{}`, or as `arcade docs mailbox` says",
+            self.folder.display(),
+            shell::command([Path::new("mailbox"), &self.folder])
+        ));
+        let (opened, reasks) = (mailbox.clone(), self.reasks);
+        let player = move |task: &Task<'_>| {
+            MailboxPlayer::new(opened.clone(), task, prompters[&task.subject.id].clone(), reasks)
+        };
+        Ok((Box::new(move |task| Contestant::Agent(Box::new(player(task)))), mailbox))
+    }
+}

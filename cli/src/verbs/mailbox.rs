@@ -1,0 +1,368 @@
+//! `arcade mailbox`: shows the open prompts of an evaluation, and delivers the answers typed to them.
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use evaluation::player::mailbox::{Delivery, Desk, OpenPrompt, View};
+use itertools::Itertools;
+use serde_json::json;
+use std::collections::BTreeSet;
+use std::io::{BufRead, IsTerminal, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// The pause between two looks into the mailbox.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// The number of looks for the next prompt of the same episode before another episode is shown: two seconds.
+const PATIENCE: u32 = 20;
+
+/// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines typed.
+///
+/// A line is an action, such as `left` or its first letters, or a command: `list`, `rules`, `show`, `skip`, `quit`, `help`;
+/// `say TEXT` answers with the text as it is. With --json, what waits is listed and nothing is answered.
+///
+/// Exit status 0: listed, or the evaluation is over. 1: it is not over. 2: there is no mailbox. 3: disk failed.
+///
+/// Example: arcade mailbox alice
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The folder of `arcade evaluate … --player mailbox:DIR`
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Only list what waits
+    #[arg(long)]
+    list: bool,
+    /// Answer only the prompts of this episode
+    #[arg(long, value_name = "NAME")]
+    episode: Option<String>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let desk = Desk::open(&args.folder)?;
+    let view = desk.view()?;
+    console.document(&document(&desk, &view))?;
+    if args.list || console.is_json() {
+        console.say(listed(&desk, &view));
+        return Ok(true);
+    }
+    let mut session = Session {
+        desk,
+        console,
+        only: args.episode.clone(),
+        introduced: BTreeSet::new(),
+        skipped: BTreeSet::new(),
+        current: None,
+        is_waiting: false,
+    };
+    session.run()
+}
+
+/// A person who answers prompts.
+struct Session<'a> {
+    desk: Desk,
+    console: &'a Console,
+    /// The only episode to answer, if one is given.
+    only: Option<String>,
+    /// The episodes whose rules have been shown.
+    introduced: BTreeSet<String>,
+    /// The episodes that are answered later.
+    skipped: BTreeSet<String>,
+    /// The episode that was answered last.
+    current: Option<String>,
+    /// `true` if the user has been told that nothing waits.
+    is_waiting: bool,
+}
+
+/// The consequence of a typed line.
+enum Typed {
+    /// The prompt has an answer, or is not to be answered now.
+    Done,
+    /// Another line is needed.
+    Again,
+    Quit,
+}
+
+impl Session<'_> {
+    fn run(&mut self) -> Answer {
+        loop {
+            let Some(open) = self.next()? else {
+                let view = self.desk.view()?;
+                return Ok(self.conclude(&view));
+            };
+            self.is_waiting = false;
+            self.show(&open);
+            if self.ask(&open)? {
+                let view = self.desk.view()?;
+                self.console.say(listed(&self.desk, &view));
+                return Ok(view.finished.is_some());
+            }
+        }
+    }
+
+    /// Waits for a prompt; `None` if none will come.
+    fn next(&mut self) -> Result<Option<OpenPrompt>, Failure> {
+        let mut looks = 0;
+        loop {
+            let view = self.desk.view()?;
+            self.tell_end(&view)?;
+            let wanted = |open: &&OpenPrompt| {
+                self.only.as_ref().is_none_or(|only| *only == open.prompt.episode)
+                    && !self.skipped.contains(&open.prompt.episode)
+            };
+            let mut waiting = view.waiting.iter().filter(wanted);
+            let is_current = |open: &&OpenPrompt| self.current.as_ref() == Some(&open.prompt.episode);
+            if let Some(open) = waiting.clone().find(is_current) {
+                return Ok(Some(open.clone()));
+            }
+            if self.current.is_none() || looks >= PATIENCE {
+                if let Some(open) = waiting.next() {
+                    return Ok(Some(open.clone()));
+                }
+                if !self.skipped.is_empty() {
+                    // Nothing else waits: the skipped ones come again.
+                    self.skipped.clear();
+                    continue;
+                }
+                let is_over = |only: &String| view.ended.iter().any(|(episode, _)| episode == only);
+                if view.finished.is_some() || !view.is_running || self.only.as_ref().is_some_and(is_over) {
+                    return Ok(None);
+                }
+                if !self.is_waiting {
+                    self.is_waiting = true;
+                    self.console.remark("waiting for the next prompt; Ctrl-C leaves");
+                }
+            }
+            looks += 1;
+            std::thread::sleep(PAUSE);
+        }
+    }
+
+    /// Shows the last message of the episode that was answered last, once it has ended.
+    fn tell_end(&mut self, view: &View) -> Result<(), Failure> {
+        let Some(current) = &self.current else { return Ok(()) };
+        if !view.ended.iter().any(|(episode, _)| episode == current) {
+            return Ok(());
+        }
+        if let Some(text) = self.desk.ending(current)? {
+            self.console.say(format_args!("\n--- {current} has ended ---\n{}", text.trim_end()));
+        }
+        self.current = None;
+        Ok(())
+    }
+
+    fn show(&mut self, open: &OpenPrompt) {
+        let prompt = &open.prompt;
+        let (episode, step) = (&prompt.episode, prompt.address.step);
+        self.console.say(format_args!("\n--- {episode}, step {step} ---"));
+        if self.introduced.insert(episode.clone()) && prompt.messages.len() > 1 {
+            self.console.say(format_args!("{}\n", prompt.messages[0].text));
+        }
+        self.show_turn(open);
+    }
+
+    /// Shows the newest message.
+    fn show_turn(&self, open: &OpenPrompt) {
+        if let Some(message) = open.prompt.messages.last() {
+            self.console.say(&message.text);
+        }
+        if let Some(picture) = &open.prompt.picture {
+            let path = self.desk.episode(&open.prompt.episode).join(picture);
+            self.console.say(format_args!("The picture is {}", path.display()));
+        }
+        if let Some(problem) = &open.problem {
+            self.console.remark(problem);
+        }
+    }
+
+    /// Reads lines until the prompt has an answer. Returns `true` if the user leaves.
+    fn ask(&mut self, open: &OpenPrompt) -> Result<bool, Failure> {
+        loop {
+            self.invite(open);
+            let mut line = Vec::new();
+            let read = std::io::stdin().lock().read_until(b'\n', &mut line);
+            let read = read.map_err(|error| Failure::environment(error, "cannot read standard input"))?;
+            if read == 0 {
+                return Ok(true);
+            }
+            let Ok(line) = String::from_utf8(line) else {
+                self.console.remark("that line is not UTF-8; type it again");
+                continue;
+            };
+            match self.typed(open, line.trim())? {
+                Typed::Done => return Ok(false),
+                Typed::Again => {}
+                Typed::Quit => return Ok(true),
+            }
+        }
+    }
+
+    /// Asks for a line, on a terminal.
+    fn invite(&self, open: &OpenPrompt) {
+        if std::io::stdin().is_terminal() {
+            let mut stderr = std::io::stderr();
+            let _ = write!(stderr, "\n{} (help)> ", open.prompt.actions.join(", "));
+            let _ = stderr.flush();
+        }
+    }
+
+    fn typed(&mut self, open: &OpenPrompt, line: &str) -> Result<Typed, Failure> {
+        let actions = &open.prompt.actions;
+        let (word, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        if word == "say" {
+            return self.deliver(open, rest.trim());
+        }
+        if is_formatted(line) {
+            return self.deliver(open, line);
+        }
+        match (line.to_lowercase().as_str(), action(line, actions)) {
+            ("", _) => {}
+            (_, Some(action)) => return self.deliver(open, &formatted(open, action)),
+            ("quit" | "q" | "exit", None) => return Ok(Typed::Quit),
+            ("skip" | "next", None) => {
+                self.skipped.insert(open.prompt.episode.clone());
+                self.current = None;
+                return Ok(Typed::Done);
+            }
+            ("show", None) => self.show_turn(open),
+            ("rules", None) => {
+                open.prompt.messages.first().iter().for_each(|message| self.console.say(&message.text));
+            }
+            ("list", None) => self.console.say(listed(&self.desk, &self.desk.view()?)),
+            ("help" | "?", None) => self.console.say(HELP),
+            (_, None) => self.console.remark(format_args!(
+                "`{line}` is none of {}; `say {line}` answers with it as it is, `help` lists the commands",
+                actions.join(", ")
+            )),
+        }
+        Ok(Typed::Again)
+    }
+
+    fn deliver(&mut self, open: &OpenPrompt, answer: &str) -> Result<Typed, Failure> {
+        match self.desk.answer(&open.prompt, answer)? {
+            Delivery::Delivered => {}
+            Delivery::TooLate => self.console.remark("somebody else has answered this prompt"),
+            Delivery::Refused(why) => {
+                self.console.remark(format_args!("{why}; type another one"));
+                return Ok(Typed::Again);
+            }
+        }
+        self.current = Some(open.prompt.episode.clone());
+        Ok(Typed::Done)
+    }
+
+    /// Says why no more prompts come, and returns `true` if the evaluation is over.
+    fn conclude(&self, view: &View) -> bool {
+        self.console.say(listed(&self.desk, view));
+        view.finished.is_some()
+    }
+}
+
+const HELP: &str = "an action, or its first letters: answers the prompt
+say TEXT: answers with the text as it is
+show: shows the turn again; rules: the rules, the legend and the format
+list: what waits; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
+
+/// Returns the action that a line names, in full or by its first letters.
+fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
+    let typed = line.to_lowercase();
+    let mut found = actions.iter().filter(|action| action.starts_with(&typed));
+    let exact = actions.iter().find(|action| **action == typed);
+    exact.or_else(|| found.next().filter(|_| found.next().is_none())).map(String::as_str)
+}
+
+/// Returns `true` if a line is in the format that prompts ask for.
+fn is_formatted(line: &str) -> bool {
+    line.get(..7).is_some_and(|start| start.eq_ignore_ascii_case("action:"))
+}
+
+/// Returns an action in the format that the prompt asks for.
+fn formatted(open: &OpenPrompt, action: &str) -> String {
+    // The composition of the reference numbers its actions.
+    let number = open.prompt.messages.iter().flat_map(|message| message.text.lines()).find_map(|line| {
+        let (number, name) = line.split_once(": ACTION_")?;
+        (name.eq_ignore_ascii_case(action)).then_some(number)
+    });
+    format!("ACTION: {}", number.unwrap_or(action))
+}
+
+fn listed(desk: &Desk, view: &View) -> String {
+    let ended = |(episode, result): &(String, evaluation::player::mailbox::EpisodeResult)| {
+        let (score, steps) = (result.score, result.steps);
+        format!("{episode}: {}, score {score}, {steps} steps", words(result.outcome))
+    };
+    let waiting = |open: &OpenPrompt| {
+        let prompt = &open.prompt;
+        let problem = open.problem.as_ref().map_or(String::new(), |problem| format!("; {problem}"));
+        format!("{}: step {} waits for {}{problem}", prompt.episode, prompt.address.step, prompt.answer)
+    };
+    let state = match (&view.finished, view.waiting.len(), view.is_running) {
+        (Some(finished), ..) => {
+            format!("the evaluation is over: {} of {} episodes won", finished.won, finished.episodes)
+        }
+        (None, 0, true) => "nothing waits; the evaluation is running".to_owned(),
+        (None, 0, false) => {
+            "nothing waits, and no evaluation is running here; continue it with --resume".to_owned()
+        }
+        (None, waiting, running) => {
+            let prompts = if waiting == 1 { "1 prompt waits" } else { "prompts wait" };
+            let number = if waiting == 1 { String::new() } else { format!("{waiting} ") };
+            let idle =
+                if running { "" } else { "; no evaluation is running here: --resume reads the answers" };
+            format!("{number}{prompts}{idle}")
+        }
+    };
+    let lines = view.ended.iter().map(ended).chain(view.waiting.iter().map(waiting));
+    let heading = format!("mailbox of the player `{}`", desk.player());
+    [heading].into_iter().chain(lines).chain([state]).join("\n")
+}
+
+/// Returns an outcome in words.
+fn words(outcome: engine::Outcome) -> &'static str {
+    match outcome {
+        engine::Outcome::Won => "won",
+        engine::Outcome::Lost => "lost",
+        engine::Outcome::Ended => "over without a winner",
+        engine::Outcome::Ongoing => "not won within the limit of steps",
+        engine::Outcome::Stopped(_) => "stopped by an error in the rules",
+    }
+}
+
+fn document(desk: &Desk, view: &View) -> serde_json::Value {
+    let waiting = |open: &OpenPrompt| {
+        let folder = desk.episode(&open.prompt.episode);
+        json!({
+            "episode": open.prompt.episode,
+            "step": open.prompt.address.step,
+            "attempt": open.prompt.address.attempt,
+            "actions": open.prompt.actions,
+            "prompt": folder.join(open.prompt.address.prompt_text()).display().to_string(),
+            "answer": folder.join(&open.prompt.answer).display().to_string(),
+            "problem": open.problem,
+        })
+    };
+    let ended = view.ended.iter().map(|(episode, result)| json!({ "episode": episode, "result": result }));
+    json!({
+        "player": desk.player(),
+        "running": view.is_running,
+        "waiting": view.waiting.iter().map(waiting).collect_vec(),
+        "ended": ended.collect_vec(),
+        "finished": view.finished,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn actions_by_their_first_letters() {
+        let actions = ["nil", "use", "up", "left"].map(str::to_owned);
+        let check = |line: &str, expect: Option<&str>| assert_eq!(action(line, &actions), expect, "{line}");
+        check("left", Some("left"));
+        check("L", Some("left"));
+        check("up", Some("up"));
+        check("u", None);
+        check("us", Some("use"));
+        check("fly", None);
+    }
+}

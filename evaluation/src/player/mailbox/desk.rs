@@ -1,0 +1,151 @@
+//! The side of a mailbox on which people and programs answer.
+
+use super::files::{
+    FINISHED_FILE, FINISHED_TEXT, MAX_ANSWER, PROBLEM_FILE, PromptFile, complete, is_absent, names,
+    read_data, read_text,
+};
+use super::folder::{Finished, is_locked, marker};
+use super::player::EpisodeResult;
+use crate::error::EvaluationError;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A reader of a mailbox, which also delivers answers.
+#[derive(Debug)]
+pub struct Desk {
+    folder: PathBuf,
+    player: String,
+}
+
+/// The content of a mailbox at one moment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct View {
+    /// The prompts that wait for an answer, sorted by episode.
+    pub waiting: Vec<OpenPrompt>,
+    /// The episodes that have ended, with their results.
+    pub ended: Vec<(String, EpisodeResult)>,
+    /// The result of the evaluation, once all episodes have ended.
+    pub finished: Option<Finished>,
+    /// `true` if an evaluation is running on the mailbox.
+    pub is_running: bool,
+}
+
+/// A prompt that waits for an answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OpenPrompt {
+    /// The prompt.
+    pub prompt: PromptFile,
+    /// The problem with an answer that was set aside.
+    pub problem: Option<String>,
+}
+
+/// The result of delivering an answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Delivery {
+    /// The answer is in its file.
+    Delivered,
+    /// The prompt has an answer already, or is not open any more.
+    TooLate,
+    /// The answer cannot be used, with the reason.
+    Refused(String),
+}
+
+impl Desk {
+    /// Opens the mailbox in a folder.
+    ///
+    /// # Errors
+    /// There is none, it has a newer format, or it is damaged.
+    pub fn open(folder: &Path) -> Result<Desk, EvaluationError> {
+        match marker(folder)? {
+            Some(marker) => Ok(Desk { folder: folder.to_owned(), player: marker.player }),
+            None => Err(EvaluationError::malformed(
+                folder,
+                "there is no mailbox here; `arcade evaluate … --player mailbox:DIR` makes one in the folder DIR",
+            )),
+        }
+    }
+
+    /// The name of the player in results.
+    pub fn player(&self) -> &str {
+        &self.player
+    }
+
+    /// The folder of an episode.
+    pub fn episode(&self, episode: &str) -> PathBuf {
+        self.folder.join(episode)
+    }
+
+    /// Returns the content of the mailbox.
+    ///
+    /// # Errors
+    /// A file cannot be read or is damaged.
+    pub fn view(&self) -> Result<View, EvaluationError> {
+        // In this order, an evaluation that ends meanwhile is not taken for an interrupted one.
+        let is_running = is_locked(&self.folder);
+        let finished = read_data(&self.folder.join(FINISHED_FILE))?;
+        let mut view = View { finished, is_running, ..View::default() };
+        for episode in names(&self.folder)? {
+            let folder = self.episode(&episode);
+            if !fs::symlink_metadata(&folder).is_ok_and(|found| found.is_dir()) {
+                continue;
+            }
+            if let Some(result) = read_data(&folder.join(FINISHED_FILE))? {
+                view.ended.push((episode, result));
+                continue;
+            }
+            let names = names(&folder)?;
+            let is_answered = |name: &String| {
+                let answer = name.strip_suffix(".prompt.json").map(|address| format!("{address}.answer.txt"));
+                answer.is_some_and(|answer| names.contains(&answer))
+            };
+            let prompts = names.iter().filter(|name| name.ends_with(".prompt.json") && !is_answered(name));
+            let Some(name) = prompts.max() else { continue };
+            let Some(prompt) = read_data::<PromptFile>(&folder.join(name))? else { continue };
+            // The file says where its answer goes; it must be this folder.
+            if prompt.episode == episode && prompt.address.prompt_data() == *name {
+                let problem = read_text(&folder.join(PROBLEM_FILE))?.map(|text| text.trim().to_owned());
+                view.waiting.push(OpenPrompt { prompt, problem });
+            }
+        }
+        Ok(view)
+    }
+
+    /// Returns the last message of an episode; `None` if it has not ended.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn ending(&self, episode: &str) -> Result<Option<String>, EvaluationError> {
+        read_text(&self.episode(episode).join(FINISHED_TEXT))
+    }
+
+    /// Delivers the answer to a prompt, unless it has one.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn answer(&self, prompt: &PromptFile, text: &str) -> Result<Delivery, EvaluationError> {
+        if text.trim().is_empty() {
+            return Ok(Delivery::Refused("the answer is empty".to_owned()));
+        }
+        if text.len() >= MAX_ANSWER {
+            let (bytes, limit) = (text.len(), MAX_ANSWER / 1024);
+            return Ok(Delivery::Refused(format!(
+                "the answer has {bytes} bytes; at most {limit} KiB are read"
+            )));
+        }
+        let folder = self.episode(&prompt.episode);
+        if !folder.join(prompt.address.prompt_data()).exists() {
+            return Ok(Delivery::TooLate);
+        }
+        let path = folder.join(prompt.address.answer());
+        let written = complete(&folder, format!("{}\n", text.trim_end()).as_bytes())
+            .and_then(|file| file.persist_noclobber(&path).map_err(io::Error::from));
+        match written {
+            Ok(_) => Ok(Delivery::Delivered),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists || is_absent(&error) => {
+                Ok(Delivery::TooLate)
+            }
+            Err(error) => Err(EvaluationError::io("write", &path)(error)),
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The names and the contents of the files in a mailbox, and how they are written and read.
+
+use crate::client::ChatMessage;
+use crate::error::EvaluationError;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+use std::str::FromStr;
+use tempfile::NamedTempFile;
+
+/// The file that marks a folder as a mailbox.
+pub(super) const MARKER_FILE: &str = "mailbox.json";
+/// The lock file, held by the evaluation that writes to a mailbox.
+pub(super) const LOCK_FILE: &str = ".lock";
+/// The result of the whole evaluation, or of an episode.
+pub(super) const FINISHED_FILE: &str = "finished.json";
+/// The last message of an episode.
+pub(super) const FINISHED_TEXT: &str = "finished.txt";
+/// The problem with the last answer that was set aside.
+pub(super) const PROBLEM_FILE: &str = "problem.txt";
+
+/// The maximum number of bytes of an answer, 256 KiB.
+pub const MAX_ANSWER: usize = 1 << 18;
+/// The maximum number of bytes of the other files.
+pub(super) const MAX_FILE: u64 = 1 << 26;
+
+/// The address of a prompt within its episode, from which its files are named: `0007-0`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Address {
+    /// The number of decisions before this one.
+    pub step: u64,
+    /// The number of refused answers to this turn.
+    pub attempt: u32,
+}
+
+impl Address {
+    /// The prompt as text.
+    pub fn prompt_text(self) -> String {
+        format!("{self}.prompt.txt")
+    }
+
+    /// The prompt as data, a [`PromptFile`].
+    pub fn prompt_data(self) -> String {
+        format!("{self}.prompt.json")
+    }
+
+    /// The picture beside the prompt.
+    pub fn picture(self) -> String {
+        format!("{self}.png")
+    }
+
+    /// The answer.
+    pub fn answer(self) -> String {
+        format!("{self}.answer.txt")
+    }
+}
+
+impl fmt::Display for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:04}-{}", self.step, self.attempt)
+    }
+}
+
+impl FromStr for Address {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Address, ()> {
+        let (step, attempt) = text.split_once('-').ok_or(())?;
+        let number = |digits: &str| {
+            let digits = Some(digits).filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
+            digits.and_then(|digits| digits.parse::<u64>().ok()).ok_or(())
+        };
+        let attempt = u32::try_from(number(attempt)?).map_err(|_| ())?;
+        let address = Address { step: number(step)?, attempt };
+        // Each address has one name.
+        if address.to_string() == text { Ok(address) } else { Err(()) }
+    }
+}
+
+/// A prompt as data.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PromptFile {
+    /// The version of the files.
+    pub format: u32,
+    /// The episode, by the name of its folder.
+    pub episode: String,
+    /// The address of the prompt.
+    #[serde(flatten)]
+    pub address: Address,
+    /// The available actions.
+    pub actions: Vec<String>,
+    /// The name of the file that takes the answer, beside the prompt.
+    pub answer: String,
+    /// The conversation, the oldest message first, without pictures.
+    pub messages: Vec<ChatMessage>,
+    /// The name of the file with the picture of the newest message, PNG.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub picture: Option<String>,
+}
+
+/// Writes a file that appears complete or not at all.
+pub(super) fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), EvaluationError> {
+    let path = folder.join(name);
+    complete(folder, bytes)
+        .and_then(|file| file.persist(&path).map_err(io::Error::from))
+        .map(drop)
+        .map_err(EvaluationError::io("write", &path))
+}
+
+/// Writes bytes to a hidden file that is about to be renamed, readable by whoever may read the folder.
+pub(super) fn complete(folder: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".partial-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    Ok(file)
+}
+
+/// Writes data as indented JSON.
+pub(super) fn write_data(folder: &Path, name: &str, data: &impl Serialize) -> Result<(), EvaluationError> {
+    let text = serde_json::to_string_pretty(data).expect("plain data") + "\n";
+    write(folder, name, text.as_bytes())
+}
+
+/// Reads data; `None` if there is no such file.
+///
+/// # Errors
+/// It is not a plain file with such data, or cannot be read.
+pub(super) fn read_data<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, EvaluationError> {
+    let Some(text) = read_text(path)? else { return Ok(None) };
+    let wrong = |error: serde_json::Error| {
+        EvaluationError::malformed(path, format!("not a file of a mailbox ({error}); remove the mailbox"))
+    };
+    serde_json::from_str(&text).map(Some).map_err(wrong)
+}
+
+/// Reads a text; `None` if there is no such file.
+pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> {
+    match fs::symlink_metadata(path) {
+        Err(error) if is_absent(&error) => return Ok(None),
+        Err(error) => return Err(EvaluationError::io("read", path)(error)),
+        Ok(found) if !found.is_file() || found.len() > MAX_FILE => {
+            return Err(EvaluationError::malformed(path, "not a file of a mailbox; remove it"));
+        }
+        Ok(_) => {}
+    }
+    match fs::read(path) {
+        Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
+        // An evaluation removes answered prompts at any time.
+        Err(error) if is_absent(&error) => Ok(None),
+        Err(error) => Err(EvaluationError::io("read", path)(error)),
+    }
+}
+
+pub(super) fn is_absent(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::NotFound
+}
+
+/// Returns the names in a folder, sorted, without hidden ones and those that are not Unicode.
+pub(super) fn names(folder: &Path) -> Result<Vec<String>, EvaluationError> {
+    let list = || -> io::Result<Vec<String>> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            names.extend(entry?.file_name().into_string().ok().filter(|name| !name.starts_with('.')));
+        }
+        names.sort();
+        Ok(names)
+    };
+    list().map_err(EvaluationError::io("list", folder))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_address_has_one_name() {
+        let check = |text: &str, expect: Option<(u64, u32)>| {
+            let found = text.parse::<Address>().ok().map(|found| (found.step, found.attempt));
+            assert_eq!(found, expect, "{text}");
+        };
+        check("0007-0", Some((7, 0)));
+        check("12345-1", Some((12_345, 1)));
+        for other in ["7-0", "0007", "0007-00", "+007-0", "0007-0 ", "-", "99999999999999999999-0", "0007--1"]
+        {
+            check(other, None);
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! The folder of a mailbox, as an evaluation creates, locks and finishes it.
+
+use super::MAILBOX_FORMAT;
+use super::files::{FINISHED_FILE, LOCK_FILE, MARKER_FILE, names, read_data, write_data};
+use crate::error::EvaluationError;
+use crate::run::{Settings, Tally};
+use engine::Digest;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+/// The number of tries to lock a mailbox, and the pause between them: a [`Desk`](super::Desk) holds the lock for an instant
+/// when it tests whether an evaluation does.
+const TRIES: u32 = 20;
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// A function that shows notices to the user of the evaluation.
+pub type Notices = Arc<dyn Fn(&str) + Send + Sync>;
+
+/// A mailbox that an evaluation writes to.
+pub struct Mailbox {
+    pub(super) folder: PathBuf,
+    pub(super) player: String,
+    pub(super) notices: Notices,
+    _lock: File,
+}
+
+/// The content of the file that marks a folder as a mailbox.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Marker {
+    pub(super) format: u32,
+    /// The name of the player in results.
+    pub(super) player: String,
+    /// A digest of the settings of the evaluation that writes to it.
+    pub(super) evaluation: Digest,
+}
+
+/// The result of a whole evaluation.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Finished {
+    /// The number of episodes.
+    pub episodes: u64,
+    /// The number of those that were won.
+    pub won: u64,
+}
+
+impl Mailbox {
+    /// Opens the mailbox of an evaluation. The folder must be absent or empty, or, with `resume`, the mailbox of the same
+    /// evaluation. A mailbox without any episode is free for every evaluation.
+    ///
+    /// # Errors
+    /// It is not, another evaluation is writing to it, or it cannot be written.
+    pub fn open(
+        folder: &Path,
+        settings: &Settings,
+        resume: bool,
+        notices: Notices,
+    ) -> Result<Mailbox, EvaluationError> {
+        let wrong = |what: &str| EvaluationError::malformed(folder, what);
+        if fs::metadata(folder).is_ok_and(|found| !found.is_dir()) {
+            return Err(wrong("a mailbox is a folder, and this is a file; name another place"));
+        }
+        fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
+        let marker: Option<Marker> = marker(folder)?;
+        let others = names(folder)?.into_iter().filter(|name| name != MARKER_FILE);
+        let is_empty = others.count() == 0;
+        let player = settings.entrant.name.clone();
+        let own = Marker { format: MAILBOX_FORMAT, player: player.clone(), evaluation: digest(settings) };
+        match &marker {
+            None if !is_empty => {
+                return Err(wrong(
+                    "the folder is not empty and not a mailbox; name an absent or empty folder",
+                ));
+            }
+            Some(other) if other.evaluation != own.evaluation && !is_empty => {
+                return Err(wrong(&format!(
+                    "this is the mailbox of another evaluation, of the player `{}`; name another folder, or remove this one",
+                    other.player
+                )));
+            }
+            Some(_) if !is_empty && !resume => {
+                return Err(wrong(
+                    "the mailbox holds episodes of this evaluation: continue it with --resume, or name another folder",
+                ));
+            }
+            _ => {}
+        }
+        let lock = lock(folder)?;
+        if marker.as_ref() != Some(&own) {
+            write_data(folder, MARKER_FILE, &own)?;
+        }
+        let finished = folder.join(FINISHED_FILE);
+        if finished.exists() {
+            fs::remove_file(&finished).map_err(EvaluationError::io("remove", &finished))?;
+        }
+        Ok(Mailbox { folder: folder.to_owned(), player, notices, _lock: lock })
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Tells the players that all episodes have ended; does nothing if some have not.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn finish(&self, tally: &Tally) -> Result<(), EvaluationError> {
+        if tally.open > 0 {
+            return Ok(());
+        }
+        let finished = Finished { episodes: tally.episodes, won: tally.won };
+        write_data(&self.folder, FINISHED_FILE, &finished)
+    }
+}
+
+impl std::fmt::Debug for Mailbox {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Mailbox").field("folder", &self.folder).field("player", &self.player).finish()
+    }
+}
+
+/// Reads the marker of a mailbox; `None` if the folder has none.
+pub(super) fn marker(folder: &Path) -> Result<Option<Marker>, EvaluationError> {
+    let path = folder.join(MARKER_FILE);
+    let Some(data) = read_data::<serde_json::Value>(&path)? else { return Ok(None) };
+    let format = data.get("format").and_then(serde_json::Value::as_u64);
+    if let Some(format) = format.filter(|&format| format > u64::from(MAILBOX_FORMAT)) {
+        return Err(EvaluationError::malformed(
+            &path,
+            format!(
+                "a mailbox of format {format}; this version of arcade reads up to {MAILBOX_FORMAT}: update it"
+            ),
+        ));
+    }
+    read_data(&path)
+}
+
+/// Returns `true` if an evaluation is writing to the mailbox.
+pub(super) fn is_locked(folder: &Path) -> bool {
+    let lock = File::open(folder.join(LOCK_FILE));
+    lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
+}
+
+/// Locks the folder against other evaluations. The operating system releases the lock when the program ends for any reason.
+fn lock(folder: &Path) -> Result<File, EvaluationError> {
+    let path = folder.join(LOCK_FILE);
+    let file = File::create(&path).map_err(EvaluationError::io("create", &path))?;
+    for _ in 0..TRIES {
+        match file.try_lock() {
+            Ok(()) => return Ok(file),
+            Err(TryLockError::WouldBlock) => thread::sleep(PAUSE),
+            Err(TryLockError::Error(error)) => return Err(EvaluationError::io("lock", &path)(error)),
+        }
+    }
+    let what =
+        "another `arcade evaluate` is writing to this mailbox; wait until it ends, or name another folder";
+    Err(EvaluationError::malformed(folder, what))
+}
+
+/// Returns a digest that distinguishes evaluations.
+fn digest(settings: &Settings) -> Digest {
+    Digest::of(&serde_json::to_vec(settings).expect("settings are plain data"))
+}

@@ -1,0 +1,309 @@
+//! An episode that is played through the files of a mailbox.
+
+use super::MAILBOX_FORMAT;
+use super::files::{
+    Address, FINISHED_FILE, FINISHED_TEXT, MAX_ANSWER, PROBLEM_FILE, PromptFile, is_absent, names, write,
+    write_data,
+};
+use super::folder::Mailbox;
+use crate::client::{
+    ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model, Role,
+};
+use crate::error::EvaluationError;
+use crate::log::{Event, Journal};
+use crate::player::{Agent, Choice, Halt, ModelPlayer};
+use crate::prompt::Prompter;
+use crate::run::Task;
+use crate::run::clock::Stopwatch;
+use crate::turn::Turn;
+use engine::Outcome;
+use itertools::Itertools;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+/// The pause between two looks for an answer.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// An agent whose prompts and answers are files in a folder of its episode. It takes the same path as a language model:
+/// the same prompts, complaints and readings.
+pub struct MailboxPlayer {
+    player: ModelPlayer,
+    prompter: Arc<Prompter>,
+    folder: Arc<EpisodeFolder>,
+}
+
+/// The result of an episode, as its folder records it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EpisodeResult {
+    /// The outcome of the game; `ongoing` if the limit of steps was reached.
+    pub outcome: Outcome,
+    /// The score.
+    pub score: f64,
+    /// The number of actions played.
+    pub steps: u64,
+}
+
+/// The folder of an episode. It is a model that answers a request when somebody has written the answer.
+#[derive(Debug)]
+struct EpisodeFolder {
+    mailbox: Arc<Mailbox>,
+    episode: String,
+    path: PathBuf,
+    open: Mutex<Open>,
+}
+
+/// The prompt that is open, or opened next.
+#[derive(Debug, Default)]
+struct Open {
+    address: Address,
+    actions: Vec<String>,
+}
+
+impl MailboxPlayer {
+    /// Creates a player for one episode of the prompter's game. `reasks` is the number of times to ask again, with a
+    /// complaint, after an answer without an available action.
+    pub fn new(
+        mailbox: Arc<Mailbox>,
+        task: &Task<'_>,
+        prompter: Arc<Prompter>,
+        reasks: u32,
+    ) -> MailboxPlayer {
+        let name = task.file_name();
+        let episode = name.strip_suffix(".jsonl").unwrap_or(&name).to_owned();
+        let path = mailbox.folder.join(&episode);
+        let folder = Arc::new(EpisodeFolder { mailbox, episode, path, open: Mutex::default() });
+        let samples = task.chance().child("answers", 0);
+        let player = ModelPlayer::new(folder.clone(), prompter.clone(), Decoding::default(), reasks, samples);
+        MailboxPlayer { player, prompter, folder }
+    }
+}
+
+impl Agent for MailboxPlayer {
+    fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
+        let answered = journal.pending().iter().filter(|event| matches!(event, Event::Reply(_))).count();
+        let address = Address { step: turn.number, attempt: answered as u32 };
+        let actions = turn.actions.iter().map(ToString::to_string).collect();
+        *self.folder.open.lock().expect("no holder panics") = Open { address, actions };
+        let choice = self.player.act(turn, journal)?;
+        // The answer is in the log now.
+        self.folder.clear(None).map_err(|error| Halt::Infrastructure(told(&error)))?;
+        Ok(choice)
+    }
+
+    fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt> {
+        self.player.recall(turn, journal, choice)
+    }
+
+    fn end(&mut self, last: &Turn<'_>) {
+        let result = EpisodeResult {
+            outcome: last.observation.outcome,
+            score: last.observation.score,
+            steps: last.number,
+        };
+        let text = self.prompter.ending(last) + "\n";
+        if let Err(error) = self.folder.finish(&result, &text) {
+            (self.folder.mailbox.notices)(&told(&error));
+        }
+    }
+}
+
+impl EpisodeFolder {
+    /// Creates the folder, which may be there already.
+    fn create(&self) -> Result<(), EvaluationError> {
+        match fs::create_dir(&self.path) {
+            Ok(()) => Ok(()),
+            Err(_) if fs::symlink_metadata(&self.path).is_ok_and(|found| found.is_dir()) => Ok(()),
+            Err(error) => Err(EvaluationError::io("create", &self.path)(error)),
+        }
+    }
+
+    /// Removes the files of prompts, except for those of the prompt at `kept` and its answer.
+    fn clear(&self, kept: Option<Address>) -> Result<(), EvaluationError> {
+        let names = names(&self.path)?;
+        let is_removed = |name: &&String| match split(name) {
+            Some((address, "answer.txt")) => kept.is_none_or(|kept| address < kept),
+            Some((address, "prompt.txt" | "prompt.json" | "png")) => kept != Some(address),
+            _ => false,
+        };
+        let mut removed: Vec<&String> = names.iter().filter(is_removed).collect();
+        // Answers last: a prompt without its answer would be taken for an open one.
+        removed.sort_by_key(|name| name.ends_with(".answer.txt"));
+        removed.into_iter().try_for_each(|name| remove(&self.path.join(name)))
+    }
+
+    /// Writes a prompt; the text comes last.
+    fn show(&self, open: &Open, messages: &[ChatMessage]) -> Result<(), EvaluationError> {
+        let address = open.address;
+        let picture = messages.last().and_then(|message| message.image.as_deref());
+        if let Some(picture) = picture {
+            write(&self.path, &address.picture(), picture)?;
+        }
+        let without_picture = |message: &ChatMessage| ChatMessage { image: None, ..message.clone() };
+        let prompt = PromptFile {
+            format: MAILBOX_FORMAT,
+            episode: self.episode.clone(),
+            address,
+            actions: open.actions.clone(),
+            answer: address.answer(),
+            messages: messages.iter().map(without_picture).collect(),
+            picture: picture.map(|_| address.picture()),
+        };
+        write_data(&self.path, &address.prompt_data(), &prompt)?;
+        write(&self.path, &address.prompt_text(), conversation(messages).as_bytes())
+    }
+
+    /// Waits for the answer to the open prompt. Files that cannot be its answer are set aside with a notice.
+    fn wait(&self, address: Address) -> Result<String, EvaluationError> {
+        let (mut last, mut is_told) = (None, false);
+        loop {
+            for name in names(&self.path)? {
+                let Some((other, "answer.txt")) = split(&name) else { continue };
+                if other != address {
+                    self.set_aside(&name, &format!("it answers {other}, but the open prompt is {address}"))?;
+                }
+            }
+            let name = address.answer();
+            match look(&self.path.join(&name))? {
+                Look::Absent => last = None,
+                Look::Empty if is_told => last = None,
+                Look::Empty => {
+                    (last, is_told) = (None, true);
+                    self.notice(&format!("{name} is empty so far: waiting until an answer is in it"));
+                }
+                Look::Wrong(why) => {
+                    last = None;
+                    self.set_aside(&name, &why)?;
+                }
+                // A file that is still being written has other bytes at the next look.
+                Look::Bytes(bytes) if last.as_ref() != Some(&bytes) => last = Some(bytes),
+                Look::Bytes(bytes) => match String::from_utf8(bytes) {
+                    Ok(text) => {
+                        remove(&self.path.join(PROBLEM_FILE))?;
+                        return Ok(text);
+                    }
+                    Err(error) => {
+                        let at = error.utf8_error().valid_up_to();
+                        self.set_aside(&name, &format!("it is not UTF-8 (byte {at}); save it as UTF-8"))?;
+                        last = None;
+                    }
+                },
+            }
+            thread::sleep(PAUSE);
+        }
+    }
+
+    /// Renames a file that cannot be the answer, and says so beside the prompt.
+    fn set_aside(&self, name: &str, why: &str) -> Result<(), EvaluationError> {
+        let to = |number: u32| name.replace(".answer.txt", &format!(".refused-{number}.txt"));
+        let free = |name: &String| fs::symlink_metadata(self.path.join(name)).is_err();
+        let to = (1..).map(to).find(free).expect("some number is free");
+        let from = self.path.join(name);
+        match fs::rename(&from, self.path.join(&to)) {
+            Err(error) if is_absent(&error) => return Ok(()),
+            renamed => renamed.map_err(EvaluationError::io("rename", &from))?,
+        }
+        let problem = format!("{name} cannot be used: {why}. It was renamed to {to}.");
+        write(&self.path, PROBLEM_FILE, format!("{problem}\n").as_bytes())?;
+        self.notice(&problem);
+        Ok(())
+    }
+
+    fn notice(&self, text: &str) {
+        (self.mailbox.notices)(&format!("{}: {text}", self.episode));
+    }
+
+    fn finish(&self, result: &EpisodeResult, text: &str) -> Result<(), EvaluationError> {
+        self.create()?;
+        self.clear(None)?;
+        write(&self.path, FINISHED_TEXT, text.as_bytes())?;
+        write_data(&self.path, FINISHED_FILE, result)
+    }
+
+    fn answer(&self, messages: &[ChatMessage]) -> Result<ChatReply, EvaluationError> {
+        let mut open = self.open.lock().expect("no holder panics");
+        self.create()?;
+        self.clear(Some(open.address))?;
+        self.show(&open, messages)?;
+        let asked = Stopwatch::start();
+        let text = self.wait(open.address)?;
+        open.address.attempt += 1;
+        let served_by = Some(self.mailbox.player.clone());
+        Ok(ChatReply { served_by, latency_ms: asked.milliseconds(), ..ChatReply::new(text, Finish::Stop) })
+    }
+}
+
+impl Model for EpisodeFolder {
+    fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError> {
+        self.answer(&request.messages).map_err(|error| ChatError {
+            kind: ChatErrorKind::Infrastructure,
+            message: told(&error),
+            failures: Vec::new(),
+        })
+    }
+}
+
+/// The state of the file that is to hold an answer.
+enum Look {
+    Absent,
+    /// It holds nothing but white space.
+    Empty,
+    Wrong(String),
+    Bytes(Vec<u8>),
+}
+
+fn look(path: &Path) -> Result<Look, EvaluationError> {
+    let found = match fs::symlink_metadata(path) {
+        Err(error) if is_absent(&error) => return Ok(Look::Absent),
+        found => found.map_err(EvaluationError::io("read", path))?,
+    };
+    if !found.is_file() {
+        return Ok(Look::Wrong("it is not a plain file".to_owned()));
+    }
+    if found.len() > MAX_ANSWER as u64 {
+        let (bytes, limit) = (found.len(), MAX_ANSWER / 1024);
+        return Ok(Look::Wrong(format!("it has {bytes} bytes; an answer has at most {limit} KiB")));
+    }
+    match fs::read(path) {
+        Ok(bytes) if bytes.trim_ascii().is_empty() => Ok(Look::Empty),
+        Ok(bytes) => Ok(Look::Bytes(bytes)),
+        Err(error) if is_absent(&error) => Ok(Look::Absent),
+        Err(error) => Err(EvaluationError::io("read", path)(error)),
+    }
+}
+
+/// Returns the address and the kind of a file of a prompt: `prompt.txt`, `answer.txt`.
+fn split(name: &str) -> Option<(Address, &str)> {
+    let (address, kind) = name.split_once('.')?;
+    Some((address.parse().ok()?, kind))
+}
+
+/// Removes a file that may be absent.
+fn remove(path: &Path) -> Result<(), EvaluationError> {
+    match fs::remove_file(path) {
+        Err(error) if !is_absent(&error) => Err(EvaluationError::io("remove", path)(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Returns a conversation as one text. Roles are named only where an answer is part of it.
+fn conversation(messages: &[ChatMessage]) -> String {
+    let has_answers = messages.iter().any(|message| message.role == Role::Assistant);
+    let part = |message: &ChatMessage| match (has_answers, message.role) {
+        (true, Role::Assistant) => format!("=== your answer ===\n\n{}", message.text),
+        (true, _) => format!("=== message ===\n\n{}", message.text),
+        (false, _) => message.text.clone(),
+    };
+    messages.iter().map(part).join("\n\n") + "\n"
+}
+
+/// Returns an error with its cause in one line.
+fn told(error: &EvaluationError) -> String {
+    match error {
+        EvaluationError::Io { source, .. } => format!("{error}: {source}"),
+        EvaluationError::Malformed(_) => error.to_string(),
+    }
+}
