@@ -173,6 +173,41 @@ fn killed_evaluations_lose_nothing() {
     assert!(asked <= needed + 2 * kills, "{asked} requests for {needed} answers");
 }
 
+/// An evaluation of a model without a single usable answer stops, unless the user insists; one with some is warned of.
+#[test]
+fn useless_answers_stop_the_evaluation() {
+    let server = Server::start(|_, _| Response::completion("I would rather not."));
+    let home = tempfile::tempdir().unwrap();
+    let url = server.base_url();
+    let long = ["--runs", "2", "--concurrency", "1", "--reasks", "0"];
+    let stopped = run(home.path(), &asking(&url, &long), 1);
+    assert_eq!(server.received().len(), 20);
+    let tally = &json(&stopped)["tally"];
+    assert_eq!((&tally["steps"], &tally["invalid"], &tally["ended"]), (&20.into(), &20.into(), &1.into()));
+    let halted = "the evaluation was stopped because 20 of 20 decisions have no usable answer (20 invalid); the logs have the answers";
+    assert_eq!((&tally["halted"], &tally["infrastructure"]), (&halted.into(), &false.into()));
+    let told = text(&stopped.stderr);
+    assert!(
+        told.contains("none is usable, so nothing more is asked; --resume --keep-going goes on"),
+        "{told}"
+    );
+    // It may be mended, or not.
+    run(home.path(), &asking(&url, &[&long[..], &["--resume"]].concat()), 1);
+    assert_eq!(server.received().len(), 40);
+    let ended = run(home.path(), &asking(&url, &[&long[..], &["--resume", "--keep-going"]].concat()), 0);
+    assert_eq!(server.received().len(), 48);
+    assert_eq!(json(&ended)["tally"]["invalid"], 48);
+
+    let server = Server::start(|number, _| {
+        Response::completion(if number % 3 == 0 { "I cannot say." } else { "ACTION: left" })
+    });
+    let home = tempfile::tempdir().unwrap();
+    let warned = run(home.path(), &asking(&server.base_url(), &long), 0);
+    let told = text(&warned.stderr);
+    assert!(told.starts_with("warning: 7 of 20 decisions have no usable answer (7 invalid)"), "{told}");
+    assert!(told.contains("warning: 16 of 48 decisions have no usable answer (16 invalid)"), "{told}");
+}
+
 /// Server failures are not the model's fault: the episode stays open, no step is lost, and --resume goes on.
 #[test]
 fn failing_servers_leave_episodes_open() {
@@ -255,6 +290,9 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     let unbounded =
         ["--json", "evaluate", "hailglass", "--levels", "0", "--model", "openai:gpt-4o", "--dry-run"];
     assert_eq!(json(&run(home.path(), &unbounded, 0))["requests"], 400);
+    let unpaid = ["--json", "evaluate", "hailglass", "--levels", "0,1", "--player", "random", "--dry-run"];
+    let forecast = json(&run(home.path(), &unpaid, 0));
+    assert_eq!((&forecast["max_steps"], &forecast["steps"]), (&400.into(), &800.into()));
     assert!(server.received().is_empty() && !home.path().join("results").exists());
 }
 

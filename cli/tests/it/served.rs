@@ -97,10 +97,14 @@ fn unusable_answers_are_counted_and_reported() {
     let tally = &serde_json::from_slice::<Value>(&played.stdout).unwrap()["tally"];
     assert_eq!((&tally["steps"], &tally["unusable"]), (&6.into(), &6.into()));
     let told = text(&played.stderr);
-    assert!(told.contains("6 of 6 steps have no usable answer"), "{told}");
+    assert!(told.contains("6 of 6 decisions have no usable answer"), "{told}");
     // So does one that had ended before.
     let again = run(folder.path(), &evaluate("cmd:sh agent.sh", &["--resume"]), 0);
-    assert!(text(&again.stderr).contains("6 of 6 steps have no usable answer"), "{}", text(&again.stderr));
+    assert!(
+        text(&again.stderr).contains("6 of 6 decisions have no usable answer"),
+        "{}",
+        text(&again.stderr)
+    );
     fs::remove_dir_all(folder.path().join("results")).unwrap();
     fs::write(folder.path().join("agent.sh"), script.replace("fly", "left")).unwrap();
     let usable = run(folder.path(), &evaluate("cmd:sh agent.sh", &[]), 0);

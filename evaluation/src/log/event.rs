@@ -87,7 +87,7 @@ pub enum Event {
     },
     /// The episode was aborted; a later `--resume` continues after this line.
     Halt {
-        /// `infrastructure`, `budget`, `rejected`.
+        /// `infrastructure`, `budget`, `rejected`, `unusable`.
         reason: String,
         /// The reason in words.
         message: String,

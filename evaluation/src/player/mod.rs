@@ -67,6 +67,9 @@ pub enum Halt {
     /// The server rejects all requests of this kind (wrong key, unknown model), so that the evaluation cannot continue.
     #[error("{0}")]
     Rejected(String),
+    /// None of the first decisions of the evaluation has a usable answer.
+    #[error("{0}")]
+    Unusable(String),
     /// The user asked to stop.
     #[error("interrupted")]
     Interrupted,
@@ -82,6 +85,7 @@ impl Halt {
             Halt::Infrastructure(_) => "infrastructure",
             Halt::Budget(_) => "budget",
             Halt::Rejected(_) => "rejected",
+            Halt::Unusable(_) => "unusable",
             Halt::Interrupted | Halt::Log(_) => return None,
         };
         Some(Event::Halt { reason: reason.to_owned(), message: self.to_string() })

@@ -87,6 +87,16 @@ pub fn play(
     contestant: &mut Contestant,
     journal: &mut Journal,
 ) -> Result<PlayResult, EvaluationError> {
+    play_watched(task, contestant, journal, &|_| None)
+}
+
+/// Plays an episode as [`play`] does. `watch` is told the validity of each new decision, and can abort the episode.
+pub(crate) fn play_watched(
+    task: &Task<'_>,
+    contestant: &mut Contestant,
+    journal: &mut Journal,
+    watch: &dyn Fn(Validity) -> Option<Halt>,
+) -> Result<PlayResult, EvaluationError> {
     if let Some(Event::End { outcome, .. }) = journal.events().last() {
         return Ok(PlayResult::Ended(*outcome));
     }
@@ -103,7 +113,14 @@ pub fn play(
         return Ok(PlayResult::Halted(halt));
     }
     while !play.is_over() {
-        if let Err(halt) = play.decide(journal)? {
+        let halt = match play.decide(journal)? {
+            Ok(validity) => watch(validity).filter(|_| !play.is_over()),
+            Err(halt) => Some(halt),
+        };
+        if let Some(halt) = halt {
+            if let Some(event) = halt.event() {
+                journal.push(event)?;
+            }
             return Ok(PlayResult::Halted(halt));
         }
     }
@@ -193,7 +210,7 @@ impl<'a> Playing<'a> {
     }
 
     /// Makes the contestant decide, plays the action and records it.
-    fn decide(&mut self, journal: &mut Journal) -> Result<Result<(), Halt>, EvaluationError> {
+    fn decide(&mut self, journal: &mut Journal) -> Result<Result<Validity, Halt>, EvaluationError> {
         let (game, started) = (self.game(), Stopwatch::start());
         let decided = match (&mut *self.contestant, &mut self.player) {
             (Contestant::Planner { spec, budget }, Some(player)) => {
@@ -214,14 +231,9 @@ impl<'a> Playing<'a> {
                 journal.push(event)?;
                 let played = journal.events().len();
                 journal.set_step(played, None);
-                Ok(Ok(()))
+                Ok(Ok(choice.validity))
             }
-            Err(halt) => {
-                if let Some(event) = halt.event() {
-                    journal.push(event)?;
-                }
-                Ok(Err(halt))
-            }
+            Err(halt) => Ok(Err(halt)),
         }
     }
 

@@ -3,10 +3,11 @@
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_STEP};
 use crate::metrics::replay;
-use crate::player::{Contestant, Halt, Validity};
-use crate::run::episode::{PlayResult, Task, play};
+use crate::player::{Contestant, Halt};
+use crate::run::episode::{PlayResult, Task, play_watched};
 use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
 use crate::run::text::read_text;
+use crate::run::unusable::{Answers, Watch};
 use crate::subject::Subject;
 use engine::{Outcome, Seed};
 use rayon::prelude::*;
@@ -44,6 +45,12 @@ pub struct Evaluation {
 pub trait Progress: Sync {
     /// Reports that an episode has ended or was aborted.
     fn episode(&self, task: &Task<'_>, result: &PlayResult);
+
+    /// Reports, once, that more than a fifth of the decisions so far (20 at least) have no usable answer; `is_all`: that none
+    /// of the first 20 has one. Returns `false` to stop the evaluation.
+    fn unusable(&self, _answers: &Answers, _is_all: bool) -> bool {
+        true
+    }
 }
 
 /// The counts of an evaluation's episodes by their final status.
@@ -55,10 +62,9 @@ pub struct Tally {
     pub ended: u64,
     /// The number of those that were won.
     pub won: u64,
-    /// The number of steps of all episodes.
-    pub steps: u64,
-    /// The number of steps without a usable answer, in which nothing was done.
-    pub unusable: u64,
+    /// The decisions of all episodes, and those without a usable answer, in which nothing was done.
+    #[serde(flatten)]
+    pub answers: Answers,
     /// The number of episodes that were aborted, or not started because others were.
     pub open: u64,
     /// The reason why the first of them was aborted.
@@ -259,18 +265,20 @@ impl Evaluation {
         progress: &impl Progress,
     ) -> Result<Tally, EvaluationError> {
         let (stopped, failures) = (AtomicBool::new(false), AtomicU64::new(0));
-        let (steps, unusable) = (AtomicU64::new(0), AtomicU64::new(0));
+        let (watch, answers) = (Watch::default(), Mutex::new(Answers::default()));
         let first = Mutex::new(None);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
         // In order rather than in halves: when a run is aborted, every level has been played about equally often.
         let results = tasks.iter().par_bridge().map(|task| {
-            if stopped.load(Ordering::Relaxed) {
+            if stopped.load(Ordering::Relaxed) || watch.halt().is_some() {
                 return Ok(None);
             }
             let mut journal = Journal::open(&self.log_path(task))?;
+            let watched =
+                |validity| watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
             let result = match contestant(task) {
-                Ok(mut contestant) => play(task, &mut contestant, &mut journal)?,
+                Ok(mut contestant) => play_watched(task, &mut contestant, &mut journal, &watched)?,
                 Err(halt) => PlayResult::Halted(halt),
             };
             match &result {
@@ -283,15 +291,11 @@ impl Evaluation {
                     first.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
                 }
             }
-            let of_log = |(steps, unusable): (u64, u64), event: &Event| match event {
-                Event::Step { validity, .. } => {
-                    (steps + 1, unusable + u64::from(*validity != Validity::Valid))
+            for event in journal.events() {
+                if let Event::Step { validity, .. } = event {
+                    answers.lock().expect("no holder panics").add(*validity);
                 }
-                _ => (steps, unusable),
-            };
-            let (taken, useless) = journal.events().iter().fold((0, 0), of_log);
-            steps.fetch_add(taken, Ordering::Relaxed);
-            unusable.fetch_add(useless, Ordering::Relaxed);
+            }
             progress.episode(task, &result);
             Ok(Some(result))
         });
@@ -303,14 +307,13 @@ impl Evaluation {
             };
             results.iter().filter(ended).count() as u64
         };
-        let halted: Option<Halt> = first.into_inner().expect("no holder panics");
+        let halted: Option<Halt> = first.into_inner().expect("no holder panics").or_else(|| watch.halt());
         let (episodes, won, ended) = (tasks.len() as u64, ended(true), ended(false));
         Ok(Tally {
             episodes,
             ended,
             won,
-            steps: steps.into_inner(),
-            unusable: unusable.into_inner(),
+            answers: answers.into_inner().expect("no holder panics"),
             open: episodes - ended,
             infrastructure: matches!(
                 halted,

@@ -5,9 +5,11 @@ mod episode;
 mod evaluation;
 mod settings;
 pub(crate) mod text;
+mod unusable;
 
 pub use episode::{PlayResult, Task, play};
 pub use evaluation::{Evaluation, Progress, Tally, tasks};
 pub use settings::{
     Entrant, FORMAT, LevelEntry, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, Settings, SubjectEntry,
 };
+pub use unusable::Answers;

@@ -146,7 +146,7 @@ fn files_that_are_no_answers_are_set_aside() {
         answer(home, &prompt(home, 2, 0), "ACTION: right");
         playing.join().unwrap()
     });
-    assert_eq!((tally.ended, tally.steps, tally.unusable), (1, 3, 1));
+    assert_eq!((tally.ended, tally.answers.steps, tally.answers.unusable), (1, 3, 1));
     assert_eq!(told.len(), 5, "{told:?}");
     let view = Desk::open(&home.join("box")).unwrap().view().unwrap();
     assert_eq!((view.waiting.len(), view.ended.len()), (0, 1));

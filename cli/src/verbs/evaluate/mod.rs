@@ -18,7 +18,7 @@ use evaluation::player::mailbox::Mailbox;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
 use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
-use evaluation::run::{self, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
+use evaluation::run::{self, Answers, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
 use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use human::Human;
@@ -91,6 +91,9 @@ pub(crate) struct Args {
     /// Only print the forecast
     #[arg(long)]
     dry_run: bool,
+    /// Go on although none of the first 20 decisions has a usable answer
+    #[arg(long)]
+    keep_going: bool,
     #[command(flatten)]
     model: ModelArgs,
 }
@@ -176,7 +179,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     );
     interrupt::watch(end_players, hint);
     let episodes = evaluation.tasks().len();
-    let bar = Bar { bar: console.progress(episodes as u64, "playing"), won: AtomicU64::new(0) };
+    let bar = Bar {
+        bar: console.progress(episodes as u64, "playing"),
+        won: AtomicU64::new(0),
+        console,
+        keep_going: args.keep_going,
+        logs: folder.join("episodes"),
+    };
     let contestant = |task: &Task<'_>| Ok::<_, Halt>(contestant(task));
     let threads = requested.threads(args, episodes, console);
     let tally = in_pool(Some(threads), || evaluation.run(contestant, &bar));
@@ -209,9 +218,13 @@ fn forecast(
             (json!(forecast), forecast.to_string())
         }
         _ => {
-            let (episodes, steps) = (tasks.len(), settings.max_steps);
-            let text = format!("{episodes} episodes of at most {steps} steps, at no cost");
-            (json!({ "episodes": episodes, "max_steps": steps }), text)
+            // The Timeout of a game may come before --max-steps.
+            let most = || tasks.iter().map(Task::most_steps);
+            let (episodes, longest, steps) = (tasks.len(), most().max(), most().sum::<u64>());
+            let longest = longest.unwrap_or(settings.max_steps);
+            let text =
+                format!("{episodes} episodes of at most {longest} steps, {steps} steps in total, at no cost");
+            (json!({ "episodes": episodes, "max_steps": longest, "steps": steps }), text)
         }
     };
     let levels: u64 = subjects.iter().map(|subject| subject.levels.len() as u64).sum();
@@ -280,7 +293,8 @@ impl RequestedPlayer {
                 Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Prompted(player, prompts) => {
-                let (player, prompters) = (player.clone(), model::prompters(subjects, prompts)?);
+                let (player, prompters) =
+                    (player.clone(), model::prompters(subjects, prompts)?);
                 let prompter = move |task: &Task<'_>| prompters[&task.subject.id].clone();
                 Box::new(move |task| {
                     Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter(task))))
@@ -427,17 +441,14 @@ fn print_results(
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
-    let Tally { episodes, ended, won, steps, unusable, open, halted, infrastructure } = tally;
+    let Tally { episodes, ended, won, answers, open, halted, infrastructure } = tally;
     console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won", entrant.name));
     if let Some((Spent { requests, tokens, .. }, cost)) = spent {
         let cost = cost.map_or("cost unknown".to_owned(), |cost| format!("{cost:.4} USD"));
         console.say(format_args!("{requests} requests, {tokens} tokens, {cost}"));
     }
-    if *unusable > 0 {
-        console.remark(format_args!(
-            "warning: {unusable} of {steps} steps have no usable answer, and nothing was done in them; the answers are in {}",
-            folder.join("episodes").display()
-        ));
+    if answers.unusable > 0 {
+        console.remark(useless(answers, &folder.join("episodes")));
     }
     let open = match open {
         1 => "1 episode is unfinished".to_owned(),
@@ -457,6 +468,12 @@ fn print_results(
     }
 }
 
+/// Returns a warning about decisions without a usable answer.
+fn useless(answers: &Answers, logs: &Path) -> String {
+    let longer = if answers.truncated > 0 { "; raise --max-output-tokens for those cut off" } else { "" };
+    format!("warning: {answers}, and nothing was done in them; the answers are in {}{longer}", logs.display())
+}
+
 impl From<EvaluationError> for Failure {
     fn from(error: EvaluationError) -> Failure {
         match error {
@@ -468,12 +485,28 @@ impl From<EvaluationError> for Failure {
 }
 
 /// A progress bar with the episodes played and won.
-struct Bar {
+struct Bar<'a> {
     bar: ProgressBar,
     won: AtomicU64,
+    console: &'a Console,
+    keep_going: bool,
+    /// The folder of the logs.
+    logs: PathBuf,
 }
 
-impl Progress for Bar {
+impl Progress for Bar<'_> {
+    fn unusable(&self, answers: &Answers, is_all: bool) -> bool {
+        self.bar.suspend(|| self.console.remark(useless(answers, &self.logs)));
+        let goes_on = !is_all || self.keep_going;
+        if !goes_on {
+            self.bar.suspend(|| {
+                self.console
+                    .remark("none is usable, so nothing more is asked; --resume --keep-going goes on anyway");
+            });
+        }
+        goes_on
+    }
+
     fn episode(&self, task: &Task<'_>, result: &PlayResult) {
         if *result == PlayResult::Ended(Outcome::Won) {
             self.won.fetch_add(1, Ordering::Relaxed);
