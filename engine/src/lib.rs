@@ -53,7 +53,7 @@ pub use keywords::{EFFECTS, TERMINATIONS};
 pub use level::{Level, LevelMapping};
 pub use limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SOURCE, MAX_SPRITES, MAX_TICKS, MAX_WORK};
 pub use lint::{SwappedRule, swapped_rule};
-pub use observe::{AvatarView, Category, Countdown, Event, Observation, SpriteRecord};
+pub use observe::{AvatarView, Category, Countdown, Event, MoverView, Observation, SpriteRecord};
 pub use pack::Packed;
 pub use rules::class::{ClassFamily, SpriteClass};
 pub use rules::effects::{EffectFamily, ParameterKind, effect_parameters};

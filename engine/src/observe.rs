@@ -27,6 +27,21 @@ pub struct Observation {
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, whatever its type is called; `None` once it is gone.
     pub avatar: Option<AvatarView>,
+    /// The visible sprites that move in a direction of their own, other than avatars, in drawing order.
+    pub movers: Vec<MoverView>,
+}
+
+/// The observable properties of a sprite with a direction of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MoverView {
+    /// The name of its type.
+    pub name: String,
+    /// The column of the cell that holds its middle, from 0 at the left.
+    pub column: i32,
+    /// The row of the cell that holds its middle, from 0 at the top.
+    pub row: i32,
+    /// The direction in which it moves.
+    pub facing: Direction,
 }
 
 /// The observable properties of the avatar.
@@ -132,12 +147,24 @@ impl Game {
         let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
         let mut cells = vec![Vec::new(); columns * rows];
         let mut room = MAX_SEEN;
+        let cell =
+            |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block().max(1));
+        let mut movers = Vec::new();
         for &stype in &self.0.order {
             let info = &self.0.types[stype.index()];
             if info.traits.hidden {
                 continue;
             }
+            let is_mover = info.traits.is_oriented && !info.traits.is_static && !info.is_like_avatar();
             for sprite in state.world.sprites_of(stype) {
+                if is_mover && movers.len() < MAX_SEEN {
+                    movers.push(MoverView {
+                        name: info.name.clone(),
+                        column: cell(sprite.rect.x, sprite.rect.w),
+                        row: cell(sprite.rect.y, sprite.rect.h),
+                        facing: state.world.overrides_of(&sprite).orientation,
+                    });
+                }
                 let span = |from: i32, size: i32, limit: i32| {
                     let first = from.div_euclid(state.world.block()).clamp(0, limit);
                     let last = from
@@ -158,7 +185,7 @@ impl Game {
         let resources = self.held_by_avatar(state);
         let (ticks, score, outcome) = ((state.world.tick() + 1) as u32, state.score(), state.world.outcome());
         let avatar = self.seen_avatar(state);
-        Observation { ticks, score, outcome, columns, rows, cells, resources, avatar }
+        Observation { ticks, score, outcome, columns, rows, cells, resources, avatar, movers }
     }
 
     /// The place and type of the avatar; `None` if there is no living one. Cost: O(1).

@@ -1,5 +1,7 @@
 //! The meaning of the characters of a board: one table for each game, the same in all levels, states and episodes.
 
+use crate::encoding::direction_name;
+use engine::analysis::{EffectSummary, Encounter, Motion, Role};
 use engine::{Analysis, Seed, SpriteType};
 use render::{EMPTY, Glyph, Looks, Symbols};
 use std::collections::BTreeMap;
@@ -30,6 +32,9 @@ pub enum EntryRole {
     Wall,
     /// The ground under the other sprites, which is not shown.
     Floor,
+    /// A type that stays where it is, of which nothing is gained: soil, cover, what shots or other sprites break. Long lists
+    /// of its places would hide the rest.
+    Scenery,
     /// Any other type.
     Thing,
 }
@@ -43,6 +48,8 @@ pub struct Entry {
     pub symbol: char,
     /// Its role.
     pub role: EntryRole,
+    /// Its sprites move straight on, in a direction that the rules alone do not tell: others are sent or turned elsewhere.
+    pub is_turned: bool,
 }
 
 /// The table of one game. Only the states of the avatar, or floors, can share a character.
@@ -68,9 +75,11 @@ impl Legend {
                 _ if is_avatar(stype) => EntryRole::Avatar,
                 Glyph::Wall => EntryRole::Wall,
                 _ if symbols.symbol(stype) == EMPTY => EntryRole::Floor,
+                _ if is_scenery(analysis, stype) => EntryRole::Scenery,
                 _ => EntryRole::Thing,
             };
-            Entry { name: game.name(stype).to_owned(), symbol: symbols.symbol(stype), role }
+            let (name, symbol) = (game.name(stype).to_owned(), symbols.symbol(stype));
+            Entry { name, symbol, role, is_turned: is_turned(analysis, stype) }
         };
         let mut entries: Vec<Entry> = types.iter().map(entry).collect();
         if !options.tracking {
@@ -134,6 +143,38 @@ impl Legend {
         let first = avatars.next().map(|entry| entry.symbol);
         avatars.all(|entry| Some(entry.symbol) == first)
     }
+}
+
+/// Returns `true` for a type that stays where it is, and of which nothing is gained.
+fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
+    let facts = analysis.facts(stype);
+    let is_counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
+    let stays = matches!(facts.motion, Motion::Still) && facts.makes.is_empty();
+    let role = analysis.role(stype);
+    stays
+        && !is_counted
+        && matches!(role, Role::Soil | Role::Cover | Role::Breakable | Role::Refuge | Role::Floor)
+}
+
+/// Returns `true` for a type whose sprites move straight on, unless all of them always move in the direction that the rules
+/// name.
+fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
+    let Motion::Straight(direction) = analysis.facts(stype).motion else { return false };
+    let turns = |effect: &EffectSummary| match effect {
+        EffectSummary::Turn => true,
+        // A sprite keeps its direction when it turns into another one.
+        EffectSummary::Become(into) | EffectSummary::BecomeAll(_, into) => *into == stype,
+        EffectSummary::BecomeAny(into) => into.contains(&stype),
+        _ => false,
+    };
+    let is_own = |encounter: &Encounter, effect: &EffectSummary| {
+        !matches!(effect, EffectSummary::Turn) || analysis.applies(encounter.first, stype)
+    };
+    let by_rules = analysis
+        .encounters()
+        .iter()
+        .any(|encounter| encounter.effects.iter().any(|effect| turns(effect) && is_own(encounter, effect)));
+    direction_name(direction).is_none() || by_rules || analysis.role(stype) == Role::Shot
 }
 
 /// Gives all states of the avatar the character [`AVATAR`]. The type that had it takes over a freed character.

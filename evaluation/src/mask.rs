@@ -44,7 +44,8 @@ impl Mask {
         let mut masked = seen.clone();
         let avatar = masked.avatar.iter_mut().map(|avatar| &mut avatar.name);
         let held = masked.resources.iter_mut().map(|(name, _)| name);
-        for name in masked.cells.iter_mut().flatten().chain(held).chain(avatar) {
+        let movers = masked.movers.iter_mut().map(|mover| &mut mover.name);
+        for name in masked.cells.iter_mut().flatten().chain(held).chain(avatar).chain(movers) {
             if let Some(other) = self.names.get(name) {
                 name.clone_from(other);
             }

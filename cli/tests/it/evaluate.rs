@@ -86,6 +86,8 @@ fn human_players_resume() {
     );
     let ended = sit("right\nnil\n", &["--resume"]);
     assert_eq!(ended.status.code(), Some(0), "{}", text(&ended.stderr));
+    let ending = "## End\nThe limit of 3 actions was reached before the game was over, which is not a win.";
+    assert!(text(&ended.stderr).contains(ending), "{}", text(&ended.stderr));
     let log = read(&home.path().join("me/episodes/hailglass-lvl0-run0.jsonl")).unwrap();
     let actions: Vec<String> = log
         .iter()

@@ -1,16 +1,17 @@
 //! The neighbourhood of the avatar in words: names and places of things, and the first thing in each direction.
 
 use super::grid::pile;
-use super::scene::{Scene, places};
-use crate::legend::{EntryRole, Legend};
+use super::scene::{Scene, direction_name, places};
+use crate::legend::{Entry, EntryRole, Legend};
 use engine::Observation;
+use itertools::Itertools;
 
 /// The maximum number of things of one type listed by place, the nearest first.
 const NEAREST: usize = 8;
 
 /// Describes each of the four directions from the avatar, then the things on the board: `lantern: (3,2) (8,2)`, the nearest
-/// first and at most `NEAREST` per type, without walls. Without an avatar, only the things, row by row.
-/// Cost: O(cells × types).
+/// first and at most `NEAREST` per type, without walls. Scenery with more places than that is left out: the board shows it.
+/// Without an avatar, only the things, row by row. Cost: O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let mut lines = Vec::new();
@@ -24,9 +25,44 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
             lines.push(format!("where you are: {}", pile(below)));
         }
     }
-    let things = legend.entries().iter().filter(|entry| entry.role == EntryRole::Thing);
+    let listed = |entry: &&Entry| match entry.role {
+        EntryRole::Thing => true,
+        EntryRole::Scenery => scene.places(&entry.name).count() <= NEAREST,
+        EntryRole::Avatar | EntryRole::Wall | EntryRole::Floor => false,
+    };
+    let things = legend.entries().iter().filter(listed);
     lines.extend(things.filter_map(|entry| thing(&scene, &entry.name)));
     lines
+}
+
+/// Lists the sprites that move straight on by their directions: `drifter: right (7,1) (2,2), left (10,3)`, at most `NEAREST`
+/// of each type, the nearest first. Types that always move in the direction that the rules name are left out.
+/// Cost: O(movers × types).
+pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
+    let avatar = Scene::of(observation, legend).avatar;
+    let line = |entry: &Entry| {
+        let of_type = observation.movers.iter().filter(|mover| mover.name == entry.name);
+        let mut movers: Vec<_> = of_type
+            .filter_map(|mover| {
+                let place = (usize::try_from(mover.column).ok()?, usize::try_from(mover.row).ok()?);
+                let is_inside = place.0 < observation.columns && place.1 < observation.rows;
+                direction_name(mover.facing).filter(|_| is_inside).map(|direction| (direction, place))
+            })
+            .collect();
+        movers.sort_by_key(|&(_, (column, row))| {
+            let distance = avatar.map_or(0, |(x, y)| column.abs_diff(x) + row.abs_diff(y));
+            (distance, row, column)
+        });
+        movers.truncate(NEAREST);
+        let ways = movers.iter().map(|(direction, _)| *direction).unique();
+        let ways = ways.map(|way| {
+            let cells: Vec<_> =
+                movers.iter().filter(|(own, _)| *own == way).map(|(_, place)| *place).collect();
+            format!("{way} {}", places(&cells))
+        });
+        (!movers.is_empty()).then(|| format!("{}: {}", entry.name, ways.collect::<Vec<_>>().join(", ")))
+    };
+    legend.entries().iter().filter(|entry| entry.is_turned).filter_map(line).collect()
 }
 
 /// Returns the first thing in a direction: `wall`, `3 free, then lantern`.

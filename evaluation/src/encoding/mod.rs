@@ -11,7 +11,7 @@ mod scene;
 
 pub use coordinates::coordinates;
 pub use grid::{grid, rotated, stacks};
-pub use grounding::grounding;
+pub use grounding::{directions, grounding};
 pub use json::json;
 pub use picture::{Picture, picture};
 pub(crate) use scene::direction_name;

@@ -162,6 +162,7 @@ mod tests {
             cells: cells.iter().map(|cell| cell.iter().map(|&name| name.to_owned()).collect()).collect(),
             resources: Vec::new(),
             avatar: None,
+            movers: Vec::new(),
         }
     }
 

@@ -5,11 +5,13 @@
 //! [`docs/prompts.md`](../../../docs/prompts.md) shows an example, part by part.
 
 mod history;
+mod limit;
 mod sections;
 mod settings;
 mod turn;
 
 pub use history::{Attempt, Past};
+pub(crate) use limit::limited;
 pub use sections::{TASK, sections};
 pub use settings::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 
@@ -32,7 +34,7 @@ use render::Style;
 use serde::Serialize;
 
 /// The version of the templates, raised when a word of them changes, so that results tell prompts apart at a glance.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 const TEMPLATES: [(&str, &str); 6] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
@@ -115,6 +117,18 @@ impl Prompter {
     /// # Errors
     /// The settings are out of their ranges, or the names of the game cannot be masked.
     pub fn new(subject: &Subject, settings: PromptSettings) -> Result<Prompter, EvaluationError> {
+        Prompter::within(subject, settings, u64::MAX)
+    }
+
+    /// Prepares the prompts of a game in which an episode has at most `limit` decisions: its rules tell no later tick.
+    ///
+    /// # Errors
+    /// The settings are out of their ranges, or the names of the game cannot be masked.
+    pub fn within(
+        subject: &Subject,
+        settings: PromptSettings,
+        limit: u64,
+    ) -> Result<Prompter, EvaluationError> {
         let cell = settings.encodings.image_cell;
         if !(render::MIN_CELL..=40).contains(&cell) {
             let message = format!("`image_cell` is {cell}, but must be from 4 to 40 pixels");
@@ -147,7 +161,7 @@ impl Prompter {
             static_tokens: Vec::new(),
             settings,
         };
-        prompter.static_part = prompter.write_static(analysis);
+        prompter.static_part = prompter.write_static(analysis, limit);
         prompter.static_tokens = by_section(&prompter.static_part);
         Ok(prompter)
     }
@@ -173,7 +187,7 @@ impl Prompter {
     }
 
     /// Returns a BLAKE3 digest of [`VERSION`], all templates and the settings. Two runs of the same game with the same
-    /// digest have the same prompts, under the same [`engine::SEMANTICS`].
+    /// digest have the same prompts, under the same [`engine::SEMANTICS`] and the same limit of decisions.
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
@@ -283,8 +297,8 @@ impl Prompter {
         self.actions.iter().map(ToString::to_string).collect()
     }
 
-    fn write_static(&self, analysis: &Analysis) -> String {
-        let guide = Guide::from_analysis(analysis);
+    fn write_static(&self, analysis: &Analysis, limit: u64) -> String {
+        let guide = limited(Guide::from_analysis(analysis), limit);
         let (described, vgdl) = match self.settings.rules {
             Rules::Described => (true, None),
             Rules::Vgdl => (false, Some(print_bare(&without_pictures(analysis.game().description())))),

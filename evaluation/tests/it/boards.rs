@@ -181,6 +181,57 @@ fn available_actions_are_listed_where_they_change() {
     assert!(shown.contains("## Board\n@...i\n"), "{shown}");
 }
 
+/// Two birds of one type that turn back at walls, rain that always falls, and a field of soil.
+const FIELD: &str = "BasicGame
+  SpriteSet
+    floor > Immovable hidden=True
+    soil > Immovable
+    coin > Immovable
+    bird > Missile orientation=RIGHT speed=1
+    rain > Missile orientation=DOWN speed=1
+    avatar > MovingAvatar
+  LevelMapping
+    . > floor
+    s > soil
+    c > coin
+    b > bird
+    r > rain
+    A > avatar
+  InteractionSet
+    avatar wall > stepBack
+    soil avatar > killSprite
+    bird wall > reverseDirection
+    bird wall > stepBack
+    rain wall > killSprite
+    rain soil > stepBack
+    coin avatar > killSprite scoreChange=1
+  TerminationSet
+    SpriteCounter stype=coin win=True
+";
+
+#[test]
+fn directions_are_told_where_they_vary_and_scenery_is_not_listed() {
+    let level =
+        "wwwwwwwwww\nwb......bw\nwr......Aw\nwssssssssw\nws.......w\nwccccccccw\nwc.......w\nwwwwwwwwww\n";
+    let levels = [(0, level.to_owned(), None)];
+    let subject = Subject::read("field", FIELD, &levels, SubjectFacts::default()).unwrap();
+    let legend = Legend::new(&subject.analysis, &LegendOptions::default());
+    let mut walk = Walk::new(&subject, 0);
+    assert_eq!(encoding::directions(&walk.now, &legend), ["bird: right (8,1) (1,1)"]);
+    let around = encoding::grounding(&walk.now, &legend);
+    assert!(!around.iter().any(|line| line.starts_with("soil:")), "{around:?}");
+    assert!(
+        around.iter().any(|line| line.starts_with("coin:") && line.ends_with("and 1 more")),
+        "{around:?}"
+    );
+    walk.play(Action::Down);
+    // One soil is gone: a short list is no trouble.
+    let around = encoding::grounding(&walk.now, &legend);
+    assert!(around.iter().any(|line| line.starts_with("soil: ")), "{around:?}");
+    walk.play(Action::Nil);
+    assert_eq!(encoding::directions(&walk.now, &legend), ["bird: left (8,1), right (2,1)"]);
+}
+
 #[test]
 fn pictures_show_the_visible_sprites() {
     let subject = game("first-ice");

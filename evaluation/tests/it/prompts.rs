@@ -4,7 +4,7 @@
 //! code. A changed word requires a new [`evaluation::prompt::VERSION`].
 
 use crate::walk::{Walk, corpus, game};
-use engine::{Action, Digest, Game};
+use engine::{Action, Digest, Game, Outcome};
 use evaluation::Subject;
 use evaluation::client::{ChatMessage, Role};
 use evaluation::prompt::{
@@ -104,6 +104,49 @@ fn the_last_tick_matches_the_rules() {
         let shown =
             text(&prompter(&subject, &settings).prompt(&Walk::new(&subject, 0).turn(), &[], &[]).messages);
         assert!(shown.contains(&format!("Tick 0 of at most {last}.")), "{rules:?}: {shown}");
+    }
+}
+
+/// A limit of decisions before the Timeout is the only limit that the prompt tells.
+#[test]
+fn the_rules_know_the_limit_of_decisions() {
+    let subject = game("first-ice");
+    let rules = |limit: u64| {
+        let prompter = Prompter::within(&subject, PromptSettings::default(), limit).unwrap();
+        prompter.static_part().to_owned()
+    };
+    assert_eq!(rules(1000), prompter(&subject, &PromptSettings::default()).static_part());
+    let (own, ours) =
+        ("You lose when tick 200 is reached.", "Play stops at tick 60: if you have not won by then");
+    assert!(rules(200).contains(own) && !rules(200).contains("Play stops at tick"), "{}", rules(200));
+    assert!(rules(60).contains(ours) && !rules(60).contains(own), "{}", rules(60));
+}
+
+/// The last message says how the episode ended.
+#[test]
+fn the_last_message_tells_the_outcome() {
+    let subject = game("first-ice");
+    let prompter = prompter(&subject, &PromptSettings::default());
+    let mut walk = Walk::new(&subject, 0);
+    let ending = prompter.ending(&walk.turn());
+    assert!(
+        ending.starts_with(
+            "## End\nThe limit of 1000 actions was reached before the game was over, which is not a win. Score 0, after 0 actions. \
+             No answer is expected.\n\n## Turn\nTick 0 of at most 200."
+        ),
+        "{ending}"
+    );
+    for (outcome, expect) in [
+        (Outcome::Won, "You have won. Score 0,"),
+        (Outcome::Lost, "You have lost. Score 0,"),
+        (Outcome::Ended, "The game is over without a winner. Score 0,"),
+    ] {
+        walk.now.outcome = outcome;
+        let mut turn = walk.turn();
+        turn.actions = &[];
+        let ending = prompter.ending(&turn);
+        assert!(ending.starts_with(&format!("## End\n{expect}")), "{ending}");
+        assert!(!ending.contains("Actions now"), "{ending}");
     }
 }
 

@@ -173,7 +173,7 @@ const CELLAR_LEVEL: &str = "wwwwwww\nw...o.w\nw.x...w\nw.Ax.ow\nw.....w\nwwwwwww
 fn a_planner_wins_from_the_position_in_the_prompt() {
     let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };
     let cellar = subject("cellar", CELLAR, CELLAR_LEVEL);
-    let (_, outcome) = episode(&cellar, &settings, directly(&"planner:mcts:2000".parse().unwrap()));
+    let (_, outcome) = episode(&cellar, &settings, directly(&"planner:mcts:4000".parse().unwrap()));
     assert_eq!(outcome, Outcome::Won);
 }
 

@@ -53,6 +53,10 @@ impl Agent for Human {
         self.past.push(Past::new(shown, &[], choice.action));
         Ok(())
     }
+
+    fn end(&mut self, last: &Turn<'_>) {
+        show(&format!("\n{}", self.prompter.ending(last)));
+    }
 }
 
 fn show(text: &str) {

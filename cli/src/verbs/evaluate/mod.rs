@@ -288,13 +288,13 @@ impl RequestedPlayer {
                 Box::new(move |_| Contestant::Agent(Box::new(replay.clone())))
             }
             RequestedPlayer::Human(prompts) => {
-                let prompters = model::prompters(subjects, prompts)?;
+                let prompters = model::prompters(subjects, prompts, args.max_steps)?;
                 let player = move |task: &Task<'_>| Human::new(prompters[&task.subject.id].clone());
                 Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Prompted(player, prompts) => {
                 let (player, prompters) =
-                    (player.clone(), model::prompters(subjects, prompts)?);
+                    (player.clone(), model::prompters(subjects, prompts, args.max_steps)?);
                 let prompter = move |task: &Task<'_>| prompters[&task.subject.id].clone();
                 Box::new(move |task| {
                     Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter(task))))
@@ -313,7 +313,7 @@ impl RequestedPlayer {
                 return Ok(Connected { mailbox: Some(mailbox), ..contestant.into() });
             }
             RequestedPlayer::Model(model) => {
-                let model = Arc::new(model.connect(subjects)?);
+                let model = Arc::new(model.connect(subjects, args.max_steps)?);
                 let connected = model.clone();
                 let contestant: PlayerOf = Box::new(move |task| connected.contestant(task));
                 return Ok(Connected { model: Some(model), ..contestant.into() });

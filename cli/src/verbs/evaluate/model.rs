@@ -264,9 +264,14 @@ pub(super) fn mode_name(mode: Mode) -> &'static str {
 /// The prompters of the games, by game id.
 type Prompters = BTreeMap<String, Arc<Prompter>>;
 
-pub(super) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Result<Prompters, Failure> {
+/// Makes the prompters of episodes of at most `max_steps` decisions.
+pub(super) fn prompters(
+    subjects: &[Subject],
+    settings: &PromptSettings,
+    max_steps: u64,
+) -> Result<Prompters, Failure> {
     let prompter = |subject: &Subject| {
-        let prompter = Prompter::new(subject, settings.clone())?;
+        let prompter = Prompter::within(subject, settings.clone(), max_steps)?;
         Ok((subject.id.clone(), Arc::new(prompter)))
     };
     subjects.iter().map(prompter).collect()
@@ -324,8 +329,10 @@ impl RequestedModel {
 
     /// Returns the player as results name it.
     pub(crate) fn entrant(&self, subjects: &[Subject]) -> Result<Entrant, Failure> {
-        let digest =
-            subjects.first().map(|subject| self.prompter(subject).map(|own| own.digest())).transpose()?;
+        let digest = subjects
+            .first()
+            .map(|subject| self.prompter(subject, u64::MAX).map(|own| own.digest()))
+            .transpose()?;
         Ok(Entrant {
             name: self.settings.model.clone(),
             mode: Some(mode_name(self.prompts.mode).to_owned()),
@@ -339,16 +346,16 @@ impl RequestedModel {
         })
     }
 
-    fn prompter(&self, subject: &Subject) -> Result<Prompter, Failure> {
-        Prompter::new(subject, self.prompts.clone()).map_err(Failure::from)
+    fn prompter(&self, subject: &Subject, max_steps: u64) -> Result<Prompter, Failure> {
+        Prompter::within(subject, self.prompts.clone(), max_steps).map_err(Failure::from)
     }
 
     /// Connects without sending a request: a missing key is reported before anything is written.
-    pub(crate) fn connect(&self, subjects: &[Subject]) -> Result<ConnectedModel, Failure> {
+    pub(crate) fn connect(&self, subjects: &[Subject], max_steps: u64) -> Result<ConnectedModel, Failure> {
         let connection = client::connect(&self.options)?;
         Ok(ConnectedModel {
             model: Arc::from(connection.model),
-            prompters: prompters(subjects, &self.prompts)?,
+            prompters: prompters(subjects, &self.prompts, max_steps)?,
             decoding: connection.settings.decoding,
             reasks: self.reasks,
             is_priced: connection.price.is_some(),
@@ -363,7 +370,7 @@ impl RequestedModel {
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
         let mut batches = Vec::new();
         for task in tasks {
-            let (prompter, steps) = (self.prompter(task.subject)?, task.most_steps());
+            let (prompter, steps) = (self.prompter(task.subject, task.max_steps)?, task.most_steps());
             let first = Observed::first(task);
             let prompt = prompter.prompt(&first.turn(task), &[], &[]);
             let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());

@@ -23,6 +23,7 @@ use crate::encoding;
 use crate::legend::{Legend, LegendOptions};
 use crate::log::{Event, Journal, Reply, ReplyClass};
 use crate::player::{Agent, Choice, Halt, Validity};
+use crate::prompt::limited;
 use crate::run::clock::Stopwatch;
 use crate::turn::Turn;
 use child::{LineProcess, NoLine};
@@ -256,7 +257,7 @@ impl Shown {
     fn of(turn: &Turn<'_>) -> Shown {
         let analysis = &turn.subject.analysis;
         // The characters of the level files differ from those of the grid.
-        let rules = Guide { legend: Vec::new(), ..Guide::from_analysis(analysis) };
+        let rules = Guide { legend: Vec::new(), ..limited(Guide::from_analysis(analysis), turn.limit) };
         Shown { rules: rules.to_string(), legend: Legend::new(analysis, &LegendOptions::default()) }
     }
 
