@@ -1,7 +1,7 @@
 //! The messages to a process, one line of JSON each (`docs/agents.md`).
 
 use crate::encoding::direction_name;
-use engine::{Action, Observation, Outcome};
+use engine::{Action, MoverView, Observation, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -62,6 +62,8 @@ pub(super) struct Seen<'a> {
     /// Everything visible on the board, by name.
     sprites: Vec<Sprites<'a>>,
     avatar: Option<Avatar<'a>>,
+    /// The sprites that move in a direction of their own.
+    movers: Vec<Mover<'a>>,
     resources: BTreeMap<&'a str, i32>,
     score: f64,
     /// The change of the score by the last action.
@@ -86,6 +88,14 @@ struct Avatar<'a> {
     facing: Option<&'static str>,
 }
 
+#[derive(Debug, Serialize)]
+struct Mover<'a> {
+    name: &'a str,
+    cell: (i32, i32),
+    /// `up`, `left`, `down`, `right`; `None` for any other direction.
+    facing: Option<&'static str>,
+}
+
 impl<'a> Seen<'a> {
     /// Combines an observation with its grid and the reward of the last action.
     pub(super) fn of(observation: &'a Observation, grid: Vec<String>, reward: f64) -> Seen<'a> {
@@ -95,6 +105,11 @@ impl<'a> Seen<'a> {
                 cells.entry(name).or_default().push((at % observation.columns, at / observation.columns));
             }
         }
+        let mover = |mover: &'a MoverView| Mover {
+            name: &mover.name,
+            cell: (mover.column, mover.row),
+            facing: direction_name(mover.facing),
+        };
         Seen {
             grid,
             sprites: cells.into_iter().map(|(name, cells)| Sprites { name, cells }).collect(),
@@ -104,6 +119,7 @@ impl<'a> Seen<'a> {
                 cell: (avatar.column, avatar.row),
                 facing: direction_name(avatar.facing),
             }),
+            movers: observation.movers.iter().map(mover).collect(),
             resources: observation.resources.iter().map(|(name, amount)| (name.as_str(), *amount)).collect(),
             score: observation.score,
             reward,

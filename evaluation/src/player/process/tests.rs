@@ -5,7 +5,7 @@ use engine::{Observation, Outcome, Seed, State};
 use rustix::process::{Pid, test_kill_process};
 use serde_json::Value;
 
-const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    coin > Resource limit=2\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    c > coin\n  InteractionSet\n    avatar wall > stepBack\n    coin avatar > collectResource scoreChange=1\n    goal avatar > killSprite scoreChange=2\n  TerminationSet\n    SpriteCounter stype=goal win=True\n";
+const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    coin > Resource limit=2\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    c > coin\n  InteractionSet\n    avatar wall > stepBack\n    coin avatar > collectResource scoreChange=1\n    goal avatar > killSprite scoreChange=2\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    Timeout limit=90\n";
 const LEVEL: &str = "wwwwww\nwA c w\nw   gw\nwwwwww\n";
 
 /// An episode on a small board.
@@ -114,6 +114,9 @@ fn an_episode_is_played_in_lines() {
     assert_eq!((&hello["columns"], &hello["rows"], &hello["step_limit"]), (&6.into(), &4.into(), &30.into()));
     assert!(hello["rules"].as_str().unwrap().contains("You win when no goal is left."));
     assert!(!hello["rules"].as_str().unwrap().contains("characters"));
+    // The limit of decisions comes before the Timeout.
+    assert!(hello["rules"].as_str().unwrap().contains("Play stops at tick 30"));
+    assert!(!hello["rules"].as_str().unwrap().contains("tick 90"));
     assert_eq!(hello["legend"]["w"], serde_json::json!(["wall"]));
     let turn = &heard[2];
     assert_eq!((&turn["turn"], &turn["tick"], &turn["score"]), (&1.into(), &1.into(), &0.0.into()));
@@ -132,6 +135,19 @@ fn an_episode_is_played_in_lines() {
     for secret in ["seed", "hash", "level", "source"] {
         assert!(heard.iter().all(|message| message.get(secret).is_none()), "{secret}");
     }
+}
+
+#[test]
+fn directions_of_movers_are_sent() {
+    let source = GAME.replace("    coin >", "    bird > Missile orientation=LEFT\n    coin >");
+    let source = source.replace("    c > coin", "    c > coin\n    b > bird");
+    let subject = Subject::read("board", &source, &[(0, "Abg\n".to_owned(), None)], SubjectFacts::default());
+    let subject = subject.unwrap();
+    let state = subject.game.start(&subject.levels[0].level, Seed::from_text("board"));
+    let observation = subject.game.observe(&state);
+    let seen = serde_json::to_value(Seen::of(&observation, Vec::new(), 0.0)).unwrap();
+    let bird = serde_json::json!([{"name": "bird", "cell": [1, 0], "facing": "left"}]);
+    assert_eq!(seen["movers"], bird);
 }
 
 #[test]
