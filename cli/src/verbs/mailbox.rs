@@ -18,7 +18,7 @@ const PATIENCE: u32 = 20;
 
 /// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines typed.
 ///
-/// A line is an action, such as `left` or its first letters, or a command: `list`, `rules`, `show`, `skip`, `quit`, `help`;
+/// A line is an action, such as `left`, its first letters or an arrow key, or a command: `list`, `rules`, `show`, `skip`, `quit`, `help`;
 /// `say TEXT` answers with the text as it is. With --json, what waits is listed and nothing is answered.
 ///
 /// Exit status 0: listed, or the evaluation is over. 1: it is not over. 2: there is no mailbox. 3: disk failed.
@@ -257,14 +257,21 @@ impl Session<'_> {
     }
 }
 
-const HELP: &str = "an action, or its first letters: answers the prompt
+const HELP: &str = "an action, its first letters, or an arrow key: answers the prompt
 say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: what waits; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
 
-/// Returns the action that a line names, in full or by its first letters.
+/// Returns the action that a line names, in full, by its first letters or by an arrow key.
 fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
-    let typed = line.to_lowercase();
+    let typed = match line {
+        // The arrow keys of a terminal.
+        "\u{1b}[A" | "\u{1b}OA" => "up".to_owned(),
+        "\u{1b}[B" | "\u{1b}OB" => "down".to_owned(),
+        "\u{1b}[C" | "\u{1b}OC" => "right".to_owned(),
+        "\u{1b}[D" | "\u{1b}OD" => "left".to_owned(),
+        typed => typed.to_lowercase(),
+    };
     let mut found = actions.iter().filter(|action| action.starts_with(&typed));
     let exact = actions.iter().find(|action| **action == typed);
     exact.or_else(|| found.next().filter(|_| found.next().is_none())).map(String::as_str)
@@ -300,8 +307,12 @@ fn listed(desk: &Desk, view: &View) -> String {
             format!("the evaluation is over: {} of {} episodes won", finished.won, finished.episodes)
         }
         (None, 0, true) => "nothing waits; the evaluation is running".to_owned(),
-        (None, 0, false) => {
+        (None, 0, false) if view.answered == 0 => {
             "nothing waits, and no evaluation is running here; continue it with --resume".to_owned()
+        }
+        (None, 0, false) => {
+            "all prompts have answers, and no evaluation is running here; --resume reads the answers"
+                .to_owned()
         }
         (None, waiting, running) => {
             let prompts = if waiting == 1 { "1 prompt waits" } else { "prompts wait" };
@@ -344,6 +355,7 @@ fn document(desk: &Desk, view: &View) -> serde_json::Value {
     json!({
         "player": desk.player(),
         "running": view.is_running,
+        "unread": view.answered,
         "waiting": view.waiting.iter().map(waiting).collect_vec(),
         "ended": ended.collect_vec(),
         "finished": view.finished,
@@ -364,5 +376,8 @@ mod tests {
         check("u", None);
         check("us", Some("use"));
         check("fly", None);
+        check("\u{1b}[D", Some("left"));
+        check("\u{1b}OA", Some("up"));
+        check("\u{1b}[C", None);
     }
 }

@@ -76,6 +76,8 @@ fn episodes_are_answered_interrupted_and_resumed() {
     // The prompts stay open: what is answered now is read later.
     let sat = answer(broken, &["--episode", EPISODES[1]], "right\n");
     assert!(text(&sat.stdout).contains("no evaluation is running here"), "{}", text(&sat.stdout));
+    let listed = wait(broken, 1);
+    assert_eq!((&listed["unread"], &listed["running"]), (&1.into(), &false.into()));
     let refused = evaluate(broken, &[]).wait_with_output().unwrap();
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).contains("continue it with --resume"), "{}", text(&refused.stderr));

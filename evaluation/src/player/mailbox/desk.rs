@@ -23,6 +23,8 @@ pub struct Desk {
 pub struct View {
     /// The prompts that wait for an answer, sorted by episode.
     pub waiting: Vec<OpenPrompt>,
+    /// The number of prompts whose answer the evaluation has not read yet.
+    pub answered: usize,
     /// The episodes that have ended, with their results.
     pub ended: Vec<(String, EpisodeResult)>,
     /// The result of the evaluation, once all episodes have ended.
@@ -100,6 +102,7 @@ impl Desk {
                 answer.is_some_and(|answer| names.contains(&answer))
             };
             let prompts = names.iter().filter(|name| name.ends_with(".prompt.json") && !is_answered(name));
+            view.answered += names.iter().filter(|name| is_answered(name)).count();
             let Some(name) = prompts.max() else { continue };
             let Some(prompt) = read_data::<PromptFile>(&folder.join(name))? else { continue };
             // The file says where its answer goes; it must be this folder.
