@@ -82,6 +82,8 @@ fn episodes_are_answered_interrupted_and_resumed() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).contains("continue it with --resume"), "{}", text(&refused.stderr));
     let mut playing = evaluate(broken, &["--resume"]);
+    // Both answers are read.
+    wait(broken, 2);
     let sat = answer(broken, &["--episode", EPISODES[0]], "r\nn\n");
     assert_eq!(sat.status.code(), Some(1), "{}", text(&sat.stderr));
     answer(broken, &[], "right\nright\n");

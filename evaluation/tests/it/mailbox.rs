@@ -211,6 +211,41 @@ fn interrupted_episodes_are_resumed() {
     }
 }
 
+/// A mailbox that cannot be written breaks the episode off, and --resume plays it to its end.
+#[test]
+fn unwritable_mailboxes_leave_the_episode_open() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let episode = home.join("box/corridor-lvl1-run0");
+    fs::create_dir(home.join("box")).unwrap();
+    let broken = |tally: &Tally, expect: &str| {
+        assert!((tally.open, tally.infrastructure) == (1, true), "{tally:?}");
+        let halted = tally.halted.as_ref().unwrap();
+        assert!(halted.contains(expect) && halted.contains("corridor-lvl1-run0"), "{halted}");
+    };
+    let removed = |resume: bool, step: u64| {
+        thread::scope(|scope| {
+            let playing = scope.spawn(move || play(home, resume).0);
+            let open = prompt(home, step, 0);
+            answer(home, &open, "ACTION: up");
+            prompt(home, step + 1, 0);
+            fs::remove_dir_all(&episode).unwrap();
+            playing.join().unwrap()
+        })
+    };
+    broken(&removed(false, 0), "cannot list");
+    fs::write(&episode, "a file").unwrap();
+    broken(&play(home, true).0, "cannot create");
+    fs::remove_file(&episode).unwrap();
+    let tally = thread::scope(|scope| {
+        let playing = scope.spawn(move || play(home, true).0);
+        answer(home, &prompt(home, 1, 0), "ACTION: up");
+        answer(home, &prompt(home, 2, 0), "ACTION: up");
+        playing.join().unwrap()
+    });
+    assert_eq!((tally.ended, tally.answers.unusable), (1, 0));
+}
+
 #[test]
 fn foreign_folders_are_refused() {
     let home = tempfile::tempdir().unwrap();
