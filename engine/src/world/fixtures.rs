@@ -19,7 +19,7 @@ pub(super) fn mirrored(number: usize) -> usize {
 
 impl World {
     /// The fixture in a slot.
-    #[inline(never)]
+    #[inline]
     pub(crate) fn fixture(&self, slot: Slot) -> &Sprite {
         let Fixtures(sprites) =
             self.fixtures.as_deref().expect("slots without a sprite are those of fixtures");

@@ -30,7 +30,7 @@ pub struct PowerRow {
 ///
 /// ```
 /// use infinite_arcade_evaluation::study::power;
-/// use infinite_arcade_statistics::Design;
+/// use statistics::Design;
 /// let rows = power(Design { games: 6, levels: 5, runs: 5 });
 /// let episodes: Vec<(u64, u64)> = rows.iter().map(|row| (row.games, row.episodes)).collect();
 /// assert_eq!(episodes, [(6, 150), (6, 30), (30, 150), (150, 150)]);

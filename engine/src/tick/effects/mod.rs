@@ -5,6 +5,8 @@ mod kill;
 mod motion;
 mod resource;
 mod spawn;
+#[cfg(test)]
+mod tests;
 mod transform;
 mod walls;
 
