@@ -141,7 +141,7 @@ mod tests {
         close(found.interval.high, 0.5 + half);
     }
 
-    /// Where games differ no more than chance has it, all episodes count.
+    /// All episodes count if games differ no more than chance has it.
     #[test]
     fn equal_games_keep_their_episodes() {
         let games: Vec<(u64, u64)> = (0..400).map(|game| (10 + game % 2, 25)).collect();

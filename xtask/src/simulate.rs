@@ -25,11 +25,11 @@ pub(crate) struct Args {
 
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Question {
-    /// How often nominal 95 % intervals hold the true win rate
+    /// Coverage of nominal 95 % intervals of win rates
     Coverage,
-    /// How often equal players are told apart
+    /// False positives: equal players that are told apart
     Comparisons,
-    /// How often different players are told apart, stated and simulated
+    /// Power: different players that are told apart, as stated and as simulated
     Power,
 }
 

@@ -126,7 +126,7 @@ fn verdicts() {
     assert!(Study::new(vec![(Player::reference("a"), Vec::new())], Vec::new()).verdict().is_empty());
 }
 
-/// Which episodes are identical is seen in their logs: by actions and boards.
+/// Identical episodes are known by the actions and boards in their logs.
 #[test]
 fn courses_of_episodes() {
     let subject = subject();
