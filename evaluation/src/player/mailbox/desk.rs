@@ -59,7 +59,7 @@ impl Desk {
     /// # Errors
     /// There is none, it has a newer format, or it is damaged.
     pub fn open(folder: &Path) -> Result<Desk, EvaluationError> {
-        // A file has no marker in it, and reading one there would tell of a path that nobody named.
+        // Reading a marker below a file fails with a path that nobody gave.
         let found = if folder.is_file() { None } else { marker(folder)? };
         match found {
             Some(marker) => Ok(Desk { folder: folder.to_owned(), player: marker.player }),
