@@ -77,7 +77,10 @@ pub struct SubjectLevel {
 pub struct SubjectFacts {
     /// The title in the game's own theme.
     pub title: String,
-    /// The kind of game, a sentence for each side of the taxonomy (`engine::describe::Guide::kind`).
+    /// The kind of game that its release or its card gives: `shooter`. Empty if it is not known.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub kind: String,
+    /// The kind of game by its rules, a sentence for each side of the taxonomy (`engine::describe::Guide::kind`).
     pub taxonomy: Vec<String>,
     /// `true` if its faults are tolerated, as in the reference engine.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

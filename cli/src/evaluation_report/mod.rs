@@ -17,7 +17,7 @@ pub(crate) struct Results<'a> {
     pub(crate) study: &'a Study,
     /// The results folders, for replays and settings.
     pub(crate) evaluations: &'a [Evaluation],
-    /// The number of levels for which the page replays each player's first run.
+    /// The number of episodes of each player that the page replays.
     pub(crate) replays: usize,
 }
 

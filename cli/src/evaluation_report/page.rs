@@ -24,6 +24,10 @@ struct Page<'a> {
     title: &'a str,
     subtitle: &'a str,
     headlines: Vec<Fact>,
+    /// The results in a paragraph.
+    lead: Option<&'a String>,
+    /// How each player failed.
+    fails: &'a [String],
     counted: &'a [String],
     warnings: &'a [String],
     sections: Vec<Section>,
@@ -39,11 +43,13 @@ struct Page<'a> {
 pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Result<String, Failure> {
     let (sections, tab_rules) = sections::all(results.study, tables);
     let room = BYTES.saturating_sub(sections.iter().map(Section::bytes).sum());
-    let replays = Replays::of(results.evaluations, results.replays, room)?;
+    let replays = Replays::of(results, room)?;
     let mut page = Page {
         title: &told.title,
         subtitle: &told.subtitle,
         headlines: headlines(results.study),
+        lead: told.verdict.first(),
+        fails: told.verdict.get(1..).unwrap_or(&[]),
         counted: &told.counted,
         warnings: &told.warnings,
         sections,

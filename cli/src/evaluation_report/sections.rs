@@ -53,8 +53,18 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     games.groups = plots::win_rates_by_game(study);
     games.tables = of(&["summary", "games", "difficulty"]);
 
-    let mut kinds = Section::new("kinds", "Kinds of game", "");
-    kinds.tables = of(&["taxonomy"]);
+    let mut losses = Section::new("endings", "Why episodes were not won", "");
+    losses.tables = of(&["endings", "causes"]);
+
+    let note = if study.kinds.is_empty() {
+        "These results do not record the kinds of their games (they are of an earlier version, or the games are from files), so that only \
+         the taxonomy of the rules is left."
+    } else {
+        ""
+    };
+    let mut kinds = Section::new("kinds", "Kinds of game", note);
+    let shown: &[&str] = if study.kinds.is_empty() { &["taxonomy"] } else { &["kinds", "taxonomy"] };
+    kinds.tables = of(shown);
 
     let mut pairs = Section::new(
         "pairs",
@@ -91,7 +101,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut answers = Section::new("answers", "Answers, failures and times", "");
     answers.tables = of(&["answers", "times"]);
 
-    (vec![leaders, levels, games, kinds, pairs, modes, aids, walked, correlations, answers], rules)
+    (vec![leaders, kinds, losses, levels, games, pairs, modes, aids, walked, correlations, answers], rules)
 }
 
 /// Returns the proved shortest wins as a row of the leaderboard.
@@ -121,5 +131,7 @@ fn shown(study: &Study, table: &Table) -> Shown {
     };
     let (models, marks) = (labels(false), labels(true));
     let about = |cells: &[String], players: &[String]| cells.iter().any(|cell| players.contains(cell));
-    Shown::of(table).cut(|cells| about(cells, &marks) && !about(cells, &models))
+    let found = Shown::of(table);
+    let found = if matches!(table.id.as_str(), "causes" | "taxonomy") { found.stacked() } else { found };
+    found.cut(|cells| about(cells, &marks) && !about(cells, &models))
 }

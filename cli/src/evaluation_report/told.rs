@@ -13,6 +13,8 @@ pub(super) struct Told {
     pub(super) title: String,
     /// The source of the results.
     pub(super) subtitle: String,
+    /// The results in a paragraph, and how each player failed.
+    pub(super) verdict: Vec<String>,
     /// The contents that were counted.
     pub(super) counted: Vec<String>,
     /// Caveats for any comparison.
@@ -29,19 +31,34 @@ impl Told {
             words::many(games, "game"),
             words::many(levels, "level")
         );
-        let mut counted = study.verdict();
-        counted.extend([episodes(study), common(study, levels)]);
+        let mut counted = vec![episodes(study), common(study, levels)];
         counted.extend(answers(study));
         counted.push(
             "Intervals are for 95 %. A dash is a value that is not known, never 0. `arcade docs report` explains each section, \
              `arcade docs metrics` each number."
                 .to_owned(),
         );
-        Told { title, subtitle: subtitle(evaluations), counted, warnings: study.notes.clone() }
+        Told {
+            title,
+            subtitle: subtitle(evaluations),
+            verdict: study.verdict(),
+            counted,
+            warnings: study.notes.clone(),
+        }
     }
 
     pub(super) fn markdown(&self, tables: &[Table]) -> String {
         let mut text = format!("# {}\n\n{}\n", in_markdown(&self.title), in_markdown(&self.subtitle));
+        for (at, sentence) in self.verdict.iter().enumerate() {
+            let [gap, mark] = if at == 0 {
+                ["\n", ""]
+            } else if at == 1 {
+                ["\n", "- "]
+            } else {
+                ["", "- "]
+            };
+            text += &format!("{gap}{mark}{}\n", in_markdown(sentence));
+        }
         for sentence in &self.counted {
             text += &format!("\n{}\n", in_markdown(sentence));
         }

@@ -17,6 +17,8 @@ pub(crate) struct Shown {
     pub(crate) rows: Vec<Row>,
     /// The rows that are left out, in words; empty if none is.
     more: String,
+    /// `true` if its rows stand as lists of cells where the page is narrow: for tables with long words.
+    stack: bool,
 }
 
 /// A column: its name, and `true` if it holds figures, which are set to the right.
@@ -50,7 +52,13 @@ impl Shown {
             columns: table.columns.iter().enumerate().map(column).collect(),
             rows: table.rows.iter().map(row).collect(),
             more: String::new(),
+            stack: false,
         }
+    }
+
+    #[must_use]
+    pub(crate) fn stacked(self) -> Shown {
+        Shown { stack: true, ..self }
     }
 
     /// The table with its first rows only, where it has many, and with some marked.

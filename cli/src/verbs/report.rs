@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// Folder for the report, absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// The number of levels for which the page shows each player's first episode step by step; 0 for none
+    /// The number of episodes of each player that the page shows step by step, failures first; 0 for none
     #[arg(long, value_name = "N", default_value_t = 4)]
     replays: usize,
     /// Threads; all cores if not given. Changes no byte

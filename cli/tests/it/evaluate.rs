@@ -463,6 +463,7 @@ fn archives_are_played_like_folders() {
     let settings =
         |out: &str| std::fs::read_to_string(home.path().join(out).join("evaluation.json")).unwrap();
     assert_eq!(settings("one"), settings("two"));
+    assert!(settings("two").contains("\"kind\": \""), "the kinds of the release are recorded");
     let mut bytes = std::fs::read(home.path().join("tiny.tar.zst")).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;

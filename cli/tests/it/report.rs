@@ -155,6 +155,8 @@ fn reports_are_self_contained() {
         "Board &lt;0&gt;",
         "The &lt;lanterns&gt;, level 0, run 0",
         "prefers-color-scheme: dark",
+        "These results do not record the kinds of their games",
+        "Why episodes were not won",
     ];
     for part in shown {
         assert!(page.replace("&#x2f;script", "/script").contains(part), "{part}");
@@ -162,6 +164,11 @@ fn reports_are_self_contained() {
     for never in ["NaN", ">inf<", "</script><b>"] {
         assert!(!page.contains(never), "{never}");
     }
+    // The talker wins level 0 by going right, and never level 1.
+    let (_, replays) = page.split_once("id=\"replays\"").unwrap();
+    let (_, of_talker) = replays.split_once("<h3>talker (zero-shot)</h3>").unwrap();
+    let first = of_talker.split("</summary>").next().unwrap();
+    assert!(first.contains("level 1, run 0: ") && !first.contains("won in"), "{first}");
     let json: Value = serde_json::from_slice(&made["report.json"]).unwrap();
     assert_eq!(json["study"]["players"].as_array().unwrap().len(), 4);
     assert!(file("report.md").contains("| talker (zero-shot) |"));

@@ -3,6 +3,7 @@
 use crate::error::EvaluationError;
 use crate::log::Event;
 use crate::metrics::choices::{Choices, Spending};
+use crate::metrics::ending::Ending;
 use crate::metrics::movement::Movement;
 use crate::metrics::replay::{Replayed, replay};
 use crate::subject::Subject;
@@ -23,6 +24,9 @@ pub struct EpisodeMetrics {
     pub status: EpisodeStatus,
     /// The outcome after the last step.
     pub outcome: Outcome,
+    /// The cause of the ending and the distance from a win; `None` for a win, and for an episode that was aborted or interrupted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ending: Option<Ending>,
     /// The score after the last step.
     pub score: f64,
     /// The number of actions played.
@@ -44,6 +48,9 @@ pub struct EpisodeMetrics {
     /// The versions of the model that answered, as the provider calls them.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub served_by: BTreeSet<String>,
+    /// The results folder that the episode was read from: an index into those of a study.
+    #[serde(skip)]
+    pub folder: Option<usize>,
     /// The digest of all actions, boards, scores and outcomes: equal for identical episodes. `None` if it is not known.
     #[serde(skip)]
     pub course: Option<Digest>,
@@ -87,11 +94,13 @@ impl EpisodeMetrics {
                 calls.extend(*spent);
             }
         }
+        let status = EpisodeStatus::of(&replayed, *max_steps, log);
         Ok(EpisodeMetrics {
             game: subject.id.clone(),
             level: *level,
             run: *run,
-            status: EpisodeStatus::of(&replayed, *max_steps, log),
+            ending: replayed.ending.clone().filter(|_| status.aborted().is_none()),
+            status,
             outcome: replayed.outcome,
             score: replayed.score,
             steps: replayed.actions.len() as u64,
@@ -103,10 +112,38 @@ impl EpisodeMetrics {
             choices: Choices::of(log),
             spending: Spending::of(log),
             served_by: served_by(log),
+            folder: None,
             course: Some(replayed.course),
             decision_ms,
             calls,
         })
+    }
+
+    /// An ended episode of which no more is known: for results that have no log, with a score and steps of 0.
+    pub fn ended(game: &str, level: usize, run: u64, outcome: Outcome) -> EpisodeMetrics {
+        let is_over = outcome != Outcome::Ongoing;
+        EpisodeMetrics {
+            game: game.to_owned(),
+            level,
+            run,
+            status: if is_over { EpisodeStatus::Over } else { EpisodeStatus::StepLimit },
+            outcome,
+            ending: Ending::unknown(outcome),
+            score: 0.0,
+            steps: 0,
+            max_steps: 0,
+            optimal_ticks: None,
+            meaningful: None,
+            meaningful_as_code: None,
+            movement: Movement::default(),
+            choices: Choices::default(),
+            spending: Spending::default(),
+            served_by: BTreeSet::new(),
+            folder: None,
+            course: None,
+            decision_ms: Vec::new(),
+            calls: Vec::new(),
+        }
     }
 
     /// Returns `true` if the game was won. All other outcomes are no win: lost, over without a winner, or not over.

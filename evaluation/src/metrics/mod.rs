@@ -7,6 +7,7 @@
 mod answers;
 mod as_code;
 mod choices;
+mod ending;
 mod episode;
 mod meaningful;
 mod movement;
@@ -14,6 +15,7 @@ mod replay;
 
 pub use as_code::{AsCode, flags_as_code};
 pub use choices::{Choices, Spending};
+pub use ending::{Ending, EndingKind, GoalDistance};
 pub use episode::{EpisodeMetrics, EpisodeStatus};
 pub use meaningful::{Effect, WINDOW, meaningful};
 pub use movement::Movement;

@@ -4,6 +4,7 @@ use crate::error::EvaluationError;
 use crate::log::{Event, NEXT_STEP, SCHEMA, Status};
 use crate::metrics::answers::Answers;
 use crate::metrics::as_code::{AsCode, flags_as_code};
+use crate::metrics::ending::{Ending, LastTick};
 use crate::metrics::meaningful::{Effect, meaningful};
 use crate::subject::{Subject, SubjectLevel};
 use engine::{Action, Digest, Game, Outcome, SEMANTICS, State};
@@ -29,6 +30,8 @@ pub struct Replayed {
     pub score: f64,
     /// The digest of all actions, visible boards, scores and outcomes, without the state of chance.
     pub course: Digest,
+    /// The cause of the ending and the distance from a win, if the episode is not won.
+    pub ending: Option<Ending>,
 }
 
 /// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar position. Values that
@@ -57,7 +60,11 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
         outcome: state.outcome(),
         score: state.score(),
         course: Digest::of(b""),
+        ending: None,
     };
+    let (started, mut tick) = (state.clone(), LastTick::default());
+    let is_step = |event: &Event| matches!(event, Event::Step { .. });
+    let last_step = log.iter().rposition(is_step).map(|at| at + 1);
     let mut course = blake3::Hasher::new();
     let mut code = AsCode::new(&subject.game);
     let (mut effects, mut texts) = (Vec::new(), Vec::new());
@@ -80,7 +87,11 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                     subject.game.step(&mut idle, Action::Nil);
                     (Seen::of(&subject.game, &idle), idle.outcome())
                 });
-                subject.game.step(&mut state, *action);
+                if Some(line) == last_step {
+                    subject.game.step_watched(&mut state, *action, &mut tick);
+                } else {
+                    subject.game.step(&mut state, *action);
+                }
                 seen = Seen::of(&subject.game, &state);
                 let reward = state.score() - replayed.score;
                 effects.push(effect(&seen, state.outcome(), idle, reward));
@@ -104,6 +115,7 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
             Event::Request { .. } | Event::Message { .. } | Event::Halt { .. } => answers.other(event),
         }
     }
+    replayed.ending = Ending::of(subject, &started, &state, tick);
     replayed.course = Digest::from_bytes(*course.finalize().as_bytes());
     replayed.meaningful = meaningful(&effects, &places);
     replayed.meaningful_as_code = flags_as_code(&texts, &replayed.actions, &replayed.rewards);

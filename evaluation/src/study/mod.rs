@@ -14,6 +14,7 @@
 mod contrast;
 mod correlations;
 mod difficulty;
+mod endings;
 mod failures;
 mod leaderboard;
 mod matrix;
@@ -30,6 +31,7 @@ mod verdict;
 pub use contrast::{Comparison, Contrasts, OverallComparison, WithinLevels};
 pub use correlations::{CORRELATED, Correlation, Correlations, Test};
 pub use difficulty::{DifficultyLabel, DifficultyRow};
+pub use endings::{EndingRow, EndingSummary};
 pub use failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
 pub use leaderboard::LeaderRow;
 pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
@@ -86,7 +88,13 @@ pub struct Study {
     pub difficulties: Vec<DifficultyRow>,
     /// The duration of decisions.
     pub times: Vec<TimeRow>,
-    /// The results by kind of game.
+    /// The episodes that were not won, by player, game and cause.
+    pub endings: Vec<EndingRow>,
+    /// The same by player.
+    pub ending_summaries: Vec<EndingSummary>,
+    /// The results by the kind of game that the release gives; empty if the results record none.
+    pub kinds: Vec<TaxonomyRow>,
+    /// The results by the taxonomy of the rules.
     pub taxonomy: Vec<TaxonomyRow>,
     /// The statistical power of the episodes.
     pub power: Vec<PowerRow>,
@@ -99,7 +107,10 @@ pub struct StudyGame {
     pub id: String,
     /// Its title in its own theme.
     pub title: String,
-    /// The kind of game, a sentence for each side.
+    /// The kind of game that the release gives; empty if it is not recorded.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub kind: String,
+    /// The kind of game by its rules, a sentence for each side.
     pub taxonomy: Vec<String>,
     /// Its levels.
     pub levels: Vec<StudyLevel>,
@@ -120,6 +131,7 @@ impl From<&Subject> for StudyGame {
         StudyGame {
             id: subject.id.clone(),
             title: subject.facts.title.clone(),
+            kind: subject.facts.kind.clone(),
             taxonomy: subject.facts.taxonomy.clone(),
             levels: levels
                 .map(|level| StudyLevel { number: level.number, optimal_ticks: level.optimal_ticks })
@@ -160,6 +172,9 @@ impl Study {
         study.sweeps = players.clone().map(|player| Sweep::of(&study, player)).collect();
         study.difficulties = difficulty::difficulties(&study);
         study.times = players.map(|player| TimeRow::of(&study, player)).collect();
+        study.endings = endings::endings(&study);
+        study.ending_summaries = endings::summaries(&study);
+        study.kinds = taxonomy::kinds(&study);
         study.taxonomy = taxonomy::taxonomy(&study);
         study.power = power::of_study(&study);
         study
@@ -229,9 +244,16 @@ impl Study {
         level.map_or_else(|| id.clone(), |level| format!("{id}-{level}"))
     }
 
+    /// Returns the title of a game, or its id if it has none.
+    pub fn title(&self, game: usize) -> &str {
+        let StudyGame { id, title, .. } = &self.games[game];
+        if title.is_empty() { id } else { title }
+    }
+
     /// Returns all tables of a report in order.
     pub fn tables(&self) -> Vec<Table> {
         let mut tables = leaderboard::tables(self);
+        tables.extend(endings::tables(self));
         for (matrices, grain) in [(&self.by_game, "game"), (&self.by_level, "level")] {
             for measure in Measure::ALL {
                 tables.extend(matrices.iter().map(|matrix| matrix.table(measure, grain)));
@@ -245,7 +267,7 @@ impl Study {
         tables.extend(sweep::tables(self));
         tables.push(difficulty::table(self));
         tables.push(times::table(self));
-        tables.push(taxonomy::table(self));
+        tables.extend(taxonomy::tables(self));
         tables.push(power::table(&self.power));
         tables
     }

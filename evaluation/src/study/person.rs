@@ -105,31 +105,12 @@ fn flatten(path: &str, value: &Value, into: &mut BTreeMap<String, String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metrics::{Choices, EpisodeStatus, Movement, Spending};
     use engine::Outcome;
     use serde_json::json;
 
     fn episode(run: u64, served: &[&str]) -> EpisodeMetrics {
-        EpisodeMetrics {
-            game: "maze".to_owned(),
-            level: 0,
-            run,
-            status: EpisodeStatus::Over,
-            outcome: Outcome::Lost,
-            score: 0.0,
-            steps: 1,
-            max_steps: 9,
-            optimal_ticks: None,
-            meaningful: None,
-            meaningful_as_code: None,
-            movement: Movement::default(),
-            choices: Choices::default(),
-            spending: Spending::default(),
-            served_by: served.iter().map(|name| (*name).to_owned()).collect(),
-            course: None,
-            decision_ms: Vec::new(),
-            calls: Vec::new(),
-        }
+        let served_by = served.iter().map(|name| (*name).to_owned()).collect();
+        EpisodeMetrics { served_by, ..EpisodeMetrics::ended("maze", 0, run, Outcome::Lost) }
     }
 
     #[track_caller]

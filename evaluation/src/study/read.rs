@@ -29,7 +29,7 @@ impl Study {
         let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();
         let (mut notes, mut seeds, mut origins) = (Vec::new(), BTreeSet::new(), Vec::new());
-        for folder in folders {
+        for (place, folder) in folders.iter().enumerate() {
             let evaluation = Evaluation::open(folder)?;
             let player = Player::from(&evaluation.settings.entrant);
             let mut twins: BTreeSet<&str> = BTreeSet::new();
@@ -43,7 +43,8 @@ impl Study {
             evaluation.check_logs(&tasks)?;
             // Nothing is kept of episodes that were not started.
             let measured = tasks.par_iter().filter_map(|task| measured(&evaluation, task).transpose());
-            let measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
+            let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
+            measured.iter_mut().for_each(|episode| episode.folder = Some(place));
             let open = tasks.len() - measured.len();
             if open > 0 {
                 notes.push(format!(

@@ -1,7 +1,7 @@
-//! Results by kind of game.
+//! Results by kind of game: by the kind that a release gives, and by the taxonomy that is derived from the rules.
 
-use crate::study::Study;
 use crate::study::scores::{Estimate, Scores};
+use crate::study::{Study, StudyGame};
 use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
@@ -9,7 +9,7 @@ use serde::Serialize;
 /// The results of a player on all games of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TaxonomyRow {
-    /// The kind: a sentence of the taxonomy.
+    /// The kind: a word of the release, or a sentence of the taxonomy.
     pub kind: String,
     /// The index into the players of the study.
     pub player: usize,
@@ -19,12 +19,31 @@ pub struct TaxonomyRow {
     pub scores: Scores,
 }
 
+/// The kind of games whose results do not record one.
+const NOT_RECORDED: &str = "not recorded";
+
 /// Returns a row for each kind and player, with kinds in the order of their first game. A game has several kinds.
 pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
+    rows(study, |game| game.taxonomy.clone())
+}
+
+/// Returns a row for each kind of the release and player, with kinds in alphabetical order; empty if no game has one.
+pub(crate) fn kinds(study: &Study) -> Vec<TaxonomyRow> {
+    if study.games.iter().all(|game| game.kind.is_empty()) {
+        return Vec::new();
+    }
+    let kind = |game: &StudyGame| if game.kind.is_empty() { NOT_RECORDED } else { &game.kind }.to_owned();
+    let mut rows = rows(study, |game| vec![kind(game)]);
+    rows.sort_by(|one, other| one.kind.cmp(&other.kind));
+    rows
+}
+
+fn rows(study: &Study, kinds: impl Fn(&StudyGame) -> Vec<String>) -> Vec<TaxonomyRow> {
     let mut rows = Vec::new();
-    for kind in study.games.iter().flat_map(|game| &game.taxonomy).unique() {
+    let of_games: Vec<Vec<String>> = study.games.iter().map(kinds).collect();
+    for kind in of_games.iter().flatten().unique() {
         for player in 0..study.players.len() {
-            let of_kind = |game: usize| study.games[game].taxonomy.contains(kind);
+            let of_kind = |game: usize| of_games[game].contains(kind);
             let episodes = || study.on(player, None, None).iter().filter(|episode| of_kind(episode.game));
             let games = episodes().map(|episode| episode.game).sorted_unstable().dedup().collect_vec();
             if !games.is_empty() {
@@ -36,11 +55,11 @@ pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
     rows
 }
 
-pub(crate) fn table(study: &Study) -> Table {
-    Table::of(
+pub(crate) fn tables(study: &Study) -> Vec<Table> {
+    let taxonomy = Table::of(
         "taxonomy",
-        "Results by kind of game",
-        "Kinds are derived from the rules; a game can have several.",
+        "Results by the taxonomy of the rules",
+        "Derived from the rules; a game can have several.",
         &study.taxonomy,
         &[
             ("kind", &|row| TableCell::text(&row.kind)),
@@ -52,5 +71,27 @@ pub(crate) fn table(study: &Study) -> Table {
             ("normalised reward", &|row| TableCell::number(row.scores.normalised_reward, 3)),
             ("overall", &|row| TableCell::number(row.scores.overall, 3)),
         ],
-    )
+    );
+    vec![by_kind(study), taxonomy]
+}
+
+/// Returns the table of the release's kinds: a column of win rates for each player, in the order of the leaderboard.
+fn by_kind(study: &Study) -> Table {
+    let players: Vec<usize> = study.leaderboard.iter().map(|row| row.player).collect();
+    let labels: Vec<String> = players.iter().map(|&player| study.players[player].label()).collect();
+    let columns: Vec<&str> = ["kind", "games"].into_iter().chain(labels.iter().map(String::as_str)).collect();
+    let note = "The kind of each game as its release gives it, and win rates; intervals over the games of the kind (of one game, for \
+                exactly its levels). Results recorded before kinds were, and games from files, have none.";
+    let mut table = Table::new("kinds", "Results by kind of game", note, &columns);
+    for (kind, rows) in &study.kinds.iter().chunk_by(|row| &row.kind) {
+        let rows = rows.collect_vec();
+        let games = rows.iter().map(|row| row.games).max().unwrap_or(0);
+        let rate = |&player: &usize| {
+            let row = rows.iter().find(|row| row.player == player);
+            Estimate::cell(row.and_then(|row| row.scores.win_rate), 2)
+        };
+        let cells = [TableCell::text(kind), TableCell::Count(games)];
+        table.push(cells.into_iter().chain(players.iter().map(rate)).collect());
+    }
+    table
 }

@@ -1,30 +1,36 @@
-//! The results of a study in plain words: who is best, how sure that is, and how each player fails.
+//! The results of a study in plain words: who is best, how sure that is, on which kinds of game, and how each player fails.
 
-use crate::metrics::EpisodeStatus;
+use crate::metrics::EndingKind;
+use crate::study::endings::nearest;
 use crate::study::leaderboard::LeaderRow;
-use crate::study::{OverallComparison, Study};
-use engine::Outcome;
+use crate::study::{OverallComparison, Study, TaxonomyRow};
 use itertools::Itertools;
+use std::cmp::Reverse;
 
 /// The number of players whose failures are told.
 const TOLD: usize = 6;
+/// The number of kinds of game that are told at either end.
+const KINDS: usize = 3;
 
 impl Study {
-    /// Returns the results in sentences: the best model (of all players, if there is no model) with its win rate, its comparison
-    /// with the next one, and how the episodes of each were lost. Empty if no episode has ended.
+    /// Returns the results in plain words. The first paragraph tells the best model (of all players, if there is no model), its win
+    /// rate, its comparison with the next one, and the kinds of game that it wins; the others tell for each player how it failed.
+    /// Empty if no episode has ended.
     pub fn verdict(&self) -> Vec<String> {
         let tested = |row: &&LeaderRow| !self.players[row.player].is_reference();
         let played = || self.leaderboard.iter().filter(|row| row.scores.episodes > 0);
         let mut rows: Vec<&LeaderRow> = played().filter(tested).collect();
-        if rows.is_empty() {
+        let has_models = !rows.is_empty();
+        let Some(best) = rows.first().copied().or_else(|| played().next()) else { return Vec::new() };
+        if !has_models {
             rows = played().collect();
         }
-        let Some(best) = rows.first() else { return Vec::new() };
-        let mut said = vec![self.best(best)];
         let next = rows.get(1).copied().or_else(|| played().find(|row| row.player != best.player));
-        said.extend(next.and_then(|next| self.against(best, next)));
-        said.extend(rows.iter().take(TOLD).filter_map(|row| self.failures_of(row)));
-        said
+        let mut lead = vec![self.best(best)];
+        lead.extend(next.and_then(|next| self.against(best, next)));
+        lead.extend(self.kinds_of(best));
+        let told = rows.iter().take(TOLD).filter_map(|row| self.failures_of(row));
+        std::iter::once(lead.join(" ")).chain(told).collect()
     }
 
     fn best(&self, row: &LeaderRow) -> String {
@@ -34,8 +40,22 @@ impl Study {
         let [value, low, high] = [rate.value, rate.low, rate.high].map(percent);
         let games = self.on(row.player, None, None).iter().map(|episode| episode.game).unique().count();
         let about = if games > 1 { "in games like these" } else { "on exactly these levels" };
-        let first = if self.leaderboard.len() > 1 { "won most" } else { "won" };
-        format!("{label} {first}: {value} % ({wins} of {episodes} episodes); {about}, {low} to {high} %.")
+        let others = |models: bool| {
+            let is_other = move |other: &&LeaderRow| {
+                other.player != row.player && !(models && self.players[other.player].is_reference())
+            };
+            self.leaderboard.iter().filter(is_other)
+        };
+        let is_first = |other: &LeaderRow| other.scores.win_rate.is_none_or(|other| other.value < rate.value);
+        let won = match wins {
+            0 => "won nothing",
+            _ if others(false).count() > 0 && others(false).all(is_first) => "won most",
+            _ if others(true).count() > 0 && others(true).all(is_first) => {
+                "won most of those that are no baselines"
+            }
+            _ => "won",
+        };
+        format!("{label} {won}: {value} % ({wins} of {episodes} episodes); {about}, {low} to {high} %.")
     }
 
     fn against(&self, best: &LeaderRow, next: &LeaderRow) -> Option<String> {
@@ -66,31 +86,80 @@ impl Study {
                     "Fewer than six games do not tell whether it is better than {theirs} in others ({numbers})."
                 )
             }
+            _ if sign * estimate.value < 0.0 => format!(
+                "On the levels that both played, {theirs} won more; that it is better in games like these is not proved ({numbers})."
+            ),
             _ => format!("That it is better than {theirs} is not proved ({numbers})."),
         })
     }
 
+    /// Tells on which kinds of game a player won most and least; `None` if its results are of fewer than two kinds.
+    fn kinds_of(&self, row: &LeaderRow) -> Option<String> {
+        let of_player =
+            self.kinds.iter().filter(|kind| kind.player == row.player && kind.scores.episodes > 0);
+        let rate = |kind: &&TaxonomyRow| kind.scores.wins as f64 / kind.scores.episodes as f64;
+        let sorted = of_player
+            .sorted_by(|one, other| {
+                let more = other.scores.episodes.cmp(&one.scores.episodes);
+                rate(other).total_cmp(&rate(one)).then(more)
+            })
+            .collect_vec();
+        let (first, last) = (sorted.first()?, sorted.last()?);
+        if rate(first) == rate(last) {
+            return None;
+        }
+        let count = (sorted.len() / 2).min(KINDS);
+        let told = |kind: &&TaxonomyRow| {
+            let (wins, episodes) = (kind.scores.wins, kind.scores.episodes);
+            format!("{} ({wins} of {episodes})", kind.kind)
+        };
+        let most = sorted.iter().take(count).map(told).join(", ");
+        let least = sorted.iter().rev().take(count).map(told).join(", ");
+        Some(format!("By kind of game, it won most in {most}; least in {least}."))
+    }
+
     /// Tells how the episodes of a player that were not won have ended.
     fn failures_of(&self, row: &LeaderRow) -> Option<String> {
-        let ended = self.on(row.player, None, None).iter().filter(|episode| episode.metrics.counts());
-        let ends = ended.filter(|episode| !episode.metrics.won()).counts_by(|episode| {
-            match (&episode.metrics.status, episode.metrics.outcome) {
-                (EpisodeStatus::StepLimit, _) => "reached the limit of steps",
-                (_, Outcome::Lost) => "were lost by the rules of the game",
-                _ => "ended without a winner",
-            }
-        });
-        let all: usize = ends.values().sum();
+        let summary = self.ending_summaries.iter().find(|summary| summary.player == row.player)?;
+        let causes = || summary.causes.iter().map(|&at| &self.endings[at]);
+        let kinds = summary.kinds.iter().sorted_by_key(|(kind, count)| (Reverse(**count), **kind));
+        let told = |(kind, count): (&EndingKind, &u64)| {
+            let how = match kind {
+                EndingKind::Died => "died",
+                EndingKind::Lost => "lost a sprite that the game needs",
+                EndingKind::Appeared => "had too many of a sprite",
+                EndingKind::OutOfTime => "ran out of time",
+                EndingKind::Otherwise => "were lost by the rules of the game",
+                EndingKind::StepLimit => "reached the limit of steps",
+                EndingKind::NoWinner => "ended without a winner",
+            };
+            let most = causes().find(|row| row.kind == *kind && row.rule.is_some());
+            let by_rules = matches!(kind, EndingKind::Died | EndingKind::Lost | EndingKind::Appeared);
+            let most = most.filter(|_| by_rules).map_or(String::new(), |row| {
+                let times =
+                    if row.episodes == 1 { "once".to_owned() } else { format!("{} times", row.episodes) };
+                {
+                    let beginnings = ["died ", "lost ", "had too many "];
+                    let cause = beginnings.iter().find_map(|start| row.cause.strip_prefix(start));
+                    let cause = cause.unwrap_or(&row.cause);
+                    format!(" (most often {cause} in {}, {times})", self.title(row.game))
+                }
+            });
+            format!("{count} {how}{most}")
+        };
+        let how = kinds.map(told).join(", ");
+        let near =
+            nearest(causes().filter_map(|row| row.nearest.as_ref())).filter(|near| near.left < near.of);
+        let near = near.map_or(String::new(), |near| format!(" At best, {}.", near.words()));
         let (label, choices) = (self.players[row.player].label(), &row.choices);
-        let how = ends.into_iter().sorted_by_key(|(how, count)| (usize::MAX - count, *how));
-        let how = how.map(|(how, count)| format!("{count} {how}")).join(", ");
         let useless = choices.invalid + choices.refused + choices.truncated;
         let share = useless as f64 / choices.total().max(1) as f64;
         let answers = match share >= 0.05 {
             true => format!(" Of its decisions, {} % had no usable answer.", percent(share)),
             false => String::new(),
         };
-        (all > 0).then(|| format!("Of {all} episodes that {label} did not win, {how}.{answers}"))
+        let (missed, all) = (summary.episodes, row.scores.episodes);
+        Some(format!("{label} did not win {missed} of {all} episodes: {how}.{near}{answers}"))
     }
 }
 

@@ -3,16 +3,20 @@
 mod frames;
 mod talk;
 
+use super::Results;
 use crate::failure::Failure;
 use crate::page::{Figure, words};
 use engine::{Action, Outcome, State};
 use evaluation::log::Event;
+use evaluation::metrics::{Ending, EndingKind, EpisodeMetrics};
 use evaluation::run::Task;
+use evaluation::study::StudyEpisode;
 use evaluation::{Evaluation, Validity};
 use frames::{Boards, Tiles};
+use itertools::Itertools;
 use render::{Looks, RenderError, Style, picture};
 use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use talk::{Talk, talks};
 
 /// The first and last decisions of a longer episode that are shown.
@@ -80,15 +84,18 @@ struct Data<'a> {
     captions: &'a [String],
 }
 
-/// An episode that may be shown, and its evaluation.
-type Candidate<'a> = (&'a Evaluation, Task<'a>);
+/// An episode to show.
+struct Candidate<'a> {
+    evaluation: &'a Evaluation,
+    task: Task<'a>,
+    ending: Option<Ending>,
+}
 
 impl Replays {
-    /// Returns the first run of `levels` levels for each player, the same levels for all if they were played: the
-    /// first level of each game in turn, then the second. Players with texts come first if there is no room, in
-    /// bytes, for all. Cost: O(steps) of play and drawing for each.
-    pub(super) fn of(evaluations: &[Evaluation], levels: usize, room: usize) -> Result<Replays, Failure> {
-        let (players, mut left_out) = (candidates(evaluations, levels), 0);
+    /// Returns `results.replays` episodes of each player: failures first, one of each cause. Models come first if there is no
+    /// room, in bytes, for all. Cost: O(steps) of play and drawing for each.
+    pub(super) fn of(results: &Results<'_>, room: usize) -> Result<Replays, Failure> {
+        let (players, mut left_out) = (candidates(results), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
         let mut shown: Vec<Vec<Replay>> = players.iter().map(|_| Vec::new()).collect();
         let most = players.iter().map(|player| player.1.len()).max().unwrap_or(0);
@@ -101,7 +108,7 @@ impl Replays {
                     continue;
                 }
                 let count = tiles.len();
-                let digest = candidate.1.subject.game.digest().to_string();
+                let digest = candidate.task.subject.game.digest().to_string();
                 let tiles = tiles.entry(digest).or_insert_with(|| Tiles::new(format!("t{count}-")));
                 if let Some(replay) = Replay::of(candidate, tiles)? {
                     bytes += replay.bytes();
@@ -115,7 +122,7 @@ impl Replays {
             .map(|(name, episodes)| PlayerReplays { name, episodes })
             .filter(|player| !player.episodes.is_empty())
             .collect();
-        Ok(Replays { symbols, players, note: note(levels, left_out) })
+        Ok(Replays { symbols, players, note: note(results.replays, left_out) })
     }
 
     /// Returns `true` if there is any replay.
@@ -124,11 +131,12 @@ impl Replays {
     }
 }
 
-fn note(levels: usize, left_out: u64) -> String {
+fn note(episodes: usize, left_out: u64) -> String {
     let mut note = format!(
-        "The first run of up to {} for each player; every other episode is in the logs. Of episodes of more than {} decisions, the \
-         first {FIRST} and the last {LAST} are shown.",
-        words::many(levels as u64, "level"),
+        "Up to {} of each player: those not won first, one of each cause, the most frequent causes first, and of each the episode nearest \
+         to a win; every other episode is in the logs. Of episodes of more than {} decisions, the first {FIRST} and the last {LAST} are \
+         shown.",
+        words::many(episodes as u64, "episode"),
         FIRST + LAST
     );
     if left_out > 0 {
@@ -137,37 +145,34 @@ fn note(levels: usize, left_out: u64) -> String {
     note
 }
 
-/// A player's episodes by level and game.
-type OnLevels<'a> = BTreeMap<(usize, &'a str), Candidate<'a>>;
+/// Returns, by player, models first, the episodes to show.
+fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
+    let Results { study, evaluations, replays } = *results;
+    let order = study.leaderboard.iter().map(|row| row.player);
+    let order = order.sorted_by_key(|&player| study.players[player].is_reference());
+    let of_player = |player: usize| {
+        let chosen = study.telling(player, replays);
+        let found = chosen.into_iter().filter_map(|episode| found(evaluations, episode));
+        (study.players[player].label(), found.collect())
+    };
+    order.map(of_player).collect()
+}
 
-/// Returns, by player, models first, the episodes that may be shown.
-fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Candidate<'_>>)> {
-    let mut wanted: BTreeSet<(usize, &str)> = BTreeSet::new();
-    for evaluation in evaluations {
-        for subject in &evaluation.subjects {
-            wanted.extend(subject.levels.iter().map(|level| (level.number, subject.id.as_str())));
-        }
-    }
-    let wanted: Vec<(usize, &str)> = wanted.into_iter().take(levels).collect();
-    let mut players: BTreeMap<(bool, String), OnLevels<'_>> = BTreeMap::new();
-    for evaluation in evaluations {
-        let entrant = &evaluation.settings.entrant;
-        let key = (entrant.mode.is_none(), evaluation::study::Player::from(entrant).label());
-        let player = players.entry(key).or_default();
-        for task in evaluation.tasks() {
-            let key = (task.level.number, task.subject.id.as_str());
-            if wanted.contains(&key) {
-                player.entry(key).or_insert((evaluation, task));
-            }
-        }
-    }
-    let named = |((_, name), found): ((bool, String), BTreeMap<_, _>)| (name, found.into_values().collect());
-    players.into_iter().map(named).collect()
+/// Returns the log's place of an episode of a study.
+fn found<'a>(evaluations: &'a [Evaluation], episode: &StudyEpisode) -> Option<Candidate<'a>> {
+    let EpisodeMetrics { folder, game, level, run, ending, .. } = &episode.metrics;
+    let evaluation = evaluations.get((*folder)?)?;
+    let is_it = |task: &Task<'_>| task.subject.id == *game && task.level.number == *level && task.run == *run;
+    let task = evaluation.tasks().into_iter().find(is_it)?;
+    Some(Candidate { evaluation, task, ending: ending.clone() })
 }
 
 impl Replay {
     /// Replays and draws an episode; none if nothing was played.
-    fn of((evaluation, task): &Candidate<'_>, tiles: &mut Tiles) -> Result<Option<Replay>, Failure> {
+    fn of(
+        Candidate { evaluation, task, ending }: &Candidate<'_>,
+        tiles: &mut Tiles,
+    ) -> Result<Option<Replay>, Failure> {
         let log = evaluation.events(task)?;
         let steps: Vec<(Action, Validity)> = log
             .iter()
@@ -204,7 +209,7 @@ impl Replay {
             }
             game.step(&mut state, *action);
         }
-        let result = result(&log, &state, steps.len(), task.max_steps);
+        let result = result(&log, &state, steps.len(), task.max_steps) + &because(ending.as_ref());
         show(&state, format!("the end: {result}"), Some("the end"))?;
         let data = Data { cell: CELL, prefix: &tiles.prefix, changes: &boards.changes, captions: &captions };
         let data = serde_json::to_string(&data).map_err(|error| Failure::environment(error, "a replay"))?;
@@ -287,6 +292,17 @@ fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String 
         Outcome::Ongoing => "interrupted after",
     };
     format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))
+}
+
+/// `: died of touching dragonfly; 2 of 5 gem left`.
+fn because(ending: Option<&Ending>) -> String {
+    ending.map_or(String::new(), |ending| {
+        let distance = ending.distance.as_ref().map_or(String::new(), |left| format!("; {}", left.words()));
+        match ending.kind {
+            EndingKind::StepLimit | EndingKind::NoWinner | EndingKind::Otherwise => distance,
+            _ => format!(": {}{distance}", ending.words()),
+        }
+    })
 }
 
 /// Returns the problem of a choice.

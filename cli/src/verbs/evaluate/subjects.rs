@@ -59,9 +59,12 @@ pub(super) fn read(args: &Args) -> Result<Subjects, Failure> {
 
 fn of_input(input: &GameInput, args: &Args) -> Result<Subject, Failure> {
     let id = slug(&input.title);
-    let title = embedded::corpus()?.find(&input.title).map(|known| known.card.title.clone());
+    let corpus = embedded::corpus()?;
+    let known = corpus.find(&input.title);
+    let (title, kind) = known.map(|known| (known.card.title.clone(), known.card.kind.clone())).unzip();
     let facts = SubjectFacts {
         title: title.unwrap_or_else(|| id.clone()),
+        kind: kind.unwrap_or_default(),
         as_reference: args.as_reference,
         ..SubjectFacts::default()
     };
@@ -162,7 +165,8 @@ fn of_snapshot(place: &Path, args: &Args) -> Result<(Digest, Vec<Subject>), Fail
             let text = files.text(&path(&level.file), MAX_LEVEL_TEXT)?;
             levels.push((number, text, level.optimal_ticks));
         }
-        let facts = SubjectFacts { title: card.title.clone(), ..SubjectFacts::default() };
+        let facts =
+            SubjectFacts { title: card.title.clone(), kind: card.kind.clone(), ..SubjectFacts::default() };
         let subject = Subject::read(id, &source, &levels, facts);
         games.push(subject.map_err(|Unreadable { level, problems }| {
             let file = level.map_or("game.vgdl", |number| &card.levels[number].file);

@@ -72,7 +72,8 @@ fn folders_are_read_together() {
     let logs = tasks.iter().map(|task| (task.subject, evaluation.events(task).unwrap())).collect();
     let again = Study::of_logs(vec![(Player::reference("random"), logs)]).unwrap();
     let measured = |study: &Study| -> Vec<EpisodeMetrics> {
-        study.on(0, None, None).iter().map(|episode| episode.metrics.clone()).collect()
+        let metrics = study.on(0, None, None).iter().map(|episode| episode.metrics.clone());
+        metrics.map(|metrics| EpisodeMetrics { folder: None, ..metrics }).collect()
     };
     assert_eq!(measured(&again), measured(&study));
 }

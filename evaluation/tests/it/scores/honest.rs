@@ -112,17 +112,15 @@ fn verdicts() {
         two(ours, episodes(games, 5, 5, |_, _| theirs)).verdict()
     };
     let clear = said(12, 1);
-    assert_eq!(clear[0], "a won most: 80 % (240 of 300 episodes); in games like these, 64 to 90 %.");
-    assert!(
-        clear[1].starts_with("It is better than b in games like these (+60 points, +47 to +73, p = 0.0"),
-        "{}",
-        clear[1]
-    );
-    assert_eq!(clear[2], "Of 60 episodes that a did not win, 60 were lost by the rules of the game.");
-    assert!(said(12, 4)[1].contains("not proved"), "{:?}", said(12, 4));
-    assert!(said(5, 0)[1].starts_with("Fewer than six games do not tell"), "{:?}", said(5, 0));
+    let expect = "a won most: 80 % (240 of 300 episodes); in games like these, 64 to 90 %. It is better than b in games like these \
+                  (+60 points, +47 to +73, p = 0.0";
+    assert!(clear[0].starts_with(expect), "{}", clear[0]);
+    assert_eq!(clear[1], "a did not win 60 of 300 episodes: 60 were lost by the rules of the game.");
+    assert!(clear[2].starts_with("b did not win 240 of 300"), "{}", clear[2]);
+    assert!(said(12, 4)[0].contains("not proved"), "{:?}", said(12, 4));
+    assert!(said(5, 0)[0].contains(" Fewer than six games do not tell"), "{:?}", said(5, 0));
     assert!(said(1, 0)[0].contains("on exactly these levels"), "{:?}", said(1, 0));
-    assert!(said(1, 0)[1].starts_with("One game says nothing"), "{:?}", said(1, 0));
+    assert!(said(1, 0)[0].contains(" One game says nothing"), "{:?}", said(1, 0));
     assert!(Study::new(vec![(Player::reference("a"), Vec::new())], Vec::new()).verdict().is_empty());
 }
 

@@ -1,0 +1,242 @@
+//! The ending of an episode that was not won: its cause, and the distance from a win.
+
+use crate::subject::Subject;
+use engine::analysis::{Condition, EffectSummary, Encounter, Side};
+use engine::syntax::Param;
+use engine::{Meeting, Outcome, Span, SpriteType, State, Watch};
+use itertools::Itertools;
+use serde::Serialize;
+
+engine::named_enum! {
+    /// The causes by which an episode is not won.
+    pub enum EndingKind {
+        /// The avatar was removed, or turned into something else.
+        Died = "died",
+        /// Another sprite that the game needs was removed.
+        Lost = "lost_sprite",
+        /// There were sprites that lose the game.
+        Appeared = "sprite_appeared",
+        /// The time of the game was over.
+        OutOfTime = "out_of_time",
+        /// The game was lost otherwise, or for an unknown reason.
+        Otherwise = "lost_otherwise",
+        /// The limit of steps was reached.
+        StepLimit = "step_limit",
+        /// The game ended without a winner.
+        NoWinner = "no_winner",
+    }
+}
+
+impl EndingKind {
+    /// The name in headings.
+    pub fn title(self) -> &'static str {
+        match self {
+            EndingKind::Died => "died",
+            EndingKind::Lost => "lost a sprite",
+            EndingKind::Appeared => "sprite appeared",
+            EndingKind::OutOfTime => "out of time",
+            EndingKind::Otherwise => "lost otherwise",
+            EndingKind::StepLimit => "limit of steps",
+            EndingKind::NoWinner => "no winner",
+        }
+    }
+}
+
+/// The ending of an episode that was not won.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Ending {
+    /// The cause.
+    pub kind: EndingKind,
+    /// The sprite type that was removed or appeared, if the game was lost by its number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sprite: Option<String>,
+    /// The other sprite type of the last interaction that did this, or `EOS`; `None` if no interaction did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<String>,
+    /// The line of the game that caused it, as written: the interaction, or else the termination.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rule: Option<String>,
+    /// The distance from a win in the last state; `None` if no winning termination counts anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance: Option<GoalDistance>,
+}
+
+/// The word for the edge of the screen.
+const EDGE: &str = "EOS";
+
+/// The name of ticks among the counted things.
+const TICKS: &str = "ticks";
+
+/// The distance from a winning termination: of several, the one closest to holding.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct GoalDistance {
+    /// The names of the counted sprite types, as the termination has them; or `ticks`.
+    pub counted: String,
+    /// The number of sprites still to remove or to make, or of ticks to survive.
+    pub left: u32,
+    /// The same number in the first state.
+    pub of: u32,
+}
+
+impl GoalDistance {
+    /// Returns the fraction of the way that is left.
+    pub fn fraction(&self) -> f64 {
+        f64::from(self.left) / f64::from(self.of.max(1))
+    }
+
+    /// Returns it in words: `2 of 5 gem left`.
+    pub fn words(&self) -> String {
+        let GoalDistance { counted, left, of } = self;
+        let to_survive = if counted == TICKS { " to survive" } else { "" };
+        let of = if left > of { String::new() } else { format!("of {of} ") };
+        format!("{left} {of}{counted} left{to_survive}")
+    }
+}
+
+impl Ending {
+    /// Returns the cause in words: `died of touching dragonfly`.
+    pub fn words(&self) -> String {
+        let sprite = self.sprite.as_deref().unwrap_or("a sprite");
+        match (self.kind, &self.by) {
+            (EndingKind::Died, Some(by)) if by == EDGE => "died at the edge of the screen".to_owned(),
+            (EndingKind::Died, Some(by)) => format!("died of touching {by}"),
+            (EndingKind::Died, None) => "died".to_owned(),
+            (EndingKind::Lost, Some(by)) => format!("lost {sprite} to {by}"),
+            (EndingKind::Lost, None) => format!("lost {sprite}"),
+            (EndingKind::Appeared, _) => format!("had too many {sprite}"),
+            (EndingKind::OutOfTime, _) => "ran out of time".to_owned(),
+            (EndingKind::Otherwise, _) => "lost by the rules".to_owned(),
+            (EndingKind::StepLimit, _) => "reached the limit of steps".to_owned(),
+            (EndingKind::NoWinner, _) => "ended without a winner".to_owned(),
+        }
+    }
+
+    /// An ending of which only the outcome is known. `None` for a win.
+    pub(crate) fn unknown(outcome: Outcome) -> Option<Ending> {
+        let kind = match outcome {
+            Outcome::Won => return None,
+            Outcome::Ongoing => EndingKind::StepLimit,
+            Outcome::Ended | Outcome::Stopped(_) => EndingKind::NoWinner,
+            Outcome::Lost => EndingKind::Otherwise,
+        };
+        Some(Ending { kind, sprite: None, by: None, rule: None, distance: None })
+    }
+
+    /// Derives the ending from the first and the last state and the interactions of the last tick. `None` for a win.
+    pub(super) fn of(subject: &Subject, first: &State, last: &State, tick: LastTick) -> Option<Ending> {
+        if last.outcome() == Outcome::Lost {
+            return Some(lost(subject, first, last, &tick.meetings));
+        }
+        let ending = Ending::unknown(last.outcome())?;
+        Some(Ending { distance: distance(subject, first, last), ..ending })
+    }
+}
+
+/// The interactions of an episode's last tick.
+#[derive(Default)]
+pub(super) struct LastTick {
+    meetings: Vec<Meeting>,
+}
+
+impl Watch for LastTick {
+    fn interaction(&mut self, _: usize) {}
+
+    fn wants_meetings(&self) -> bool {
+        true
+    }
+
+    fn meeting(&mut self, meeting: Meeting) {
+        self.meetings.push(meeting);
+    }
+}
+
+/// Returns the ending of a lost game.
+fn lost(subject: &Subject, first: &State, last: &State, meetings: &[Meeting]) -> Ending {
+    let (game, analysis) = (&subject.game, &subject.analysis);
+    let distance = distance(subject, first, last);
+    let line = game.ended_by(last);
+    let rule = line.and_then(|line| {
+        Some(written(&subject.source, game.description().terminations.get(line)?.class.span))
+    });
+    let ending =
+        |kind| Ending { kind, sprite: None, by: None, rule: rule.clone(), distance: distance.clone() };
+    let Some(goal) = analysis.goals().iter().find(|goal| Some(goal.line) == line) else {
+        // The limit of the reference is no line of the game.
+        let late = line.is_none() && u64::try_from(last.tick()).is_ok_and(|tick| tick >= game.time_limit());
+        return ending(if late { EndingKind::OutOfTime } else { EndingKind::Otherwise });
+    };
+    let types = goal.condition.types();
+    let avatars = || analysis.avatars().iter().map(|avatar| avatar.stype);
+    let kind = match goal.condition {
+        Condition::Tick(_) => return ending(EndingKind::OutOfTime),
+        Condition::AtLeast(..) => EndingKind::Appeared,
+        Condition::Exactly(_, limit) if limit > 0 => EndingKind::Appeared,
+        _ if avatars().any(|avatar| types.contains(&avatar)) => EndingKind::Died,
+        _ => EndingKind::Lost,
+    };
+    if kind == EndingKind::Appeared {
+        let present = types.iter().find(|&&stype| last.alive(stype) > 0);
+        return Ending { sprite: present.map(|&stype| game.name(stype).to_owned()), ..ending(kind) };
+    }
+    let cause = meetings.iter().rev().find_map(|meeting| {
+        let (sprite, by) = removed(subject, meeting, types)?;
+        let line = game.description().interactions.get(meeting.line)?;
+        let is_edge = by.is_none() && line.second.iter().any(|word| word.text == EDGE);
+        let by = by.map(|stype| game.name(stype)).or(is_edge.then_some(EDGE));
+        Some((sprite, by.map(str::to_owned), written(&subject.source, line.first.span)))
+    });
+    let name = |stype: SpriteType| game.name(stype).to_owned();
+    match cause {
+        Some((sprite, by, rule)) => {
+            Ending { sprite: Some(name(sprite)), by, rule: Some(rule), ..ending(kind) }
+        }
+        None => Ending { sprite: types.first().map(|&stype| name(stype)), ..ending(kind) },
+    }
+}
+
+/// Returns the type among these that an interaction may have removed, and its partner.
+fn removed(
+    subject: &Subject,
+    meeting: &Meeting,
+    types: &[SpriteType],
+) -> Option<(SpriteType, Option<SpriteType>)> {
+    let of_line = || subject.analysis.encounters().iter().filter(|encounter| encounter.line == meeting.line);
+    let ends = |side: Side| of_line().any(|encounter: &Encounter| encounter.ends(side));
+    if types.contains(&meeting.first) && ends(Side::First) {
+        return Some((meeting.first, meeting.second));
+    }
+    if let Some(second) = meeting.second.filter(|second| types.contains(second) && ends(Side::Second)) {
+        return Some((second, Some(meeting.first)));
+    }
+    let at_large = |effect: &EffectSummary| match effect {
+        EffectSummary::KillAll(stype) | EffectSummary::BecomeAll(stype, _) => Some(*stype),
+        EffectSummary::Health { of, by, .. } => of.filter(|_| *by < 0),
+        _ => None,
+    };
+    let all = of_line().flat_map(|encounter| &encounter.effects).filter_map(at_large);
+    all.filter(|stype| types.contains(stype)).map(|stype| (stype, Some(meeting.first))).next()
+}
+
+/// Returns the distance from the nearest win.
+fn distance(subject: &Subject, first: &State, last: &State) -> Option<GoalDistance> {
+    let analysis = &subject.analysis;
+    let wins = analysis.goals().iter().filter(|goal| goal.win);
+    let distances = wins.map(|goal| {
+        let line = subject.game.description().terminations.get(goal.line);
+        let named = |param: &&Param| param.key.text.starts_with("stype");
+        let names = line.into_iter().flat_map(|line| line.params.iter().filter(named));
+        let counted = names.map(|param| param.value.text.as_str()).join(" or ");
+        let counted = if counted.is_empty() { TICKS.to_owned() } else { counted };
+        GoalDistance { counted, left: analysis.missing(goal, last), of: analysis.missing(goal, first) }
+    });
+    let open = distances.filter(|distance| distance.left > 0 && distance.of > 0);
+    open.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
+}
+
+/// Returns the line of a source text around a span, without its comment and with single blanks.
+fn written(source: &str, span: Span) -> String {
+    let from = source.get(..span.start).map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
+    let line = source.get(from..).unwrap_or("").lines().next().unwrap_or("");
+    let line = line.split('#').next().unwrap_or("");
+    line.split_whitespace().join(" ")
+}

@@ -1,0 +1,169 @@
+//! The episodes that were not won, by cause: who or what ended them, by which rule, and how far from a win.
+
+use crate::metrics::{EndingKind, GoalDistance};
+use crate::study::{Study, StudyEpisode};
+use itertools::Itertools;
+use report::{Table, TableCell};
+use serde::Serialize;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The episodes of a player on a game that ended by one cause.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EndingRow {
+    /// The index into the players of the study.
+    pub player: usize,
+    /// The index into the games of the study.
+    pub game: usize,
+    /// The kind of the cause.
+    pub kind: EndingKind,
+    /// The cause in words: `died of touching dragonfly`.
+    pub cause: String,
+    /// The line of the game that caused it, as written.
+    pub rule: Option<String>,
+    /// The number of episodes.
+    pub episodes: u64,
+    /// The numbers of their levels.
+    pub levels: BTreeSet<usize>,
+    /// The smallest distance from a win, of these episodes.
+    pub nearest: Option<GoalDistance>,
+}
+
+/// The episodes that a player did not win.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EndingSummary {
+    /// The index into the players of the study.
+    pub player: usize,
+    /// Their number.
+    pub episodes: u64,
+    /// The number of episodes by kind of cause; kinds that did not occur are missing.
+    pub kinds: BTreeMap<EndingKind, u64>,
+    /// The causes, the most frequent first: indices into the rows of the study.
+    pub causes: Vec<usize>,
+}
+
+/// Returns a row for each player, game and cause: models before references, each in the order of the leaderboard; the most
+/// frequent causes first.
+pub(crate) fn endings(study: &Study) -> Vec<EndingRow> {
+    players(study).flat_map(|player| of_player(study, player)).collect()
+}
+
+/// Returns the players in the order of tables.
+fn players(study: &Study) -> impl Iterator<Item = usize> + '_ {
+    let players = study.leaderboard.iter().map(|row| row.player);
+    players.sorted_by_key(|&player| study.players[player].is_reference())
+}
+
+fn of_player(study: &Study, player: usize) -> Vec<EndingRow> {
+    let mut rows: BTreeMap<(usize, EndingKind, String, Option<String>), EndingRow> = BTreeMap::new();
+    for StudyEpisode { game, metrics, .. } in study.on(player, None, None) {
+        let Some(ending) = metrics.ending.as_ref().filter(|_| metrics.counts()) else { continue };
+        let (game, kind, cause, rule) = (*game, ending.kind, ending.words(), ending.rule.clone());
+        let row = rows.entry((game, kind, cause.clone(), rule.clone())).or_insert_with(|| EndingRow {
+            player,
+            game,
+            kind,
+            cause,
+            rule,
+            episodes: 0,
+            levels: BTreeSet::new(),
+            nearest: None,
+        });
+        row.episodes += 1;
+        row.levels.insert(metrics.level);
+        row.nearest = nearest(row.nearest.iter().chain(&ending.distance)).cloned();
+    }
+    rows.into_values().sorted_by_key(|row| Reverse(row.episodes)).collect()
+}
+
+/// Returns the smallest of these distances; of equal ones, the first.
+pub(crate) fn nearest<'a>(distances: impl Iterator<Item = &'a GoalDistance>) -> Option<&'a GoalDistance> {
+    distances.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
+}
+
+/// Returns a summary for each player that has not won all its episodes.
+pub(crate) fn summaries(study: &Study) -> Vec<EndingSummary> {
+    let summary = |player: usize| {
+        let causes = (0..study.endings.len()).filter(|&at| study.endings[at].player == player).collect_vec();
+        let mut kinds: BTreeMap<EndingKind, u64> = BTreeMap::new();
+        for row in causes.iter().map(|&at| &study.endings[at]) {
+            *kinds.entry(row.kind).or_default() += row.episodes;
+        }
+        EndingSummary { player, episodes: kinds.values().sum(), kinds, causes }
+    };
+    players(study).map(summary).filter(|summary| summary.episodes > 0).collect()
+}
+
+impl Study {
+    /// Returns up to `count` episodes of a player that tell most about it: those not won before wins; of each cause the episode
+    /// nearest to a win, the most frequent causes first, before a second one of any cause. Aborted episodes come last.
+    pub fn telling(&self, player: usize, count: usize) -> Vec<&StudyEpisode> {
+        let causes: Vec<&EndingRow> = self.endings.iter().filter(|row| row.player == player).collect();
+        // By cause: the episodes so far.
+        let mut seen = vec![0_usize; causes.len()];
+        let distance = |episode: &&StudyEpisode| {
+            let left = episode.metrics.ending.as_ref().and_then(|ending| ending.distance.as_ref());
+            left.map_or(f64::INFINITY, GoalDistance::fraction)
+        };
+        let mut rank = |episode: &StudyEpisode| match &episode.metrics.ending {
+            _ if !episode.metrics.counts() => (2, 0, 0),
+            None => (1, 0, 0),
+            Some(ending) => {
+                let words = ending.words();
+                let is_it = |row: &&EndingRow| {
+                    row.game == episode.game && row.cause == words && row.rule == ending.rule
+                };
+                let at = causes.iter().position(is_it).expect("each ending has a row");
+                seen[at] += 1;
+                (0, seen[at], at)
+            }
+        };
+        let mut nearest_first = self.on(player, None, None).iter().collect_vec();
+        nearest_first.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
+        let mut ranked = nearest_first.into_iter().map(|episode| (rank(episode), episode)).collect_vec();
+        ranked.sort_by_key(|(rank, _)| *rank);
+        ranked.into_iter().map(|(_, episode)| episode).take(count).collect()
+    }
+}
+
+pub(crate) fn tables(study: &Study) -> Vec<Table> {
+    let kind = |row: &EndingSummary, kind| TableCell::Count(row.kinds.get(&kind).copied().unwrap_or(0));
+    let label = |player: usize| TableCell::text(study.players[player].label());
+    let summary = Table::of(
+        "endings",
+        "Episodes not won, by how they ended",
+        "Died: the avatar was removed. Lost a sprite, sprite appeared: so the game was lost by its rules. Out of time: by the \
+         game's own limit; limit of steps: by that of the evaluation.",
+        &study.ending_summaries,
+        &[
+            ("player", &|row| label(row.player)),
+            ("not won", &|row| TableCell::Count(row.episodes)),
+            ("died", &|row| kind(row, EndingKind::Died)),
+            ("lost a sprite", &|row| kind(row, EndingKind::Lost)),
+            ("sprite appeared", &|row| kind(row, EndingKind::Appeared)),
+            ("out of time", &|row| kind(row, EndingKind::OutOfTime)),
+            ("lost otherwise", &|row| kind(row, EndingKind::Otherwise)),
+            ("limit of steps", &|row| kind(row, EndingKind::StepLimit)),
+            ("no winner", &|row| kind(row, EndingKind::NoWinner)),
+        ],
+    );
+    let causes = Table::of(
+        "causes",
+        "Causes",
+        "The last interaction that removed what was needed, with its rule; for other endings, the termination. Nearest to a win: the \
+         smallest distance from a winning termination when an episode ended.",
+        &study.endings,
+        &[
+            ("player", &|row| label(row.player)),
+            ("game", &|row| TableCell::text(study.title(row.game))),
+            ("episodes", &|row| TableCell::Count(row.episodes)),
+            ("ending", &|row| TableCell::text(&row.cause)),
+            ("nearest to a win", &|row| {
+                row.nearest.as_ref().map_or(TableCell::Missing, |near| TableCell::text(near.words()))
+            }),
+            ("rule", &|row| row.rule.as_ref().map_or(TableCell::Missing, TableCell::text)),
+            ("levels", &|row| TableCell::text(row.levels.iter().join(", "))),
+        ],
+    );
+    vec![summary, causes]
+}

@@ -1,0 +1,161 @@
+//! Causes of endings, and the order of the episodes that tell most.
+
+use super::episode;
+use super::logs::log;
+use engine::Action::{self, Left, Nil, Right};
+use engine::Outcome::{Lost, Ongoing, Won};
+use evaluation::metrics::{Ending, EndingKind, EpisodeMetrics};
+use evaluation::study::{Player, Study, StudyGame};
+use evaluation::{Subject, SubjectFacts};
+
+const GAME: &str = "
+BasicGame
+    SpriteSet
+        gem > Immovable
+        pit > Immovable
+        flower > Immovable
+        arrow > Missile orientation=LEFT
+        seed > Immovable
+        weed > Immovable
+        avatar > MovingAvatar
+    LevelMapping
+        g > gem
+        p > pit
+        f > flower
+        a > arrow
+        s > seed
+    InteractionSet
+        avatar wall > stepBack
+        gem avatar > killSprite
+        avatar pit >   killSprite   # it is deep
+        flower arrow > killSprite scoreChange=-1
+        avatar EOS > killSprite
+        seed avatar > transformTo stype=weed
+    TerminationSet
+        SpriteCounter stype=gem win=True
+        SpriteCounter stype=flower win=False
+        SpriteCounterMore stype=weed limit=1 win=False
+        SpriteCounter stype=avatar win=False
+        Timeout limit=6 win=False
+";
+
+const LEVELS: [&str; 3] =
+    ["wwwwwwwww\nwgAgp  fw\nwwwwwwwww", "wwwwwwwww\nwgA    fa\nwwwwwwwww", "wwwwwwwww\nAs   g fw\nwwwwwwwww"];
+
+fn subject() -> Subject {
+    let levels: Vec<_> =
+        LEVELS.iter().enumerate().map(|(number, text)| (number, (*text).to_owned(), None)).collect();
+    Subject::read("garden", GAME, &levels, SubjectFacts::default()).expect("the game is sound")
+}
+
+fn ending(level: usize, actions: &[Action], max_steps: u64) -> Option<Ending> {
+    let subject = subject();
+    EpisodeMetrics::of(&subject, &log(&subject, level, actions, max_steps)).unwrap().ending
+}
+
+#[test]
+fn causes() {
+    let check = |level, actions: &[Action], expect: (EndingKind, &str, Option<&str>, &str)| {
+        let found = ending(level, actions, 20).expect("it was not won");
+        let left = found.distance.as_ref().expect("gems are counted").words();
+        assert_eq!((found.kind, found.words().as_str(), found.rule.as_deref(), left.as_str()), expect);
+    };
+    let pit = (EndingKind::Died, "died of touching pit", Some("avatar pit > killSprite"), "1 of 2 gem left");
+    check(0, &[Right, Right], pit);
+    let late =
+        (EndingKind::OutOfTime, "ran out of time", Some("Timeout limit=6 win=False"), "2 of 2 gem left");
+    check(0, &[Nil; 9], late);
+    let rule = Some("flower arrow > killSprite scoreChange=-1");
+    check(1, &[Nil; 9], (EndingKind::Lost, "lost flower to arrow", rule, "1 of 1 gem left"));
+    let rule = Some("avatar EOS > killSprite");
+    check(2, &[Left; 3], (EndingKind::Died, "died at the edge of the screen", rule, "1 of 1 gem left"));
+    let rule = Some("SpriteCounterMore stype=weed limit=1 win=False");
+    check(2, &[Right], (EndingKind::Appeared, "had too many weed", rule, "1 of 1 gem left"));
+}
+
+#[test]
+fn limits_wins_and_aborted_episodes() {
+    let limited = ending(0, &[Left, Nil], 2).expect("it was not won");
+    assert_eq!((limited.kind, limited.rule), (EndingKind::StepLimit, None));
+    assert_eq!(limited.distance.map(|left| (left.left, left.of)), Some((1, 2)));
+    assert_eq!(ending(0, &[Left, Right, Right], 20), None, "a win");
+    assert_eq!(ending(0, &[Left], 20), None, "the player was cut off");
+}
+
+/// One episode of each cause, the most frequent cause first and its nearest to a win; then seconds, then wins.
+#[test]
+fn telling_episodes() {
+    let subject = subject();
+    let play = |run: u64, actions: &[Action]| {
+        let metrics = EpisodeMetrics::of(&subject, &log(&subject, 0, actions, 20)).unwrap();
+        EpisodeMetrics { run, ..metrics }
+    };
+    let episodes = vec![
+        play(0, &[Left, Right, Right]),
+        play(1, &[Nil; 9]),
+        play(2, &[Right, Right]),
+        play(3, &[Left, Nil, Nil, Nil, Nil, Nil, Nil]),
+    ];
+    let game = StudyGame { kind: "maze".to_owned(), ..StudyGame::from(&subject) };
+    let study = Study::new(vec![(Player::reference("a"), episodes)], vec![game]);
+    let runs =
+        |count| study.telling(0, count).iter().map(|episode| episode.metrics.run).collect::<Vec<u64>>();
+    assert_eq!(runs(4), [3, 2, 1, 0]);
+    assert_eq!(runs(1), [3]);
+    let rows: Vec<_> = study.endings.iter().map(|row| (row.cause.as_str(), row.episodes)).collect();
+    assert_eq!(rows, [("ran out of time", 2), ("died of touching pit", 1)]);
+    let expect = "a did not win 3 of 4 episodes: 2 ran out of time, 1 died (most often of touching pit in garden, once). At best, 1 of 2 \
+                  gem left.";
+    assert_eq!(study.verdict()[1], expect);
+}
+
+#[test]
+fn results_by_kind() {
+    let kinds = ["maze", "shooter", "maze", ""];
+    let games: Vec<StudyGame> = kinds
+        .iter()
+        .zip(0..)
+        .map(|(kind, at)| StudyGame {
+            id: format!("g{at}"),
+            kind: (*kind).to_owned(),
+            ..StudyGame::default()
+        })
+        .collect();
+    let played = |wins: [bool; 4]| {
+        let outcome = |won| if won { Won } else { Lost };
+        let episodes = wins.iter().zip(0..);
+        episodes.map(|(&won, at)| episode(&format!("g{at}"), 0, 0, outcome(won), 0.0, 9)).collect::<Vec<_>>()
+    };
+    let results = vec![
+        (Player::reference("a"), played([true, false, true, false])),
+        (Player::reference("b"), played([false; 4])),
+    ];
+    let study = Study::new(results.clone(), games);
+    let table = study.tables().into_iter().find(|table| table.id == "kinds").expect("a table of kinds");
+    assert_eq!(table.columns, ["kind", "games", "a", "b"]);
+    let rows: Vec<String> =
+        table.rows.iter().map(|row| format!("{} {}", row[0].plain(), row[1].plain())).collect();
+    assert_eq!(rows, ["maze 2", "not recorded 1", "shooter 1"]);
+    assert!(table.rows[0][2].plain().starts_with("1.00 ["), "{:?}", table.rows[0]);
+    assert!(study.verdict()[0].contains("it won most in maze (2 of 2); least in"), "{:?}", study.verdict());
+    // Without kinds in the results, there are none to tell.
+    let unknown = Study::new(results, Vec::new());
+    assert!(unknown.kinds.is_empty() && !unknown.verdict()[0].contains("kind"), "{:?}", unknown.verdict());
+}
+
+/// A baseline may be better than the best of the others, and nobody may have won.
+#[test]
+fn the_best_is_called_best_only_if_it_is() {
+    let won = |wins: u64| {
+        let outcome = |run| if run < wins { Won } else { Ongoing };
+        (0..4).map(|run| episode("g", 0, run, outcome(run), 0.0, 9)).collect::<Vec<_>>()
+    };
+    let first = |ours: u64, baseline: u64| {
+        let results =
+            vec![(Player::model("m", "zero-shot"), won(ours)), (Player::reference("b"), won(baseline))];
+        Study::new(results, Vec::new()).verdict().swap_remove(0)
+    };
+    assert!(first(2, 1).starts_with("m (zero-shot) won most: 50 %"), "{}", first(2, 1));
+    assert!(first(1, 2).starts_with("m (zero-shot) won: 25 %"), "{}", first(1, 2));
+    assert!(first(0, 2).starts_with("m (zero-shot) won nothing: 0 %"), "{}", first(0, 2));
+}
