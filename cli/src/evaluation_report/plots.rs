@@ -1,6 +1,6 @@
 //! The plots of the page, from the numbers of the study.
 
-use crate::page::plots::{ForestRow, HeatMap, Label, Violin, forest, heat_map, matrix, violins};
+use crate::page::plots::{ForestRow, HeatMap, Label, Violin, forest, group_width, heat_map, matrix, violins};
 use crate::page::words;
 use evaluation::study::{
     CORRELATED, Correlation, FailureMeasure, Matrix, Measure, Scope, Scores, Study, Test,
@@ -8,8 +8,9 @@ use evaluation::study::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Columns of a heat map that stay together; it fits the width of a phone.
+/// Columns of a heat map that stay together, and their width in pixels; it fits the width of a phone.
 const COLUMNS: usize = 6;
+const WIDTH: f64 = 240.0;
 
 #[derive(Serialize)]
 pub(super) struct Plot {
@@ -122,7 +123,10 @@ impl Panel {
                     let name = |&at: &usize| {
                         matrix.columns[at].level.map_or(String::new(), |level| level.to_string())
                     };
-                    (game(study, matrix.columns[levels[0]].game), levels.iter().map(name).collect())
+                    (
+                        study.title(matrix.columns[levels[0]].game).to_owned(),
+                        levels.iter().map(name).collect(),
+                    )
                 })
                 .collect();
             let cells: Vec<Vec<Option<f64>>> =
@@ -163,26 +167,26 @@ fn key() -> String {
     format!("<svg width=\"132\" height=\"12\" viewBox=\"0 0 132 12\" aria-hidden=\"true\">{steps}</svg>")
 }
 
-/// Splits the columns into groups of about [`COLUMNS`]: games stay whole unless they are longer than that.
+/// Splits the columns into groups of about [`COLUMNS`]: games stay whole unless they are longer than that, and share a map if
+/// their titles have room.
 fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
-    let mut stretches: Vec<Vec<usize>> = Vec::new();
+    let mut stretches: Vec<(f64, Vec<usize>)> = Vec::new();
     for game in 0..study.games.len() {
         let columns: Vec<usize> =
             (0..matrix.columns.len()).filter(|&at| matrix.columns[at].game == game).collect();
         let pieces = columns.len().div_ceil(COLUMNS).max(1);
         for piece in columns.chunks(columns.len().div_ceil(pieces).max(1)) {
+            let width = group_width(study.title(game), piece.len());
             match stretches.last_mut() {
-                Some(last) if last.len() + piece.len() <= COLUMNS => last.extend(piece),
-                _ => stretches.push(piece.to_vec()),
+                Some((taken, last)) if last.len() + piece.len() <= COLUMNS && *taken + width <= WIDTH => {
+                    *taken += width;
+                    last.extend(piece);
+                }
+                _ => stretches.push((width, piece.to_vec())),
             }
         }
     }
-    stretches
-}
-
-pub(super) fn game(study: &Study, game: usize) -> String {
-    let game = &study.games[game];
-    if game.title.is_empty() { game.id.clone() } else { game.title.clone() }
+    stretches.into_iter().map(|(_, columns)| columns).collect()
 }
 
 /// Returns the label of a player in two lines: its name; its mode and aids, or a note that it is a reference.
@@ -226,7 +230,7 @@ pub(super) fn win_rates_by_game(study: &Study) -> Vec<Group> {
         let rows: Vec<ForestRow> = games
             .into_iter()
             .map(|row| {
-                let label = Label { name: game(study, row.game), note: String::new() };
+                let label = Label { name: study.title(row.game).to_owned(), note: String::new() };
                 forest_row(label, &row.scores, player.is_reference())
             })
             .collect();

@@ -1,12 +1,17 @@
 //! Heat maps: a value for each row and column, as a colour and in digits.
 
 use super::canvas::{Anchor, Canvas};
-use super::{Label, shortened, step};
+use super::{Label, step};
 
 /// Pixels of the rows' names, of a cell, and of the columns' names above.
 const LEFT: f64 = 142.0;
 const CELL: [f64; 2] = [38.0, 28.0];
 const TOP: f64 = 36.0;
+/// The height of a line of a title, and the width of a letter, which is at most this.
+const LINE: f64 = 15.0;
+const LETTER: f64 = 7.4;
+/// The letters of a line of a title that may be wider than the columns below it.
+const LETTERS: usize = 14;
 /// The gap between two groups of columns.
 const GAP: f64 = 8.0;
 
@@ -25,21 +30,25 @@ pub(crate) struct HeatMap<'a> {
 
 /// Draws the heat map. Cost: O(cells).
 pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
-    let columns: usize = map.groups.iter().map(|(_, names)| names.len()).sum();
-    let gaps = map.groups.len().saturating_sub(1) as f64 * GAP;
-    let width = LEFT + columns as f64 * CELL[0] + gaps + 2.0;
-    let mut canvas = Canvas::new("heat-map", width, TOP + map.rows.len() as f64 * CELL[1] + 2.0, map.label);
-    let top = |row: usize| TOP + row as f64 * CELL[1];
+    let titles: Vec<Vec<String>> =
+        map.groups.iter().map(|(title, names)| title_lines(title, names.len())).collect();
+    let lines = titles.iter().map(Vec::len).max().unwrap_or(1);
+    let head = TOP + lines.saturating_sub(1) as f64 * LINE;
+    let widths: Vec<f64> = map.groups.iter().map(|(title, names)| group_width(title, names.len())).collect();
+    let width = LEFT + widths.iter().sum::<f64>() - GAP + 2.0;
+    let mut canvas = Canvas::new("heat-map", width, head + map.rows.len() as f64 * CELL[1] + 2.0, map.label);
+    let top = |row: usize| head + row as f64 * CELL[1];
     for (row, label) in map.rows.iter().enumerate() {
         canvas.label(LEFT - 8.0, top(row) + 18.0, label);
     }
     let (mut left, mut column) = (LEFT, 0);
-    for (group, names) in map.groups {
-        // A letter of a name is about seven pixels wide, and the name may extend over the gap.
-        let room = (names.len() as f64 * CELL[0] / 6.6) as usize;
-        canvas.text(left + 2.0, 14.0, Anchor::Start, "head", &shortened(group, room.max(4)));
+    for (((group, names), title), width) in map.groups.iter().zip(&titles).zip(&widths) {
+        let next = left + width;
+        for (line, words) in title.iter().enumerate() {
+            canvas.text(left + 2.0, 14.0 + line as f64 * LINE, Anchor::Start, "head", words);
+        }
         for name in names {
-            canvas.text(left + CELL[0] / 2.0, TOP - 6.0, Anchor::Middle, "soft", name);
+            canvas.text(left + CELL[0] / 2.0, head - 6.0, Anchor::Middle, "soft", name);
             for (row, label) in map.rows.iter().enumerate() {
                 let place = [left + 0.5, top(row) + 0.5, CELL[0] - 1.0, CELL[1] - 1.0];
                 let title = |value: &str| {
@@ -61,9 +70,35 @@ pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
             left += CELL[0];
             column += 1;
         }
-        left += GAP;
+        left = next;
     }
     canvas.finish()
+}
+
+/// Returns the width of a group of columns in pixels, with the gap after it: as wide as its columns or its title.
+pub(crate) fn group_width(title: &str, columns: usize) -> f64 {
+    let lines = title_lines(title, columns);
+    let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
+    (columns as f64 * CELL[0]).max(longest as f64 * LETTER) + GAP
+}
+
+/// Breaks a title above columns into lines: between words, after hyphens, and within words that are longer than a line.
+fn title_lines(title: &str, columns: usize) -> Vec<String> {
+    let room = ((columns as f64 * CELL[0] / LETTER) as usize).max(LETTERS);
+    let mut lines = vec![String::new()];
+    for word in title.split_inclusive([' ', '-']) {
+        let letters: Vec<char> = word.chars().collect();
+        for piece in letters.chunks(room) {
+            let piece: String = piece.iter().collect();
+            let last = lines.last_mut().expect("there is a first line");
+            if last.is_empty() || last.chars().count() + piece.trim_end().chars().count() <= room {
+                last.push_str(&piece);
+            } else {
+                lines.push(piece);
+            }
+        }
+    }
+    lines.iter().map(|line| line.trim_end().to_owned()).collect()
 }
 
 #[cfg(test)]
@@ -103,22 +138,22 @@ mod tests {
     }
 
     #[test]
-    fn titles_of_groups_stay_above_their_columns() {
-        let groups = ["hands-off-the-fuse-cord", "the-kneaders-stand"];
-        let groups = groups.map(|name| (name.to_owned(), vec!["0".to_owned()]));
-        let svg = heat_map(&HeatMap {
-            label: "win rate",
-            rows: &[label("random", "")],
-            groups: &groups,
-            cells: &[vec![Some(0.0), Some(1.0)]],
-            scale: [0.0, 1.0],
-            show: |value| format!("{value}"),
-        });
-        // The second title starts a cell and a gap later; a letter is less than eight pixels wide.
-        let letters = ((CELL[0] + GAP) / 8.0) as usize;
-        let titles: Vec<&str> =
-            svg.split("class=\"head\">").skip(1).map(|rest| rest.split('<').next().unwrap()).collect();
-        assert_eq!(titles, ["ha…rd", "th…nd"]);
-        assert!(titles.iter().all(|title| title.chars().count() <= letters), "{titles:?}");
+    fn titles_are_whole_and_apart() {
+        for title in [
+            "hands-off-the-fuse-cord",
+            "Before the Canal Ice Goes Out",
+            "pneumonoultramicroscopic",
+            "Pond",
+            "",
+        ] {
+            for columns in [1, 2, 6] {
+                let lines = title_lines(title, columns);
+                assert_eq!(lines.concat().replace(' ', ""), title.replace(' ', ""));
+                let room = group_width(title, columns) - GAP;
+                assert!(lines.iter().all(|line| line.chars().count() as f64 * LETTER <= room), "{lines:?}");
+            }
+        }
+        assert_eq!(title_lines("hands-off-the-fuse-cord", 1), ["hands-off-the-", "fuse-cord"]);
+        assert_eq!(title_lines("The Kneader's Stand", 6), ["The Kneader's Stand"]);
     }
 }

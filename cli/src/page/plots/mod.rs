@@ -13,7 +13,7 @@ mod range;
 mod violin;
 
 pub(crate) use forest::{ForestRow, forest};
-pub(crate) use heat_map::{HeatMap, heat_map};
+pub(crate) use heat_map::{HeatMap, group_width, heat_map};
 pub(crate) use matrix::matrix;
 pub(crate) use range::range;
 pub(crate) use violin::{Violin, violins};
