@@ -3,6 +3,8 @@
 use crate::error::EvaluationError;
 use crate::log::event::Event;
 use crate::run::text::open_file;
+use itertools::Itertools;
+use serde_json::Value;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -106,12 +108,57 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
         let Some(whole) = line.strip_suffix(b"\n") else { return Ok((events, sound)) };
         let event = serde_json::from_slice(whole).map_err(|error| {
             let number = events.len() + 1;
-            // The parser sees only one line.
-            let why = error.to_string().replace(" at line 1 column", " at column");
-            let what = format!("line {number} is not an event of an episode ({why}); {NEXT_STEP}");
+            let what =
+                format!("line {number} is not an event of an episode: {}; {NEXT_STEP}", fault(whole, &error));
             EvaluationError::malformed(path, what)
         })?;
         events.push(event);
         sound += length as u64;
+    }
+}
+
+/// Returns the fault of a line that is no event, in words.
+fn fault(line: &[u8], error: &serde_json::Error) -> String {
+    let value = match serde_json::from_slice(line) {
+        Ok(Value::Object(value)) => value,
+        Ok(_) => return "it is no JSON object".to_owned(),
+        // The parser sees only one line.
+        Err(error) => return format!("it is no JSON from column {} on", error.column()),
+    };
+    let Some(name) = value.get("event").and_then(Value::as_str) else {
+        return "it has no `event`".to_owned();
+    };
+    // The words of the parser begin with the fault and go on with what it expected.
+    let said = error.to_string();
+    let named = said.split('`').nth(1).unwrap_or_default();
+    match said.split_whitespace().take(2).join(" ").as_str() {
+        "unknown variant" if named == name => format!("`{name}` is no event"),
+        "unknown field" => format!("`{named}` is no field of `{name}`"),
+        "missing field" => format!("`{name}` lacks the field `{named}`"),
+        _ => format!("a field of `{name}` has a wrong value"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_of_lines() {
+        let halt = "{\"event\":\"halt\",\"reason\":\"budget\",\"message\":\"\"}";
+        for (line, expect) in [
+            ("hello", "it is no JSON from column 1 on"),
+            (&halt[..30], "it is no JSON from column 30 on"),
+            ("[1, 2]", "it is no JSON object"),
+            ("{\"step\": 3}", "it has no `event`"),
+            (&halt.replace("halt", "stop"), "`stop` is no event"),
+            (&halt.replace("reason", "cause"), "`cause` is no field of `halt`"),
+            (&halt.replace(",\"message\":\"\"", ""), "`halt` lacks the field `message`"),
+            (&halt.replace("\"budget\"", "7"), "a field of `halt` has a wrong value"),
+        ] {
+            let error = serde_json::from_str::<Event>(line).expect_err(line);
+            assert_eq!(fault(line.as_bytes(), &error), expect, "{line}: {error}");
+        }
+        assert!(serde_json::from_str::<Event>(halt).is_ok());
     }
 }
