@@ -1,7 +1,8 @@
 //! A game with its levels, ready to be played.
 
-use engine::{Analysis, Diagnostics, Game, Level, describe};
+use engine::{Analysis, Diagnostics, Game, Level, Seed, StateHash, describe};
 use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
 
 /// A game with its levels and the known facts beyond its rules.
 #[derive(Clone, Debug)]
@@ -38,13 +39,21 @@ impl Subject {
         let read = |(number, text, optimal_ticks): &(usize, String, Option<usize>)| {
             let level = game.level(text);
             let level = level.map_err(|problems| Unreadable { level: Some(*number), problems })?;
-            Ok(SubjectLevel { number: *number, text: text.clone(), level, optimal_ticks: *optimal_ticks })
+            let (number, text, optimal_ticks, first) =
+                (*number, text.clone(), *optimal_ticks, OnceLock::new());
+            Ok(SubjectLevel { number, text, level, optimal_ticks, first })
         };
         let levels = levels.iter().map(read).collect::<Result<_, _>>()?;
         if facts.taxonomy.is_empty() {
             facts.taxonomy = describe::Guide::from_analysis(&analysis).kind;
         }
         Ok(Subject { id: id.to_owned(), source: source.to_owned(), game, analysis, levels, facts })
+    }
+
+    /// Returns the hash of the first state of one of its levels under a fixed seed: equal for levels of twins under other names.
+    pub(crate) fn first_state(&self, level: &SubjectLevel) -> StateHash {
+        let start = || self.game.start(&level.level, Seed::from_text("start")).state_hash();
+        *level.first.get_or_init(start)
     }
 }
 
@@ -69,6 +78,8 @@ pub struct SubjectLevel {
     pub level: Level,
     /// The ticks of the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
+    /// The hash of its first state under a fixed seed, once it is known.
+    first: OnceLock<StateHash>,
 }
 
 /// The facts that reports give about a game beside the results.

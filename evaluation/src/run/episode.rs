@@ -28,7 +28,7 @@ impl Task<'_> {
     /// Returns the seed of the game's chance. It depends only on the initial state and the run: it is the same for every
     /// player, and for a game under other names, whose states are the same.
     pub fn chance(&self) -> Seed {
-        let start = self.subject.game.start(&self.level.level, Seed::from_text("start")).state_hash();
+        let start = self.subject.first_state(self.level);
         self.seed.child(&start.to_string(), 0).child("run", self.run)
     }
 

@@ -8,7 +8,7 @@ use crate::run::{Evaluation, Task};
 use crate::study::person::{PersonResults, told_apart};
 use crate::study::{Player, Study, StudyGame};
 use crate::subject::{Subject, SubjectLevel};
-use engine::{Digest, Seed, StateHash};
+use engine::{Digest, StateHash};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -125,9 +125,7 @@ impl Names {
     /// start in the same states.
     fn add(&mut self, subject: &Subject, folder: &Path) -> Result<bool, EvaluationError> {
         let levels = subject.levels.iter().map(|level| (level.number, level.level.digest()));
-        let start = |level: &SubjectLevel| {
-            (level.number, subject.game.start(&level.level, Seed::from_text("start")).state_hash())
-        };
+        let start = |level: &SubjectLevel| (level.number, subject.first_state(level));
         let starts: BTreeMap<usize, StateHash> = subject.levels.iter().map(start).collect();
         let Some(KnownGame { game, digest, levels: known, starts: begun, nameless }) =
             self.games.iter_mut().find(|known| known.game.id == subject.id)
