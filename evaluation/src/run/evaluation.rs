@@ -51,6 +51,10 @@ pub trait Progress: Sync {
     fn unusable(&self, _answers: &Answers, _is_all: bool) -> bool {
         true
     }
+
+    /// Reports that the evaluation stops and leaves open the episodes that are being played, so that players that wait for
+    /// somebody can give up. It can be called several times.
+    fn stopped(&self, _halt: &Halt) {}
 }
 
 /// The counts of an evaluation's episodes by their final status.
@@ -275,8 +279,11 @@ impl Evaluation {
                 return Ok(None);
             }
             let mut journal = Journal::open(&self.log_path(task))?;
-            let watched =
-                |validity| watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
+            let watched = |validity| {
+                let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
+                halt.iter().for_each(|halt| progress.stopped(halt));
+                halt
+            };
             let result = match contestant(task) {
                 Ok(mut contestant) => play_watched(task, &mut contestant, &mut journal, &watched)?,
                 Err(halt) => PlayResult::Halted(halt),
@@ -287,6 +294,7 @@ impl Evaluation {
                     let many = failures.fetch_add(1, Ordering::Relaxed) + 1 >= FAILURES_IN_A_ROW;
                     if many || !matches!(halt, Halt::Infrastructure(_)) {
                         stopped.store(true, Ordering::Relaxed);
+                        progress.stopped(halt);
                     }
                     first.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
                 }

@@ -1,13 +1,13 @@
 //! Mailboxes: files that are no answers, folders that are no mailboxes, and interruptions.
 
 use crate::games::corridor;
-use engine::SEMANTICS;
+use engine::{SEMANTICS, Seed};
 use evaluation::log::{read, without_times};
 use evaluation::player::Contestant;
 use evaluation::player::mailbox::{Delivery, Desk, MAX_ANSWER, Mailbox, MailboxPlayer, OpenPrompt};
 use evaluation::prompt::{PromptSettings, Prompter};
 use evaluation::run::{FORMAT, PlayResult, Progress, Tally, Task};
-use evaluation::{Entrant, Evaluation, Event, Settings, Subject, Validity};
+use evaluation::{Entrant, Evaluation, Event, Halt, Journal, Settings, Subject, Validity};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -277,4 +277,28 @@ fn foreign_folders_are_refused() {
     assert!(refused("another", true).contains("a mailbox of format 2"));
     fs::write(folder.join("mailbox.json"), "{}").unwrap();
     assert!(refused("another", true).contains("not a file of a mailbox"));
+}
+
+/// An evaluation that stops does not wait for answers to its other episodes; their prompts stay open.
+#[test]
+fn waiting_episodes_give_up_when_the_evaluation_stops() {
+    let home = tempfile::tempdir().unwrap();
+    let (subject, folder) = (corridor(), home.path().join("box"));
+    let settings = settings(&[corridor()], "test");
+    let mailbox = Arc::new(Mailbox::open(&folder, &settings, false, Arc::new(|_| ())).unwrap());
+    let prompter = Arc::new(Prompter::new(&subject, PromptSettings::default()).unwrap());
+    let halt = Halt::Unusable("none of 20 answers is usable".to_owned());
+    thread::scope(|scope| {
+        let waiting = scope.spawn(|| {
+            let seed = Seed::from_text("test");
+            let task = Task { subject: &subject, level: &subject.levels[1], run: 0, seed, max_steps: 3 };
+            let player = MailboxPlayer::new(mailbox.clone(), &task, prompter, 1);
+            let mut journal = Journal::in_memory();
+            evaluation::run::play(&task, &mut Contestant::Agent(Box::new(player)), &mut journal).unwrap()
+        });
+        prompt(home.path(), 0, 0);
+        mailbox.stop(&halt);
+        assert_eq!(waiting.join().unwrap(), PlayResult::Halted(halt));
+    });
+    prompt(home.path(), 0, 0);
 }

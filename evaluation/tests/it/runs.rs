@@ -4,11 +4,14 @@ use crate::games::corridor;
 use agents::Budget;
 use engine::{Action, Episode, SEMANTICS};
 use evaluation::log::{Status, read, without_times};
-use evaluation::player::{Contestant, Replay};
-use evaluation::run::{FORMAT, PlayResult, Progress, Tally, Task};
-use evaluation::{Entrant, Evaluation, EvaluationError, Event, Halt, Settings, Subject};
+use evaluation::player::{Agent, Choice, Contestant, Replay};
+use evaluation::run::{Answers, FORMAT, PlayResult, Progress, Tally, Task};
+use evaluation::{
+    Entrant, Evaluation, EvaluationError, Event, Halt, Journal, Settings, Subject, Turn, Validity,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 struct Silent;
 
@@ -222,4 +225,47 @@ fn damaged_logs_are_reported() {
     fs::write(&path, "no log\n").unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
     assert!(error.contains(": line 1 is not an event of an episode"), "{error}");
+}
+
+/// A player without any usable answer.
+struct Mute;
+
+impl Agent for Mute {
+    fn act(&mut self, _: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
+        Ok(Choice { action: Action::Nil, validity: Validity::Invalid })
+    }
+
+    fn recall(&mut self, _: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
+        Ok(())
+    }
+}
+
+#[derive(Default)]
+struct Stopping(Mutex<Vec<Halt>>);
+
+impl Progress for Stopping {
+    fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
+
+    fn unusable(&self, _: &Answers, is_all: bool) -> bool {
+        !is_all
+    }
+
+    fn stopped(&self, halt: &Halt) {
+        self.0.lock().unwrap().push(halt.clone());
+    }
+}
+
+/// Episodes that are being played elsewhere are told of a stop.
+#[test]
+fn a_stop_is_told() {
+    let (home, subjects) = (tempfile::tempdir().unwrap(), vec![corridor()]);
+    let evaluation = Evaluation::create(home.path(), settings(&subjects), subjects).unwrap();
+    let progress = Stopping::default();
+    let tally = evaluation.run(|_| Ok(Contestant::Agent(Box::new(Mute))), &progress).unwrap();
+    let told = progress.0.into_inner().unwrap();
+    assert!(
+        matches!(told.first(), Some(Halt::Unusable(why)) if Some(why) == tally.halted.as_ref()),
+        "{told:?}"
+    );
+    assert!(tally.open > 0);
 }

@@ -185,6 +185,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console,
         keep_going: args.keep_going,
         logs: folder.join("episodes"),
+        mailbox: mailbox.clone(),
     };
     let contestant = |task: &Task<'_>| Ok::<_, Halt>(contestant(task));
     let threads = requested.threads(args, episodes, console);
@@ -492,6 +493,8 @@ struct Bar<'a> {
     keep_going: bool,
     /// The folder of the logs.
     logs: PathBuf,
+    /// The mailbox whose episodes wait, if the player has one.
+    mailbox: Option<Arc<Mailbox>>,
 }
 
 impl Progress for Bar<'_> {
@@ -505,6 +508,10 @@ impl Progress for Bar<'_> {
             });
         }
         goes_on
+    }
+
+    fn stopped(&self, halt: &Halt) {
+        self.mailbox.iter().for_each(|mailbox| mailbox.stop(halt));
     }
 
     fn episode(&self, task: &Task<'_>, result: &PlayResult) {

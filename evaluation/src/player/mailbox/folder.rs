@@ -3,12 +3,13 @@
 use super::MAILBOX_FORMAT;
 use super::files::{FINISHED_FILE, LOCK_FILE, MARKER_FILE, names, read_data, write_data};
 use crate::error::EvaluationError;
+use crate::player::Halt;
 use crate::run::{Settings, Tally};
 use engine::Digest;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
@@ -25,6 +26,7 @@ pub struct Mailbox {
     pub(super) folder: PathBuf,
     pub(super) player: String,
     pub(super) notices: Notices,
+    stopped: Mutex<Option<Halt>>,
     _lock: File,
 }
 
@@ -96,12 +98,22 @@ impl Mailbox {
         if finished.exists() {
             fs::remove_file(&finished).map_err(EvaluationError::io("remove", &finished))?;
         }
-        Ok(Mailbox { folder: folder.to_owned(), player, notices, _lock: lock })
+        Ok(Mailbox { folder: folder.to_owned(), player, notices, stopped: Mutex::default(), _lock: lock })
     }
 
     /// The folder.
     pub fn folder(&self) -> &Path {
         &self.folder
+    }
+
+    /// Makes all episodes give up waiting for answers. Their prompts stay open, for a resumed evaluation.
+    pub fn stop(&self, halt: &Halt) {
+        self.stopped.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
+    }
+
+    /// Returns the reason to give up waiting.
+    pub(super) fn stopped(&self) -> Option<Halt> {
+        self.stopped.lock().expect("no holder panics").clone()
     }
 
     /// Tells the players that all episodes have ended; does nothing if some have not.

@@ -88,7 +88,8 @@ impl Agent for MailboxPlayer {
         let address = Address { step: turn.number, attempt: answered as u32 };
         let actions = turn.actions.iter().map(ToString::to_string).collect();
         *self.folder.open.lock().expect("no holder panics") = Open { address, actions };
-        let choice = self.player.act(turn, journal)?;
+        let stopped = |halt| self.folder.mailbox.stopped().unwrap_or(halt);
+        let choice = self.player.act(turn, journal).map_err(stopped)?;
         // The answer is in the log now.
         self.folder.clear(None).map_err(|error| Halt::Infrastructure(told(&error)))?;
         Ok(choice)
@@ -156,7 +157,7 @@ impl EpisodeFolder {
         write(&self.path, &address.prompt_text(), conversation(messages).as_bytes())
     }
 
-    /// Waits for the answer to the open prompt. Files that cannot be its answer are set aside with a notice.
+    /// Waits for the answer to the open prompt, or until the evaluation stops. Files that cannot be its answer are set aside with a notice.
     fn wait(&self, address: Address) -> Result<String, EvaluationError> {
         let (mut last, mut is_told) = (None, false);
         loop {
@@ -191,6 +192,9 @@ impl EpisodeFolder {
                         last = None;
                     }
                 },
+            }
+            if self.mailbox.stopped().is_some() {
+                return Err(EvaluationError::malformed(&self.path, "the evaluation was stopped"));
             }
             thread::sleep(PAUSE);
         }
