@@ -55,7 +55,13 @@ fn built_in_players() {
     };
     let played = with("mcts:20", "mcts");
     assert_eq!((&played["entrant"]["name"], &played["tally"]["ended"]), (&"mcts:20".into(), &2.into()));
-    assert_eq!(with("nil", "nil")["entrant"]["name"], "do-nothing");
+    let idle = run(home.path(), &[&args[..], &["--player", "nil", "--out", "nil"]].concat(), 0);
+    assert_eq!(json(&idle)["entrant"]["name"], "do-nothing");
+    assert!(
+        text(&idle.stderr).contains("2 episodes reached the limit of 20 steps"),
+        "{}",
+        text(&idle.stderr)
+    );
     let log = read(&home.path().join("nil/episodes/hailglass-lvl0-run1.jsonl")).unwrap();
     assert!(matches!(log.last(), Some(Event::End { steps: 20, .. })));
     let played = with("random", "one");
@@ -267,6 +273,13 @@ fn caps_hold_and_can_be_raised() {
     let told = json(&run(home.path(), &["--json", "report", "results", "--out", "capped"], 0));
     let player = &told["players"][0];
     assert_eq!((&player["spending"]["requests"], &player["spending"]["replies"]), (&7.into(), &7.into()));
+    let again = asking(&url, &["--max-requests", "7", "--resume"]);
+    let again: Vec<&str> = again.into_iter().filter(|arg| *arg != "--json").collect();
+    let told = text(&run(home.path(), &again, 1).stdout);
+    assert!(
+        told.contains("exceed --max-requests 7; continue with --resume and a higher --max-requests"),
+        "{told}"
+    );
     let done = json(&run(home.path(), &asking(&url, &["--max-requests", "1000", "--resume"]), 0));
     assert_eq!(done["spent"]["requests"], server.received().len());
     assert_eq!(done["tally"]["open"], 0);
@@ -338,6 +351,11 @@ fn malformed_requests_are_reported() {
         (&["hailglass", "--model", "openai:m", "--jobs", "3"], "--concurrency"),
         (&["hailglass", "--model", "m", "--base-url", "http://127.0.0.1:99999/v1"], "from 1 to 65535"),
         (&["hailglass", "--player", "random", "--timeout", "0"], "0 is not in 1.."),
+        (&["hailglass", "--player", "random", "--tries", "2"], "--tries applies to language models"),
+        (
+            &["hailglass", "--player", "mcts", "--timeout", "9"],
+            "--timeout applies to language models (--model) and",
+        ),
         (&["hailglass", "--player", "random", "--max-cost", "5"], "--max-cost applies to language models"),
         (&["hailglass", "--player", "random", "--temperature", "1"], "remove it for the player `random`"),
         (&["hailglass", "--player", "random", "--with", "image"], "remove them for the player `random`"),

@@ -103,7 +103,12 @@ fn malformed_requests_are_reported() {
     check(&["mailbox", "box"], "there is no mailbox here");
     check(&["evaluate", "hailglass", "--player", "mailbox:"], "`mailbox:` names no folder");
     check(&["evaluate", "hailglass", "--player", "random", "--name", "bob"], "--name applies to the players");
+    for flag in ["--timeout", "--tries", "--concurrency"] {
+        let applies = format!("{flag} applies to language models");
+        check(&["evaluate", "hailglass", "--player", "mailbox:box", flag, "5"], &applies);
+    }
     std::fs::write(home.path().join("box"), "a file").unwrap();
+    check(&["mailbox", "box"], "box: there is no mailbox here");
     check(&["evaluate", "hailglass", "--player", "mailbox:box"], "a mailbox is a folder");
     assert!(!home.path().join("results").exists(), "nothing is written before the mailbox is open");
     let forecast = run(home.path(), &["evaluate", "hailglass", "--player", "mailbox:box", "--dry-run"], 0);

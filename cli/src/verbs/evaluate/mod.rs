@@ -182,6 +182,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let bar = Bar {
         bar: console.progress(episodes as u64, "playing"),
         won: AtomicU64::new(0),
+        limited: AtomicU64::new(0),
         console,
         keep_going: args.keep_going,
         logs: folder.join("episodes"),
@@ -202,7 +203,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(mailbox) = &mailbox {
         mailbox.finish(&tally)?;
     }
-    print_results(console, &folder, &evaluation.settings.entrant, &tally, model.as_deref())
+    let limited = bar.limited.load(Ordering::Relaxed);
+    print_results(console, &folder, &evaluation.settings, &tally, limited, model.as_deref())
 }
 
 /// Prints the expected effort, and the differences that the evaluation could show.
@@ -302,7 +304,7 @@ impl RequestedPlayer {
                 })
             }
             RequestedPlayer::Process(read) => {
-                let (command, timeout) = (read.command().to_owned(), args.model.timeout);
+                let (command, timeout) = (read.command().to_owned(), args.model.timeout());
                 let remark = console.remarks();
                 let process = move || {
                     process(&command, timeout).expect("it was read before").with_notices(remark.clone())
@@ -326,7 +328,7 @@ impl RequestedPlayer {
     /// Returns the number of concurrent episodes, at most their number. Episodes of models wait most of the time.
     fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
-            RequestedPlayer::Model(_) => args.model.concurrency.get(),
+            RequestedPlayer::Model(_) => args.model.concurrency().get(),
             RequestedPlayer::Human(_) => 1,
             RequestedPlayer::Mailbox(_) => args.jobs.unwrap_or(1),
             _ => {
@@ -361,6 +363,11 @@ fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), F
     let player = args.player.as_deref().unwrap_or_default();
     if let Some(flag) = args.model.unused_without_model() {
         bail!("{flag} applies to language models (--model) only; remove it for the player `{player}`");
+    }
+    if args.model.timeout.is_some() && !matches!(requested, RequestedPlayer::Process(_)) {
+        bail!(
+            "--timeout applies to language models (--model) and programs (`cmd:`) only; remove it for the player `{player}`"
+        );
     }
     let is_named = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Mailbox(_));
     if args.name.is_some() && !is_named {
@@ -399,7 +406,7 @@ fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
         return Ok(RequestedPlayer::Mailbox(RequestedMailbox::new(folder, args)?));
     }
     if let Some(command) = player.strip_prefix("cmd:") {
-        let process = process(command, args.model.timeout).map_err(Failure::malformed)?;
+        let process = process(command, args.model.timeout()).map_err(Failure::malformed)?;
         #[cfg(unix)]
         process.find().map_err(Failure::malformed)?;
         return Ok(RequestedPlayer::Process(Box::new(process)));
@@ -413,8 +420,7 @@ fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
 }
 
 /// Makes a player of a program.
-fn process(command: &str, timeout: u64) -> Result<Process, String> {
-    let timeout = Duration::from_secs(timeout);
+fn process(command: &str, timeout: Duration) -> Result<Process, String> {
     Process::new(
         command,
         ProcessConfig { timeout, guard: player_guard::command(), ..ProcessConfig::default() },
@@ -431,10 +437,12 @@ fn default_folder(entrant: &Entrant) -> PathBuf {
 fn print_results(
     console: &Console,
     folder: &Path,
-    entrant: &Entrant,
+    settings: &Settings,
     tally: &Tally,
+    limited: u64,
     model: Option<&ConnectedModel>,
 ) -> Answer {
+    let Settings { entrant, max_steps, .. } = settings;
     let spent = model.map(|model| {
         let spent = model.caps.spent();
         (spent, model.is_priced.then(|| spent.cost.dollars()))
@@ -451,6 +459,12 @@ fn print_results(
     if answers.unusable > 0 {
         console.remark(useless(answers, &folder.join("episodes")));
     }
+    if limited > 0 {
+        let limited = if limited == 1 { "1 episode".to_owned() } else { format!("{limited} episodes") };
+        console.remark(format_args!(
+            "{limited} reached the limit of {max_steps} steps, which is no win; a new evaluation with a higher --max-steps plays on"
+        ));
+    }
     let open = match open {
         1 => "1 episode is unfinished".to_owned(),
         _ => format!("{open} episodes are unfinished"),
@@ -462,7 +476,11 @@ fn print_results(
             format_args!("{open}; continue with --resume"),
         )),
         Some(why) => {
-            console.say(format_args!("{open}: {why}; continue with --resume"));
+            // No other reason names one of these flags.
+            let caps = ["--max-cost", "--max-tokens", "--max-requests"];
+            let raised = caps.into_iter().find(|flag| why.contains(flag));
+            let raised = raised.map_or(String::new(), |flag| format!(" and a higher {flag}"));
+            console.say(format_args!("{open}: {why}; continue with --resume{raised}"));
             Ok(false)
         }
         None => Ok(tally.open == 0),
@@ -489,6 +507,8 @@ impl From<EvaluationError> for Failure {
 struct Bar<'a> {
     bar: ProgressBar,
     won: AtomicU64,
+    /// The number of episodes that reached the limit of steps.
+    limited: AtomicU64,
     console: &'a Console,
     keep_going: bool,
     /// The folder of the logs.
@@ -517,6 +537,9 @@ impl Progress for Bar<'_> {
     fn episode(&self, task: &Task<'_>, result: &PlayResult) {
         if *result == PlayResult::Ended(Outcome::Won) {
             self.won.fetch_add(1, Ordering::Relaxed);
+        }
+        if *result == PlayResult::Ended(Outcome::Ongoing) {
+            self.limited.fetch_add(1, Ordering::Relaxed);
         }
         if let PlayResult::Halted(halt) = result {
             self.bar.println(format!("{}: {halt}", task.file_name()));

@@ -67,21 +67,21 @@ pub(crate) struct ModelArgs {
     /// Folder of a cache of answers, kept between evaluations
     #[arg(long, value_name = "DIR", requires = "model")]
     cache: Option<PathBuf>,
-    /// Concurrent requests, and with them episodes
-    #[arg(long, value_name = "N", default_value = "4")]
-    pub(crate) concurrency: NonZeroUsize,
+    /// Concurrent requests, and with them episodes [default: 4]
+    #[arg(long, value_name = "N", requires = "model")]
+    concurrency: Option<NonZeroUsize>,
     /// The most requests to begin in a minute
     #[arg(long, value_name = "N", requires = "model")]
     requests_per_minute: Option<NonZeroU64>,
     /// The most tokens of a minute's requests and answers
     #[arg(long, value_name = "N", requires = "model")]
     tokens_per_minute: Option<NonZeroU64>,
-    /// The most tries of a request
-    #[arg(long, value_name = "N", default_value = "8")]
-    tries: NonZeroU32,
-    /// The most seconds of a try, or of an answer of a program
-    #[arg(long, value_name = "S", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
-    pub(crate) timeout: u64,
+    /// The most tries of a request [default: 8]
+    #[arg(long, value_name = "N", requires = "model")]
+    tries: Option<NonZeroU32>,
+    /// The most seconds of a try, or of an answer of a program [default: 600]
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
+    pub(crate) timeout: Option<u64>,
     #[command(flatten)]
     pub(crate) prompt: PromptArgs,
 }
@@ -201,6 +201,11 @@ impl Aid {
     }
 }
 
+/// The defaults of flags that are refused where they have no effect.
+const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("it is positive");
+const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("it is positive");
+const TIMEOUT: u64 = 600;
+
 impl ModelArgs {
     /// Returns the first given flag that has an effect on language models only.
     pub(crate) fn unused_without_model(&self) -> Option<&'static str> {
@@ -219,8 +224,20 @@ impl ModelArgs {
             ("--cache", self.cache.is_some()),
             ("--requests-per-minute", self.requests_per_minute.is_some()),
             ("--tokens-per-minute", self.tokens_per_minute.is_some()),
+            ("--concurrency", self.concurrency.is_some()),
+            ("--tries", self.tries.is_some()),
         ];
         given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
+    }
+
+    /// Returns the number of concurrent requests.
+    pub(crate) fn concurrency(&self) -> NonZeroUsize {
+        self.concurrency.unwrap_or(CONCURRENCY)
+    }
+
+    /// Returns the limit on the time of a try, or of an answer of a program.
+    pub(crate) fn timeout(&self) -> Duration {
+        Duration::from_secs(self.timeout.unwrap_or(TIMEOUT))
     }
 
     fn options(&self, model: &str) -> Result<ModelOptions, Failure> {
@@ -244,11 +261,11 @@ impl ModelArgs {
             limits: Limits { cost, tokens: self.max_tokens, requests: self.max_requests },
             prices: self.prices.clone(),
             cache: self.cache.clone(),
-            concurrency: self.concurrency,
+            concurrency: self.concurrency(),
             requests_per_minute: self.requests_per_minute,
             tokens_per_minute: self.tokens_per_minute,
-            tries: self.tries,
-            timeout: Duration::from_secs(self.timeout),
+            tries: self.tries.unwrap_or(TRIES),
+            timeout: self.timeout(),
             ..ModelOptions::new(model)
         })
     }
