@@ -1,7 +1,7 @@
 //! The win rates of the ladder's players over a whole release, and their differences between two releases.
 //!
 //! A level counts with the share of its plays that were won, and all levels have the same weight. Levels of one game
-//! are uniform_interval, so the intervals are clustered: whole games are resampled ([`statistics::clustered_mean`]). If all games
+//! are alike, so the intervals are clustered: whole games are resampled ([`statistics::clustered_mean`]). If all games
 //! have the same rate, resampling is uninformative, and Wilson's interval with one trial per game is used instead. The
 //! interval of a difference is combined from those of its two sides (G. Y. Zou and A. Donner, "Construction of
 //! confidence limits about effect measures: a general approach", 2008), as if the games of the two were independent
