@@ -132,6 +132,6 @@ fn shown(study: &Study, table: &Table) -> Shown {
     let (models, marks) = (labels(false), labels(true));
     let about = |cells: &[String], players: &[String]| cells.iter().any(|cell| players.contains(cell));
     let found = Shown::of(table);
-    let found = if matches!(table.id.as_str(), "causes" | "taxonomy") { found.stacked() } else { found };
+    let found = if table.id == "causes" { found.stacked() } else { found };
     found.cut(|cells| about(cells, &marks) && !about(cells, &models))
 }

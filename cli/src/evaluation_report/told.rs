@@ -5,6 +5,7 @@ use crate::page::words;
 use evaluation::Evaluation;
 use evaluation::metrics::{Choices, EpisodeStatus};
 use evaluation::study::Study;
+use itertools::Itertools;
 use report::{Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -155,12 +156,24 @@ fn answers(study: &Study) -> Option<String> {
     let mut all = Choices::default();
     models.for_each(|row| all.add(&row.choices));
     (all.total() > 0).then(|| {
-        let [steps, invalid, refused, truncated, tolerant] =
-            [all.total(), all.invalid, all.refused, all.truncated, all.tolerant].map(words::grouped);
-        format!(
-            "Of {steps} decisions of models, nothing was done in {invalid} because no answer could be read, in {refused} because the \
-             model would not answer, in {truncated} because the answer was cut off; {tolerant} were read from an answer that is not in \
-             the format asked for."
-        )
+        let useless = [
+            (all.invalid, "because no answer could be read"),
+            (all.refused, "because the model would not answer"),
+            (all.truncated, "because the answer was cut off"),
+        ];
+        let useless = useless.into_iter().filter(|(count, _)| *count > 0);
+        let useless = useless.map(|(count, why)| format!("in {} {why}", words::grouped(count))).join(", ");
+        let steps = words::grouped(all.total());
+        let useless = match useless.as_str() {
+            "" => format!("All {steps} decisions of models had a usable answer"),
+            some => format!("Of {steps} decisions of models, nothing was done {some}"),
+        };
+        match all.tolerant {
+            0 => format!("{useless}."),
+            some => {
+                let some = words::grouped(some);
+                format!("{useless}; {some} were read from an answer that is not in the format asked for.")
+            }
+        }
     })
 }

@@ -95,19 +95,22 @@ pub(crate) fn summaries(study: &Study) -> Vec<EndingSummary> {
 }
 
 impl Study {
-    /// Returns up to `count` episodes of a player that tell most about it: those not won before wins; of each cause the episode
-    /// nearest to a win, the most frequent causes first, before a second one of any cause. Aborted episodes come last.
+    /// Returns up to `count` episodes of a player that tell most about it: those not won before wins; one of each cause before a
+    /// second one, the one nearest to a win; the most frequent cause of each kind before other causes of that kind. Aborted
+    /// episodes come last.
     pub fn telling(&self, player: usize, count: usize) -> Vec<&StudyEpisode> {
         let causes: Vec<&EndingRow> = self.endings.iter().filter(|row| row.player == player).collect();
-        // By cause: the episodes so far.
+        // By cause: its number among the causes of its kind, and the episodes so far.
+        let of_kind = |at: usize| causes[..at].iter().filter(|row| row.kind == causes[at].kind).count();
+        let numbers: Vec<usize> = (0..causes.len()).map(of_kind).collect();
         let mut seen = vec![0_usize; causes.len()];
         let distance = |episode: &&StudyEpisode| {
             let left = episode.metrics.ending.as_ref().and_then(|ending| ending.distance.as_ref());
             left.map_or(f64::INFINITY, GoalDistance::fraction)
         };
         let mut rank = |episode: &StudyEpisode| match &episode.metrics.ending {
-            _ if !episode.metrics.counts() => (2, 0, 0),
-            None => (1, 0, 0),
+            _ if !episode.metrics.counts() => (2, 0, 0, 0),
+            None => (1, 0, 0, 0),
             Some(ending) => {
                 let words = ending.words();
                 let is_it = |row: &&EndingRow| {
@@ -115,7 +118,7 @@ impl Study {
                 };
                 let at = causes.iter().position(is_it).expect("each ending has a row");
                 seen[at] += 1;
-                (0, seen[at], at)
+                (0, seen[at], numbers[at], at)
             }
         };
         let mut nearest_first = self.on(player, None, None).iter().collect_vec();

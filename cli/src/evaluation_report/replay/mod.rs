@@ -133,8 +133,8 @@ impl Replays {
 
 fn note(episodes: usize, left_out: u64) -> String {
     let mut note = format!(
-        "Up to {} of each player: those not won first, one of each cause, the most frequent causes first, and of each the episode nearest \
-         to a win; every other episode is in the logs. Of episodes of more than {} decisions, the first {FIRST} and the last {LAST} are \
+        "Up to {} of each player: those not won first, one of each cause, the most frequent cause of each kind first, and of each the \
+         episode nearest to a win; every other episode is in the logs. Of episodes of more than {} decisions, the first {FIRST} and the last {LAST} are \
          shown.",
         words::many(episodes as u64, "episode"),
         FIRST + LAST

@@ -95,16 +95,24 @@ fn telling_episodes() {
         play(1, &[Nil; 9]),
         play(2, &[Right, Right]),
         play(3, &[Left, Nil, Nil, Nil, Nil, Nil, Nil]),
+        // Another cause of a known kind comes after the first of another kind.
+        EpisodeMetrics::of(&subject, &log(&subject, 2, &[Left; 3], 20))
+            .map(|lost| EpisodeMetrics { run: 4, ..lost })
+            .unwrap(),
+        play(5, &[Right, Right]),
     ];
     let game = StudyGame { kind: "maze".to_owned(), ..StudyGame::from(&subject) };
     let study = Study::new(vec![(Player::reference("a"), episodes)], vec![game]);
     let runs =
         |count| study.telling(0, count).iter().map(|episode| episode.metrics.run).collect::<Vec<u64>>();
-    assert_eq!(runs(4), [3, 2, 1, 0]);
-    assert_eq!(runs(1), [3]);
+    assert_eq!(runs(9), [2, 3, 4, 5, 1, 0]);
+    assert_eq!(runs(1), [2]);
     let rows: Vec<_> = study.endings.iter().map(|row| (row.cause.as_str(), row.episodes)).collect();
-    assert_eq!(rows, [("ran out of time", 2), ("died of touching pit", 1)]);
-    let expect = "a did not win 3 of 4 episodes: 2 ran out of time, 1 died (most often of touching pit in garden, once). At best, 1 of 2 \
+    assert_eq!(
+        rows,
+        [("died of touching pit", 2), ("ran out of time", 2), ("died at the edge of the screen", 1)]
+    );
+    let expect = "a did not win 5 of 6 episodes: 3 died (most often of touching pit in garden, 2 times), 2 ran out of time. At best, 1 of 2 \
                   gem left.";
     assert_eq!(study.verdict()[1], expect);
 }
