@@ -103,7 +103,7 @@ impl Ending {
             (EndingKind::Died, None) => "died".to_owned(),
             (EndingKind::Lost, Some(by)) => format!("lost {sprite} to {by}"),
             (EndingKind::Lost, None) => format!("lost {sprite}"),
-            (EndingKind::Appeared, _) => format!("had too many {sprite}"),
+            (EndingKind::Appeared, _) => format!("lost when {sprite} appeared"),
             (EndingKind::OutOfTime, _) => "ran out of time".to_owned(),
             (EndingKind::Otherwise, _) => "lost by the rules".to_owned(),
             (EndingKind::StepLimit, _) => "reached the limit of steps".to_owned(),

@@ -127,7 +127,7 @@ impl Study {
             let how = match kind {
                 EndingKind::Died => "died",
                 EndingKind::Lost => "lost a sprite that the game needs",
-                EndingKind::Appeared => "had too many of a sprite",
+                EndingKind::Appeared => "ended when a losing sprite appeared",
                 EndingKind::OutOfTime => "ran out of time",
                 EndingKind::Otherwise => "were lost by the rules of the game",
                 EndingKind::StepLimit => "reached the limit of steps",
@@ -139,9 +139,10 @@ impl Study {
                 let times =
                     if row.episodes == 1 { "once".to_owned() } else { format!("{} times", row.episodes) };
                 {
-                    let beginnings = ["died ", "lost ", "had too many "];
+                    let beginnings = ["died ", "lost when ", "lost "];
                     let cause = beginnings.iter().find_map(|start| row.cause.strip_prefix(start));
                     let cause = cause.unwrap_or(&row.cause);
+                    let cause = cause.strip_suffix(" appeared").unwrap_or(cause);
                     format!(" (most often {cause} in {}, {times})", self.title(row.game))
                 }
             });

@@ -70,7 +70,7 @@ fn causes() {
     let rule = Some("avatar EOS > killSprite");
     check(2, &[Left; 3], (EndingKind::Died, "died at the edge of the screen", rule, "1 of 1 gem left"));
     let rule = Some("SpriteCounterMore stype=weed limit=1 win=False");
-    check(2, &[Right], (EndingKind::Appeared, "had too many weed", rule, "1 of 1 gem left"));
+    check(2, &[Right], (EndingKind::Appeared, "lost when weed appeared", rule, "1 of 1 gem left"));
 }
 
 #[test]
