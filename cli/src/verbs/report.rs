@@ -54,6 +54,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             (study.players[row.player].label(), row.scores.wins, row.scores.episodes);
         console.say(format_args!("{player}: {wins} of {episodes} won, {rate}"));
     }
+    if let Some(lead) = study.verdict().first() {
+        console.say(lead);
+    }
     study.notes.iter().for_each(|note| console.remark(note));
     console.say(format_args!("report in {}", args.out.join("report.html").display()));
     Ok(true)
@@ -83,6 +86,7 @@ fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
         "episodes": study.episodes.len(),
         "ended": ended,
         "players": players,
+        "verdict": study.verdict(),
         "notes": study.notes,
     })
 }

@@ -137,6 +137,8 @@ fn reports_are_self_contained() {
     let made = files(&home.path().join("one"));
     assert!(made == files(&home.path().join("two")), "the same results give the same bytes");
     assert_eq!((&told["episodes"], &told["ended"]), (&Value::from(16), &Value::from(14)));
+    let lead = told["verdict"][0].as_str().unwrap();
+    assert!(lead.starts_with("talker (") && lead.contains(" One game says nothing"), "{lead}");
     assert_eq!(told["files"].as_array().unwrap().len(), made.len());
 
     let file = |name: &str| text(&made[name]);

@@ -62,7 +62,9 @@ impl Study {
         let is_it = |found: &&OverallComparison| {
             found.players == [best.player, next.player] || found.players == [next.player, best.player]
         };
-        let found = self.pairs.overall.iter().find(is_it)?;
+        let mut all =
+            [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);
+        let found = all.find(is_it)?;
         let [ours, theirs] = [best, next].map(|row| self.players[row.player].label());
         let Some((estimate, p)) = found.over_games.zip(found.p) else {
             return Some(format!(
