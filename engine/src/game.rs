@@ -150,10 +150,11 @@ impl Game {
         self.0.types[stype.index()].traits.orientation
     }
 
-    /// The maximum number of ticks of an episode: the lowest `limit=` of a Timeout, or that of the reference.
+    /// The maximum number of steps of an episode, by the lowest `limit=` of a Timeout or by that of the reference. A Timeout
+    /// ends the step after that many, because the reference counts the first one as tick 0.
     pub fn time_limit(&self) -> u64 {
-        // The reference's own limit takes effect one tick after a Timeout with the same limit.
-        self.0.first_timeout.clamp(1, MAX_TICKS + 1).unsigned_abs().into()
+        // The first step is tick 0 of the reference.
+        self.0.first_timeout.saturating_add(1).clamp(1, MAX_TICKS + 1).unsigned_abs().into()
     }
 
     /// Returns `true` if the game draws no random numbers: the same actions always give the same episode.

@@ -63,6 +63,13 @@ pub struct Avatar {
     pub starts: bool,
 }
 
+impl Avatar {
+    /// Returns `true` if the use key can do something.
+    pub fn has_use(&self) -> bool {
+        !self.shots.is_empty() || self.steering == Steering::Jumping
+    }
+}
+
 /// The properties of a sprite type by itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {

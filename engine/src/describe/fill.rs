@@ -1,6 +1,6 @@
 //! The templates of effects with their holes filled.
 
-use super::words::{Party, a, count, list, percent};
+use super::words::{Party, a, count, list, percent, plural};
 use crate::analysis::Analysis;
 use crate::rules::effects::{CHANCE, Sentence, Value};
 use crate::rules::{SpriteType, Timed};
@@ -11,6 +11,12 @@ pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Par
     let filler =
         Filler { analysis, sentence, one: Some(one), two: Some(two), both: Some(&both), target: None };
     filler.fill(sentence.meeting)
+}
+
+/// The words before the points of an effect for two parties that meet.
+pub(super) fn if_scored(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
+    let filler = Filler { analysis, sentence, one: Some(one), two: Some(two), both: None, target: None };
+    filler.fill(sentence.if_scored)
 }
 
 /// The sentence of an effect that runs by the clock, on every sprite of a type or on none in particular.
@@ -45,10 +51,12 @@ impl Filler<'_> {
 
     fn hole(&self, hole: &str) -> String {
         let (name, forms) = hole.split_once(':').unwrap_or((hole, ""));
+        let every = self.target.map(|target| Party::of(self.analysis, target)).filter(|party| party.you);
         let party = match name {
             "one" => self.one,
             "two" => self.two,
             "both" => self.both,
+            "every" => every.as_ref(),
             _ => None,
         };
         if let Some(party) = party {
@@ -58,6 +66,9 @@ impl Filler<'_> {
             };
         }
         match name {
+            "every" if !forms.is_empty() => {
+                forms.split_once('|').map_or(forms, |(_, with_it)| with_it).to_owned()
+            }
             "alone" => self.fill(self.sentence.alone),
             "every" => match self.target {
                 Some(stype) => format!("every {}", self.name(stype)),
@@ -71,6 +82,8 @@ impl Filler<'_> {
         let rules = &self.analysis.game().0;
         match value {
             Value::Name(stype) => self.name(*stype).to_owned(),
+            Value::Many(stype, 1) => self.name(*stype).to_owned(),
+            Value::Many(stype, _) => plural(self.name(*stype)),
             Value::A(stype) => a(self.name(*stype)),
             Value::AnyOf(types) => {
                 let names: Vec<String> = types.iter().map(|&stype| a(self.name(stype))).collect();

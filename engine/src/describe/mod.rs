@@ -5,13 +5,17 @@
 mod fill;
 mod kind;
 mod level;
+mod order;
+mod phrases;
 mod rules;
 mod sprites;
 mod template;
 mod words;
 
 pub use level::{hindered_wins, level};
+pub use phrases::texts;
 pub use template::{Part, Template, templates};
+pub use words::plural;
 
 use crate::analysis::Analysis;
 use crate::game::Game;
@@ -26,6 +30,8 @@ pub struct Guide {
     pub winning: Vec<String>,
     /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
+    /// The course of a tick: facts that hold for all lines below, and only those that matter in this game.
+    pub order: Vec<String>,
     /// The behaviour of each other sprite, a line each, in registry order.
     pub sprites: Vec<String>,
     /// The members of the groups that interactions, chasers and fleeing sprites name, a line each.
@@ -53,6 +59,7 @@ impl Guide {
             controls: sprites::controls(analysis),
             winning: rules::endings(analysis, true),
             losing: rules::endings(analysis, false),
+            order: order::order(analysis),
             sprites: sprites::sprites(analysis),
             groups: rules::groups(analysis),
             timed_effects: rules::timed_effects(analysis),
@@ -78,6 +85,7 @@ impl fmt::Display for Guide {
             ("How you play", &self.controls),
             ("How you win", &self.winning),
             ("How you lose", &self.losing),
+            ("How a tick goes", &self.order),
             ("What the others do", &self.sprites),
             ("Words for several", &self.groups),
             ("What happens by the clock", &self.timed_effects),

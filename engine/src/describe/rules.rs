@@ -1,7 +1,8 @@
 //! Interactions and terminations in words.
 
-use super::fill::{by_the_clock, when_they_meet};
-use super::words::{Party, count, list, members, sentence};
+use super::fill::{by_the_clock, if_scored, when_they_meet};
+use super::phrases::Phrase;
+use super::words::{Party, count, list, members, plural, sentence};
 use crate::analysis::{Analysis, Condition, Encounter, Goal, Motion};
 use crate::rules::terminations::Decision;
 use crate::rules::{Counting, SpriteType, Timed};
@@ -36,13 +37,17 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     // A line that names the edge first has several first sprites.
     let first = distinct(encounters.iter().map(|encounter| Some(encounter.first)).collect());
     let second = distinct(encounters.iter().map(|encounter| encounter.second).collect());
-    let mut text = sentence(&when_they_meet(analysis, &info.effect.sentence(), &first, &second));
-    if info.score_change != 0 && info.apply_score {
-        text += &format!(" {}.", points(info.score_change));
+    let template = info.effect.sentence();
+    let mut text = sentence(&when_they_meet(analysis, &template, &first, &second));
+    // Some effects decide as they run whether their points are due.
+    let decides = !template.if_scored.is_empty() && !info.steady;
+    if info.score_change != 0 && (info.apply_score || decides) {
+        let condition = if decides { if_scored(analysis, &template, &first, &second) } else { String::new() };
+        text += &format!(" {}", sentence(&format!("{condition}{}", points(info.score_change))));
     }
     let if_killed = info.summary.score_if_killed;
     if if_killed != 0 {
-        text += &format!(" If that kills, {}.", points(if_killed).to_lowercase());
+        text += &format!(" {}", Phrase::Instead.with(&[("points", &points(if_killed))]));
     }
     if let Some(counting) = &info.counting {
         text += &counters(counting);
@@ -58,12 +63,17 @@ fn counters(counting: &Counting) -> String {
         amount(counting.count, count).saturating_add(amount(counting.count_else, other))
     });
     let changes = (1..).zip(changes).filter(|(_, change)| *change != 0);
-    changes.map(|(number, change)| format!(" Counter {number} changes by {change:+}.")).collect()
+    let told = |(number, change): (i32, i32)| {
+        let (number, change) = (number.to_string(), format!("{change:+}"));
+        format!(" {}", Phrase::Counter.with(&[("number", &number), ("change", &change)]))
+    };
+    changes.map(told).collect()
 }
 
 fn points(change: i32) -> String {
     let number = count(i64::from(change).abs(), "point");
-    if change > 0 { format!("You gain {number}") } else { format!("You lose {number}") }
+    let phrase = if change > 0 { Phrase::Gains } else { Phrase::Loses };
+    phrase.with(&[("points", &number)])
 }
 
 /// One sentence for each line that runs by the clock.
@@ -72,13 +82,15 @@ pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     let line = |timed: &Timed| {
         let first = timed.first_due?;
         let text = by_the_clock(analysis, timed);
-        let when = match (timed.repeating, first) {
-            (true, _) => format!("every {}", count(i64::from(timed.timer), "tick")),
-            (false, first) => format!("at tick {}", first.max(0)),
-        };
-        let mut text = sentence(&format!("{when}, {text}"));
+        // The first step is tick 0 of the reference.
+        let period = if timed.timer == 1 { "tick".to_owned() } else { count(timed.timer.into(), "tick") };
+        let tick = first.max(0).saturating_add(1).to_string();
+        let mut text = sentence(&match timed.repeating {
+            true => Phrase::Every.with(&[("period", &period), ("first", &tick), ("planned", &text)]),
+            false => Phrase::Once.with(&[("tick", &tick), ("planned", &text)]),
+        });
         if timed.score_change != 0 && timed.apply_score {
-            text += &format!(" {}.", points(timed.score_change));
+            text += &format!(" {}", sentence(&points(timed.score_change)));
         }
         Some(text)
     };
@@ -111,7 +123,7 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
             .filter(|member| !inner(member))
             .map(|&member| Party::of(analysis, member))
             .collect();
-        Some(format!("Any {} means {}.", game.name(stype), Party::any(&top).name))
+        Some(Phrase::Group.with(&[("name", game.name(stype)), ("members", &Party::any(&top).name)]))
     };
     game.sprite_types().filter_map(group).collect()
 }
@@ -126,43 +138,50 @@ pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
 pub(super) fn goal(analysis: &Analysis, goal: &Goal) -> String {
     let provided = match analysis.game().0.terminations[goal.line].decided_by {
         Decision::Line => String::new(),
-        Decision::Score => ", if your score is not 0".to_owned(),
-        Decision::Difference => ", if the counters are not all the same".to_owned(),
-        Decision::Value(value) => format!(", if the counter is at {value}"),
+        Decision::Score => Phrase::UnlessZero.with(&[]),
+        Decision::Difference => Phrase::UnlessEqual.with(&[]),
+        Decision::Value(value) => Phrase::IfCounter.with(&[("value", &value.to_string())]),
     };
     let verb = if goal.win { "win" } else { "lose" };
     format!("You {verb} {}{provided}", ending(analysis, &goal.condition, goal.win))
 }
 
-fn ending(analysis: &Analysis, condition: &Condition, win: bool) -> String {
-    let counted = counted(analysis, condition.types());
-    let is_you = counted.you;
+pub(super) fn ending(analysis: &Analysis, condition: &Condition, win: bool) -> String {
+    let one = counted(analysis, condition.types(), str::to_owned);
+    let limited = |phrase: Phrase, limit: i32| {
+        let many = counted(analysis, condition.types(), plural).name;
+        let (name, are) = if limit == 1 { (&one.name, "is") } else { (&many, "are") };
+        phrase.with(&[("limit", &limit.to_string()), ("name", name), ("are", are)])
+    };
     match condition {
-        Condition::AtMost(_, 0) | Condition::Exactly(_, 0) if is_you => "when you are gone".to_owned(),
-        Condition::AtMost(_, limit) if *limit <= 0 => format!("when no {} is left", counted.name),
-        Condition::AtMost(_, limit) => format!("when at most {limit} {} are left", counted.name),
-        Condition::AtLeast(_, limit) => format!("when there are at least {limit} {}", counted.name),
-        Condition::Exactly(_, 0) => format!("when no {} is left", counted.name),
-        Condition::Exactly(_, 1) => format!("when there is exactly 1 {}", counted.name),
-        Condition::Exactly(_, limit) => format!("when there are exactly {limit} {}", counted.name),
-        Condition::Tick(limit) if win => format!("if you last until tick {limit}"),
-        Condition::Tick(limit) => format!("when tick {limit} is reached"),
+        Condition::AtMost(_, 0) | Condition::Exactly(_, 0) if one.you => Phrase::Gone.with(&[]),
+        Condition::AtMost(_, i32::MIN..=0) | Condition::Exactly(_, 0) => {
+            Phrase::NoneLeft.with(&[("name", &one.name)])
+        }
+        Condition::AtMost(_, limit) => limited(Phrase::AtMost, *limit),
+        Condition::AtLeast(_, limit) => limited(Phrase::AtLeast, *limit),
+        Condition::Exactly(_, limit) => limited(Phrase::Exactly, *limit),
+        Condition::Tick(limit) => {
+            // The first step is tick 0 of the reference, and any tick is one at the earliest.
+            let tick = limit.saturating_add(1).max(1).to_string();
+            let phrase = if win { Phrase::Survive } else { Phrase::Reached };
+            phrase.with(&[("tick", &tick)])
+        }
     }
 }
 
 /// The types of a condition, by name, those that can occur.
-fn counted(analysis: &Analysis, types: &[SpriteType]) -> Party {
+fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();
     let all: &[SpriteType] = if possible.is_empty() { types } else { &possible };
     let you = !all.is_empty() && all.iter().all(|stype| analysis.avatars().iter().any(|a| a.stype == *stype));
-    let mut names: Vec<&str> = Vec::new();
+    let mut names: Vec<String> = Vec::new();
     for &stype in all {
-        let name = analysis.game().name(stype);
+        let name = named(analysis.game().name(stype));
         if !names.contains(&name) {
             names.push(name);
         }
     }
-    let name = list(&names, "or");
-    Party { name, you }
+    Party { name: list(&names, "or"), you }
 }

@@ -1,10 +1,12 @@
 //! The behaviour of the sprites, the player's keys and the level characters, in words.
 
-use super::words::{a, count, list, pace, percent};
-use crate::analysis::{Analysis, Avatar, Motion, Role, Steering};
+use super::phrases::Phrase;
+use super::words::{Party, a, count, glide, list, pace, percent, plural};
+use crate::analysis::{Analysis, Avatar, EffectSummary, Encounter, Motion, Role, Steering};
 use crate::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::traits::Traits;
 
 /// One line for each type that can occur and does something by itself, without avatars; the last line lists the types
 /// that only stand there.
@@ -24,8 +26,8 @@ pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
         }
     }
     if !still.is_empty() {
-        let stands = if still.len() == 1 { "only stands there" } else { "only stand there" };
-        lines.push(format!("The {} {stands}.", list(&still, "and")));
+        let stand = if still.len() == 1 { "stands" } else { "stand" };
+        lines.push(Phrase::Stands.with(&[("names", &list(&still, "and")), ("stand", stand)]));
     }
     lines
 }
@@ -36,85 +38,167 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let facts = analysis.facts(stype);
     let traits = &info.traits;
     let name = |stype: SpriteType| analysis.game().name(stype);
-    let speed = || step(traits);
-    let mut parts = vec![match facts.motion {
-        Motion::Still => String::new(),
-        Motion::Straight(direction) => match direction_name(direction) {
-            Some(direction) => format!("moves {direction}, {}", speed()),
-            None if info.class == Some(SpriteClass::RandomMissile) => {
-                format!("moves straight in a random direction, {}", speed())
-            }
-            None => format!("moves straight ahead, {}", speed()),
-        },
-        Motion::Wandering => format!("wanders at random, {}", speed()),
-        Motion::Chasing(target) => format!("chases the nearest {}, {}", name(target), speed()),
-        Motion::Fleeing(target) => format!("flees from the nearest {}, {}", name(target), speed()),
-        Motion::Steered => "is steered by the player".to_owned(),
-    }];
-    if matches!(facts.motion, Motion::Chasing(_) | Motion::Fleeing(_)) && traits.max_distance >= 0.0 {
-        parts.push(format!("within {} pixels", traits.max_distance));
-    }
+    let mut parts: Vec<String> = motion(analysis, stype).into_iter().collect();
     if let (Some(class), false) = (info.class, facts.makes.is_empty()) {
         let made: Vec<String> = facts.makes.iter().map(|&made| a(name(made))).collect();
         let word = if class == SpriteClass::SpawnPointMultiSprite { "and" } else { "or" };
-        parts.push(making(class, traits, &list(&made, word)));
+        parts.push(making(analysis, stype, class, &list(&made, word)));
     }
     if let Some(exit) = analysis.leads_to(stype).filter(|_| info.class == Some(SpriteClass::Portal)) {
-        parts.push(format!("leads to {}", name(exit)));
+        parts.push(Phrase::LeadsTo.with(&[("exit", name(exit))]));
     }
     if facts.is_resource {
-        let each = if traits.value == 1 { String::new() } else { format!(", {} each", traits.value) };
-        parts.push(format!("can be held, up to {}{each}", info.resource_limit));
+        let value = traits.value.to_string();
+        let each = if traits.value == 1 { String::new() } else { Phrase::Each.with(&[("value", &value)]) };
+        parts.push(Phrase::Held.with(&[("limit", &info.resource_limit.to_string()), ("each", &each)]));
     }
     if info.class.is_some_and(|class| class.is_a(SpriteClass::Flicker)) {
-        parts.push(format!(
-            "vanishes after {}",
-            count(i64::from(traits.limit) - i64::from(traits.age) + 2, "tick")
-        ));
+        parts.push(vanishing(analysis, stype, i64::from(traits.limit) - i64::from(traits.age) + 2));
     }
     if traits.time_to_live >= 0 {
-        parts.push(format!("lives for {}", count(i64::from(traits.time_to_live) + 1, "tick")));
+        parts.push(vanishing(analysis, stype, i64::from(traits.time_to_live) + 1));
     }
     if traits.health != 0 {
-        parts.push(format!("has {}", count(i64::from(traits.health), "health point")));
+        let points = count(i64::from(traits.health), "health point");
+        parts.push(Phrase::Health.with(&[("points", &points)]));
     }
-    parts.retain(|part| !part.is_empty());
     if facts.singleton {
-        let once = if parts.is_empty() { "exists only once at a time" } else { "only one exists at a time" };
-        parts.push(once.to_owned());
+        let phrase = if parts.is_empty() { Phrase::SingleOnly } else { Phrase::Single };
+        parts.push(phrase.with(&[]));
     }
     if facts.hidden && analysis.role(stype) != Role::Floor {
-        parts.push("cannot be seen".to_owned());
+        parts.push(Phrase::Hidden.with(&[]));
     }
     parts
 }
 
-fn making(class: SpriteClass, traits: &crate::rules::traits::Traits, made: &str) -> String {
+fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let info = &analysis.game().0.types[stype.index()];
+    let traits = &info.traits;
+    let pace = step(analysis, traits);
+    let near = distance(analysis, traits).map(|distance| Phrase::Near.with(&[("distance", &distance)]));
+    let near = near.unwrap_or_default();
+    let following = |phrase: Phrase, target: SpriteType| {
+        let party = Party::of(analysis, target);
+        let target =
+            if party.you { party.name } else { format!("the nearest {}", analysis.game().name(target)) };
+        phrase.with(&[("target", &target), ("near", &near), ("pace", &pace)])
+    };
+    Some(match analysis.facts(stype).motion {
+        Motion::Still | Motion::Steered => return None,
+        Motion::Straight(direction) => match direction_name(direction) {
+            Some(way) if is_turned(analysis, stype) => {
+                Phrase::MovesFirstTo.with(&[("way", way), ("pace", &pace)])
+            }
+            Some(way) => Phrase::MovesTo.with(&[("way", way), ("pace", &pace)]),
+            None if info.class == Some(SpriteClass::RandomMissile) => {
+                Phrase::MovesAnyWay.with(&[("pace", &pace)])
+            }
+            None => Phrase::MovesAhead.with(&[("pace", &pace)]),
+        },
+        Motion::Wandering => Phrase::Wanders.with(&[("pace", &pace)]),
+        Motion::Chasing(target) => following(Phrase::Chases, target),
+        Motion::Fleeing(target) => following(Phrase::Flees, target),
+    })
+}
+
+/// The distance within which a sprite chases or flees, if there is one.
+pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
+    let far = traits.max_distance;
+    (far >= 0.0).then(|| match analysis.game().0.square_size {
+        Some(block) if !traits.continuous => {
+            format!("{} cells, columns plus rows", (far / f64::from(block.max(1))).floor())
+        }
+        _ => format!("{far} pixels"),
+    })
+}
+
+/// Tests whether sprites that move in a direction of their own can be turned, or made from others that face elsewhere.
+fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
+    let into = |effect: &EffectSummary| match effect {
+        EffectSummary::Become(into) | EffectSummary::BecomeAll(_, into) => *into == stype,
+        EffectSummary::BecomeAny(into) => into.contains(&stype),
+        _ => false,
+    };
+    let turns = |encounter: &Encounter| {
+        let is_own = analysis.applies(encounter.first, stype);
+        encounter.does(|effect| into(effect) || (is_own && *effect == EffectSummary::Turn))
+    };
+    analysis.encounters().iter().any(turns)
+}
+
+/// The number of ticks from the tick in which a sprite appears to its update of that number; several, if it depends on
+/// how the sprite came.
+fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
+    let rules = &analysis.game().0;
+    let order = |stype: SpriteType| rules.types[stype.index()].order;
+    let makes = |maker: &SpriteType| {
+        let facts = analysis.facts(*maker);
+        facts.possible && facts.makes.contains(&stype)
+    };
+    // What an avatar makes, or a type that is updated before it, is updated once in that tick already.
+    let at_once =
+        |maker: SpriteType| analysis.facts(maker).motion == Motion::Steered || order(maker) > order(stype);
+    let makers: Vec<bool> = analysis.game().sprite_types().filter(makes).map(at_once).collect();
+    let by_rules = |encounter: &Encounter| {
+        encounter.does(|effect| match effect {
+            EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
+                *to == stype
+            }
+            EffectSummary::BecomeAny(types) => types.contains(&stype),
+            EffectSummary::Clone => true,
+            _ => false,
+        })
+    };
+    // Levels seldom place what is made in play, even where a character stands for it.
+    let later = makers.is_empty() || makers.contains(&false) || analysis.encounters().iter().any(by_rules);
+    match (makers.contains(&true), later) {
+        (true, true) => format!("{} or {}", (updates - 1).max(0), count(updates, "tick")),
+        (true, false) => count((updates - 1).max(0), "tick"),
+        (false, _) => count(updates, "tick"),
+    }
+}
+
+fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
+    Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))])
+}
+
+fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str) -> String {
+    let traits = &analysis.game().0.types[stype.index()].traits;
     let chance = |probability: f64| match probability {
         certain if certain >= 1.0 => String::new(),
         probability => format!(", with a chance of {}", percent(probability)),
     };
     if class == SpriteClass::Spreader {
-        return format!("spreads {made} to each side once{}", chance(traits.spread_probability));
+        let (delay, chance) = (delay(analysis, stype, 2), chance(traits.spread_probability));
+        return Phrase::Spreads.with(&[("made", made), ("delay", &delay), ("chance", &chance)]);
     }
-    let every = match traits.cooldown {
-        1 => "every tick".to_owned(),
-        ticks => format!("every {ticks} ticks"),
-    };
+    let period = if traits.cooldown == 1 { "tick".to_owned() } else { count(traits.cooldown.into(), "tick") };
+    // Those of a level count from their first update.
+    let placed = !analysis.facts(stype).symbols.is_empty() && traits.cooldown > 1;
+    let from = if placed { Phrase::From.with(&[]) } else { String::new() };
     let total = match traits.total {
-        total if total > 0 => format!(", {total} in all"),
+        total if total > 0 => Phrase::Total.with(&[("total", &total.to_string())]),
         _ => String::new(),
     };
-    format!("makes {made} {every}{}{total}", chance(traits.prob))
+    Phrase::Makes.with(&[
+        ("made", made),
+        ("period", &period),
+        ("from", &from),
+        ("chance", &chance(traits.prob)),
+        ("total", &total),
+    ])
 }
 
 /// The speed of a sprite with these traits.
-fn step(traits: &crate::rules::traits::Traits) -> String {
+fn step(analysis: &Analysis, traits: &Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);
     }
     // Active movement takes a speed of 0 for 1, passive movement one of −1.
-    pace(if traits.speed <= 0.0 { 1.0 } else { traits.speed }, traits.cooldown.max(1))
+    let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
+    let cooldown = traits.cooldown.max(1);
+    if speed < 1.0 { glide(speed, cooldown, analysis.game().0.square_size) } else { pace(speed, cooldown) }
 }
 
 fn direction_name(direction: Direction) -> Option<&'static str> {
@@ -144,31 +228,56 @@ fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
     let mut text = if single { format!("You are the {name}: {keys}") } else { format!("As {name}: {keys}") };
     let walks = !info.traits.continuous && class != C::NullAvatar && avatar.steering != Steering::Fixed;
     if walks && analysis.facts(avatar.stype).pace != 1.0 {
-        text += &format!(", {}", step(&info.traits));
+        text += &format!(", {}", step(analysis, &info.traits));
     }
     let shots: Vec<String> = avatar.shots.iter().map(|&shot| a(game.name(shot))).collect();
+    let made = |made: &str| [("made", made.to_owned()), ("cost", cost(analysis, avatar, class))];
+    let told = |phrase: Phrase, text: &str| {
+        let made = made(text);
+        phrase.with(&made.each_ref().map(|(name, value)| (*name, value.as_str())))
+    };
     text += &match (class, class.family()) {
         _ if shots.is_empty() => String::new(),
-        (C::OngoingTurningAvatar, _) => format!("; you leave {} behind", list(&shots, "and")),
-        (C::WizardAvatar, _) => format!("; the up key puts {} beside you", list(&shots, "and")),
+        (C::OngoingTurningAvatar, _) => told(Phrase::Leaves, &list(&shots, "and")),
+        (C::WizardAvatar, _) => told(Phrase::Builds, &list(&shots, "and")),
         (C::ShootOnlyAvatar, _) => {
             let keys = ["left", "up", "right", "down", "use"].iter().zip(&shots);
-            let keys: Vec<String> = keys.map(|(key, shot)| format!("the {key} key shoots {shot}")).collect();
+            let keys: Vec<String> =
+                keys.map(|(key, shot)| Phrase::KeyShoots.with(&[("key", key), ("made", shot)])).collect();
             format!("; {}", keys.join(", "))
         }
-        (C::FlakAvatar, _) => format!("; the use key puts {} where you are", shots[0]),
-        (_, Family::Avatar) => format!("; the use key puts {} ahead of you", list(&shots, "or")),
+        (C::FlakAvatar, _) => told(Phrase::Drops, &shots[0]),
+        (_, Family::Avatar) => told(Phrase::Shoots, &list(&shots, "or")),
         (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => String::new(),
         (_, Family::Npc | Family::Walker | Family::Producer) => String::new(),
     };
-    if !avatar.ammo.is_empty() {
-        let ammo: Vec<&str> = avatar.ammo.iter().map(|&ammo| game.name(ammo)).collect();
-        text += &format!(" and costs {}", list(&ammo, "or"));
-    }
     if info.traits.health != 0 {
-        text += &format!("; you start with {}", count(i64::from(info.traits.health), "health point"));
+        let points = count(i64::from(info.traits.health), "health point");
+        text += &Phrase::HasHealth.with(&[("points", &points)]);
     }
     text + "."
+}
+
+/// The cost of a shot, if there is one.
+fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
+    let game = analysis.game();
+    let traits = &game.0.types[avatar.stype.index()].traits;
+    let each = if class == SpriteClass::FlakAvatar { traits.ammo_cost } else { 1 };
+    let amount = |amount: i32, ammo: SpriteType| {
+        let name = game.name(ammo);
+        format!("{amount} {}", if amount == 1 { name.to_owned() } else { plural(name) })
+    };
+    let costs: Vec<String> = avatar.ammo.iter().map(|&ammo| amount(each, ammo)).collect();
+    let costs = list(&costs, "or");
+    match avatar.ammo.first() {
+        None => String::new(),
+        // It needs more than it costs.
+        Some(&ammo) if class == SpriteClass::FlakAvatar && (traits.min_ammo > 0 || each != 1) => {
+            let least = amount(traits.min_ammo.max(0), ammo);
+            Phrase::CostsMore.with(&[("costs", &costs), ("least", &least)])
+        }
+        Some(_) => Phrase::Costs.with(&[("costs", &costs)]),
+    }
 }
 
 /// The function of the keys, except for shots.

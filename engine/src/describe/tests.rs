@@ -47,23 +47,34 @@ BasicGame
 fn a_guide_reads_well() {
     let expected = "\
 How you play:
-  You are the picker: an arrow key turns you that way, or moves you if you face it already; the use key puts a net ahead of you and costs pear.
+  You are the picker: an arrow key turns you that way, or moves you if you face it already; the use key puts a net ahead of you and costs 1 pear.
 
 How you win:
   You win when no gate, slug or snail is left.
 
 How you lose:
   You lose when you are gone.
-  You lose when tick 600 is reached.
+  You lose when tick 601 is reached.
+
+How a tick goes:
+  Each tick you act, then the others move, then contacts count, in the order of the lines below.
+  Sprites touch if they overlap after the moves: swapping places is no touch. Pairs that no line names do nothing.
+  Every N ticks means N, 2N, 3N ticks after it appeared; a blocked move is lost.
+  What lies in two cells between steps touches what is in either.
+  What disappears still blocks and touches others in that tick.
+  At the limit of what can be held, more stays where it is and brings no points.
+  Chasers take a step nearer, not around obstacles, at random if several are.
+  Fleeing ones take a step further away, sideways too, at random if several are.
+  A tick that both wins and loses is won, but lost when you are gone.
 
 What the others do:
   The pear can be held, up to 3.
-  The wasp chases the nearest picker, a cell every 2 ticks.
-  The hive makes a wasp every 8 ticks, with a chance of 50%, 4 in all.
-  The stone moves down, 80% of a cell every 3 ticks.
+  The wasp chases you, gliding, a cell in about 2 ticks.
+  The hive makes a wasp every 8 ticks, first in tick 1, with a chance of 50%, 4 in all, and then disappears.
+  The stone moves down, gliding, a cell in about 4 ticks.
   The slug wanders at random, a cell every 4 ticks.
-  The snail flees from the nearest picker, a cell every 2 ticks.
-  The net vanishes after 5 ticks; only one exists at a time.
+  The snail flees from you, a cell every 2 ticks.
+  The net vanishes 4 ticks after it appears; only one exists at a time: no other is made until it is gone.
   The wall, gate, pond and cart only stand there.
 
 Words for several:
@@ -72,9 +83,9 @@ Words for several:
 What happens when sprites meet:
   You cannot enter the wall or pond.
   You collect the pear. You gain 1 point.
-  The gate disappears on touching you if you hold at least 3 pear, which uses them up. You gain 5 points.
+  The gate disappears on touching you if you hold at least 3 pears, which costs 3 pears. If it disappears, you gain 5 points.
   You die on touching the wasp or any pest. You lose 2 points.
-  You die if the stone falls on you from above.
+  You die if the stone comes down on you from above.
   Any pest turns into a pear on touching the net.
   You push the cart.
   The cart and the pond both disappear when they touch.
@@ -112,9 +123,10 @@ fn a_sprite_that_is_alone_has_a_whole_sentence() {
         .replace("net > Flicker limit=3 singleton=True", "net > Immovable singleton=True")
         .replace("cart > Passive", "cart > Passive singleton=True hidden=True");
     let guide = Guide::of(&Game::from_source(&source).unwrap());
-    for line in
-        ["The net exists only once at a time.", "The cart exists only once at a time; cannot be seen."]
-    {
+    for line in [
+        "The net exists only once at a time: no other is made until it is gone.",
+        "The cart exists only once at a time: no other is made until it is gone; cannot be seen.",
+    ] {
         assert!(guide.sprites.iter().any(|told| told == line), "{:?}", guide.sprites);
     }
 }
@@ -160,7 +172,7 @@ fn counters_and_their_decisions() {
         guide.meetings,
         ["You cannot enter the key. Counter 1 changes by +1. Counter 2 changes by -3."]
     );
-    assert_eq!(guide.winning, ["You win if you last until tick 9, if the counters are not all the same."]);
+    assert_eq!(guide.winning, ["You win if you last until tick 10, if the counters are not all the same."]);
 }
 
 #[test]

@@ -68,6 +68,30 @@ pub(super) fn a(name: &str) -> String {
     format!("{} {name}", if vowel { "an" } else { "a" })
 }
 
+/// The name of a type for several of its sprites: `keys`, `berries`. Names that do not end like a word stay as they are.
+///
+/// ```
+/// use infinite_arcade_engine::describe::plural;
+/// assert_eq!([plural("lamp"), plural("berry"), plural("t7")], ["lamps", "berries", "t7"]);
+/// ```
+pub fn plural(noun: &str) -> String {
+    let ends = |endings: &[&str]| endings.iter().any(|ending| noun.ends_with(ending));
+    if !noun.ends_with(|last: char| last.is_ascii_lowercase()) || ends(&["fish", "sheep", "folk"]) {
+        noun.to_owned()
+    } else if ends(&["ay", "ey", "oy", "uy"]) {
+        format!("{noun}s")
+    } else if let Some(stem) = noun.strip_suffix('y') {
+        format!("{stem}ies")
+    } else if ends(&["leaf", "sheaf", "loaf", "wolf", "shelf", "thief", "knife"]) {
+        let stem = noun.trim_end_matches('e').trim_end_matches('f');
+        format!("{stem}ves")
+    } else if ends(&["s", "x", "z", "ch", "sh"]) {
+        format!("{noun}es")
+    } else {
+        format!("{noun}s")
+    }
+}
+
 /// `a`, `a or b`, `a, b or c`.
 pub(super) fn list(names: &[impl Display], word: &str) -> String {
     match names {
@@ -114,6 +138,20 @@ pub(super) fn pace(speed: f64, cooldown: i32) -> String {
         (format!("{speed} cells"), cooldown)
     };
     if ticks == 1 { format!("{cells} a tick") } else { format!("{cells} every {ticks} ticks") }
+}
+
+/// The speed of sprites that move by less than a cell, every `cooldown` ticks; `block` is the size of a cell, if the game
+/// tells it.
+pub(super) fn glide(speed: f64, cooldown: i32, block: Option<i32>) -> String {
+    let whole = |ticks: f64| (ticks - (ticks + 0.5).floor()).abs() < 1e-9;
+    // Sprites move by whole pixels.
+    let steps = match block {
+        Some(block) => f64::from(block) / f64::from(((speed * f64::from(block)) as i32).max(1)),
+        None => 1.0 / speed,
+    };
+    let ticks = steps * f64::from(cooldown);
+    let about = if block.is_some() && whole(steps) { "" } else { "about " };
+    format!("gliding, a cell in {about}{} ticks", (ticks + 0.5).floor())
 }
 
 #[cfg(test)]

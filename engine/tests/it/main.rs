@@ -9,6 +9,7 @@ mod effect_vectors;
 mod loop_vectors;
 mod motion_vectors;
 mod search_key;
+mod sentences;
 mod sprite_vectors;
 mod time_and_edges;
 mod vector;

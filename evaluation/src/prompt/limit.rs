@@ -7,6 +7,7 @@ use engine::describe::Guide;
 pub(crate) fn limited(mut guide: Guide, limit: u64) -> Guide {
     let sentences = guide.winning.len() + guide.losing.len();
     let is_in_time = |line: &String| last_tick(line).is_none_or(|tick| tick <= limit);
+    guide.order.retain(is_in_time);
     guide.winning.retain(is_in_time);
     guide.losing.retain(is_in_time);
     if guide.winning.len() + guide.losing.len() < sentences {
@@ -29,7 +30,7 @@ mod tests {
     use super::*;
     use engine::Game;
 
-    /// Checks the ways to win and to lose under a limit, in a game that is lost at tick 80 and won at tick 90.
+    /// Checks the ways to win and to lose under a limit, in a game that is lost in tick 81 and won in tick 91.
     #[track_caller]
     fn check(limit: u64, expect: &[&str]) {
         let game = "BasicGame\n  SpriteSet\n    tick > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    t > tick\n  \
@@ -41,12 +42,12 @@ mod tests {
 
     #[test]
     fn there_is_one_limit() {
-        let (won, lost) = ("You win when no tick is left.", "You lose when tick 80 is reached.");
-        check(1000, &[won, "You win if you last until tick 90.", lost]);
-        check(90, &[won, "You win if you last until tick 90.", lost]);
+        let (won, lost) = ("You win when no tick is left.", "You lose when tick 81 is reached.");
+        check(1000, &[won, "You win if you last until tick 91.", lost]);
+        check(91, &[won, "You win if you last until tick 91.", lost]);
         let stops =
             |tick: u64| format!("Play stops at tick {tick}: if you have not won by then, you do not win.");
-        check(89, &[won, lost, &stops(89)]);
+        check(90, &[won, lost, &stops(90)]);
         check(60, &[won, &stops(60)]);
     }
 }

@@ -24,6 +24,7 @@ use crate::mask::{Mask, without_pictures};
 use crate::subject::Subject;
 use crate::tokens;
 use crate::turn::Turn;
+use engine::analysis::Avatar;
 use engine::describe::Guide;
 use engine::syntax::print_bare;
 use engine::{Action, Analysis, Digest, Outcome};
@@ -34,7 +35,7 @@ use render::Style;
 use serde::Serialize;
 
 /// The version of the templates, raised when a word of them changes, so that results tell prompts apart at a glance.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 const TEMPLATES: [(&str, &str); 6] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
@@ -143,8 +144,11 @@ impl Prompter {
         let legend = Legend::new(analysis, &options);
         let game = analysis.game();
         let offered = |action: &Action| {
-            let by = |stype| *action == Action::Nil || game.actions_of(stype).contains(action);
-            analysis.avatars().iter().any(|avatar| by(avatar.stype)) || *action == Action::Nil
+            // Where nothing can be shot, the use key is no choice.
+            let by = |avatar: &Avatar| {
+                game.actions_of(avatar.stype).contains(action) && (*action != Action::Use || avatar.has_use())
+            };
+            *action == Action::Nil || analysis.avatars().iter().any(by)
         };
         let order = match settings.style {
             PromptStyle::Standard => Action::ALL,
@@ -312,6 +316,7 @@ impl Prompter {
             "vgdl": vgdl,
             "winning": guide.winning,
             "losing": guide.losing,
+            "order": guide.order,
             "sprites": guide.sprites,
             "groups": guide.groups,
             "clockwork": guide.timed_effects,

@@ -99,7 +99,7 @@ fn prompts_to_read() {
 #[test]
 fn the_last_tick_matches_the_rules() {
     let subject = game("first-ice");
-    for (rules, last) in [(Rules::Described, 200), (Rules::Vgdl, 200), (Rules::None, 1000)] {
+    for (rules, last) in [(Rules::Described, 201), (Rules::Vgdl, 201), (Rules::None, 1000)] {
         let settings = PromptSettings { rules, ..PromptSettings::default() };
         let shown =
             text(&prompter(&subject, &settings).prompt(&Walk::new(&subject, 0).turn(), &[], &[]).messages);
@@ -117,8 +117,8 @@ fn the_rules_know_the_limit_of_decisions() {
     };
     assert_eq!(rules(1000), prompter(&subject, &PromptSettings::default()).static_part());
     let (own, ours) =
-        ("You lose when tick 200 is reached.", "Play stops at tick 60: if you have not won by then");
-    assert!(rules(200).contains(own) && !rules(200).contains("Play stops at tick"), "{}", rules(200));
+        ("You lose when tick 201 is reached.", "Play stops at tick 60: if you have not won by then");
+    assert!(rules(201).contains(own) && !rules(201).contains("Play stops at tick"), "{}", rules(201));
     assert!(rules(60).contains(ours) && !rules(60).contains(own), "{}", rules(60));
 }
 
@@ -132,7 +132,7 @@ fn the_last_message_tells_the_outcome() {
     assert!(
         ending.starts_with(
             "## End\nThe limit of 1000 actions was reached before the game was over, which is not a win. Score 0, after 0 actions. \
-             No answer is expected.\n\n## Turn\nTick 0 of at most 200."
+             No answer is expected.\n\n## Turn\nTick 0 of at most 201."
         ),
         "{ending}"
     );

@@ -9,7 +9,7 @@ mod summary;
 use super::SpriteType;
 pub(crate) use build::{Arguments, Undeclared, build};
 pub use parameters::{ParameterKind, effect_parameters};
-pub(crate) use sentences::{CHANCE, Sentence, Value, sentences};
+pub(crate) use sentences::{CHANCE, Sentence, Value, sentences, templates};
 pub(crate) use summary::{
     Batch, Displacement, Draws, Gives, Moves, OrientationRead, Provided, PutBack, Redirection, SpeedEffect,
     Spot, Summary, TickSummary, Turn,

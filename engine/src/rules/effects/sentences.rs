@@ -19,8 +19,13 @@ pub(crate) struct Sentence {
     pub(crate) meeting: &'static str,
     /// The template for an effect that runs by the clock. `{alone}` in [`Sentence::meeting`] is this one.
     pub(crate) alone: &'static str,
+    /// The words before the points, where they depend on more, or on less, than the sentence.
+    pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
+
+/// The template of effects that do nothing by the clock, or that have no words for it.
+pub(crate) const UNTOLD: &str = "something happens to {every}";
 
 /// The text with which a probability starts.
 pub(crate) const CHANCE: &str = " with a chance of ";
@@ -30,6 +35,8 @@ pub(crate) const CHANCE: &str = " with a chance of ";
 pub(crate) enum Value {
     /// The name of a type.
     Name(SpriteType),
+    /// The name of a type for that number of sprites.
+    Many(SpriteType, i64),
     /// The name of a type with its indefinite article.
     A(SpriteType),
     /// One of these types, with articles.
@@ -56,11 +63,31 @@ pub(crate) enum Value {
 
 impl Sentence {
     fn of(meeting: &'static str) -> Sentence {
-        Sentence { meeting, alone: "something happens to {every}", values: SmallVec::new() }
+        Sentence { meeting, alone: UNTOLD, if_scored: "", values: SmallVec::new() }
     }
 
     fn alone(self, alone: &'static str) -> Sentence {
         Sentence { alone, ..self }
+    }
+
+    /// The points are due only if this holds.
+    fn scored(self, if_scored: &'static str) -> Sentence {
+        Sentence { if_scored, ..self }
+    }
+
+    /// The points are due if the first sprite goes.
+    fn scored_if_killed(self) -> Sentence {
+        self.scored("if {one:you die|it disappears}, ")
+    }
+
+    /// The points are due at every contact, whatever comes of it.
+    fn scored_always(self) -> Sentence {
+        self.scored("in any case, ")
+    }
+
+    /// The points are due at every contact, which has to be said if something else has only a chance.
+    fn scored_if(self, prob: f64) -> Sentence {
+        if prob < 1.0 { self.scored_always() } else { self }
     }
 
     fn with(mut self, hole: &'static str, value: Value) -> Sentence {
@@ -83,6 +110,7 @@ impl Sentence {
             Value::Chance(_) => Some(CHANCE),
             Value::Part { text, .. } => text.split('{').next(),
             Value::Name(_)
+            | Value::Many(..)
             | Value::A(_)
             | Value::AnyOf(_)
             | Value::Party(_)
@@ -101,20 +129,36 @@ impl Sentence {
     }
 }
 
+/// The effects of all keywords, with different parameters.
+fn recorded() -> impl Iterator<Item = Effect> {
+    let effect = |(contrary, keyword): (bool, &&str)| {
+        build(keyword, &mut Recorder::contrary(contrary)).expect("every keyword builds an effect")
+    };
+    [false, true]
+        .into_iter()
+        .flat_map(|contrary| EFFECTS.iter().map(move |keyword| (contrary, keyword)))
+        .map(effect)
+}
+
 /// The sentences of all effects, each template for meetings once, with the summary of an effect that has it.
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
-    for contrary in [false, true] {
-        for keyword in EFFECTS {
-            let effect = build(keyword, &mut Recorder::contrary(contrary));
-            let effect = effect.expect("every keyword builds an effect");
-            let sentence = effect.sentence();
-            if !found.iter().any(|(other, _)| other.meeting == sentence.meeting) {
-                found.push((sentence, effect.summary()));
-            }
+    for effect in recorded() {
+        let sentence = effect.sentence();
+        if !found.iter().any(|(other, _)| other.meeting == sentence.meeting) {
+            found.push((sentence, effect.summary()));
         }
     }
     found
+}
+
+/// The templates of all effects, for meetings and by the clock, without [`UNTOLD`].
+pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
+    let both = |effect: Effect| {
+        let sentence = effect.sentence();
+        [sentence.meeting, sentence.alone]
+    };
+    recorded().flat_map(both).filter(|text| *text != UNTOLD)
 }
 
 impl Effect {
@@ -122,54 +166,75 @@ impl Effect {
     pub(crate) fn sentence(&self) -> Sentence {
         match *self {
             Effect::KillSprite => Sentence::of("{one} {one:die|disappears} on touching {two}")
-                .alone("{every} disappears"),
-            Effect::KillIfAlive => Sentence::of("{one} {one:die|disappears} on touching {two}"),
+                .alone("{every} {every:die|disappears}"),
+            Effect::KillIfAlive => {
+                Sentence::of("{one} {one:die|disappears} on touching {two} unless {two:you are|that is} gone already")
+                    .scored_always()
+            }
             Effect::KillBoth => Sentence::of("{one} and {two} both {both:die|disappear} when they touch"),
             Effect::KillAll { stype } => Sentence::of("when {one} {one:touch|touches} {two}, {alone}")
                 .alone("every {type} disappears")
                 .with("type", Value::Name(stype)),
             Effect::KillIfFromAbove => {
-                Sentence::of("{one} {one:die|disappears} if {two} {two:fall|falls} on {one:you|it} from above")
+                Sentence::of("{one} {one:die|disappears} if {two} {two:come|comes} down on {one:you|it} from above")
+                    .scored_if_killed()
             }
             Effect::KillIfHasLess { resource, limit } => Sentence::of(
                 "{one} {one:die|disappears} on touching {two} unless {one:you hold|it holds} at least {least} {resource}",
             )
             .with("least", Value::Number(i64::from(limit) + 1))
-            .with("resource", Value::Name(resource)),
+            .with("resource", Value::Many(resource, i64::from(limit) + 1))
+            .scored_if_killed(),
             Effect::KillIfHasMore { resource, limit } => Sentence::of(
                 "{one} {one:die|disappears} on touching {two} if {one:you hold|it holds} at least {least} {resource}",
             )
             .with("least", Value::Number(limit.into()))
-            .with("resource", Value::Name(resource)),
+            .with("resource", Value::Many(resource, limit.into()))
+            .scored_if_killed(),
             Effect::KillIfOtherHasMore { resource, limit, subtract } => Sentence::of(
                 "{one} {one:die|disappears} on touching {two} if {two:you hold|that holds} at least {least} {resource}{spent}",
             )
             .with("least", Value::Number(limit.into()))
-            .with("resource", Value::Name(resource))
-            .part("spent", subtract, ", which uses them up"),
+            .with("resource", Value::Many(resource, limit.into()))
+            .part("spent", subtract, ", which costs {least} {resource}")
+            .scored_if_killed(),
             Effect::KillIfFrontal { frontal: true } => {
-                Sentence::of("{one} {one:die|disappears} on running into {two} head-on")
+                Sentence::of(
+                    "{one} {one:die|disappears} on touching {two} if they move head-on at each other or {one:you stand|it stands} still",
+                )
+                .scored_if_killed()
             }
             Effect::KillIfFrontal { frontal: false } => {
-                Sentence::of("{one} {one:die|disappears} on touching {two} unless they meet head-on")
+                Sentence::of("{one} {one:die|disappears} on touching {two} unless they move head-on at each other")
+                    .scored_if_killed()
             }
             Effect::KillIfSpeed { limit, fast: true } => {
-                Sentence::of("{one} {one:die|disappears} on touching {two} faster than {limit}")
+                Sentence::of("{one} {one:die|disappears} on touching {two} if the one that moves is faster than {limit}")
                     .with("limit", Value::Decimal(limit))
+                    .scored_always()
             }
             Effect::KillIfSpeed { limit, fast: false } => {
-                Sentence::of("{one} {one:die|disappears} on touching {two} slower than {limit}")
+                Sentence::of("{one} {one:die|disappears} on touching {two} if the one that moves is slower than {limit}")
                     .with("limit", Value::Decimal(limit))
+                    .scored_always()
             }
             Effect::KillIfNotUpright => {
-                Sentence::of("{one} {one:die|disappears} on touching {two} unless upright")
+                Sentence::of("{one} {one:die|disappears} on touching {two} unless upright").scored_always()
             }
-            Effect::RemoveScore { .. } => {
-                Sentence::of("when {one} {one:touch|touches} {two}, the score goes back to 0")
+            Effect::RemoveScore { kill_second, .. } => {
+                Sentence::of("when {one} {one:touch|touches} {two}, the score goes back to 0{gone}")
+                    .and_gone(kill_second)
             }
-            Effect::AddHealthPoints { value, kill_second, .. } => {
-                Sentence::of("{one} {one:gain|gains} {points} on touching {two}{gone}")
-                    .alone("{every} gains {points}")
+            Effect::AddHealthPoints { value, kill_second, to_max } => {
+                let sentence = if to_max {
+                    Sentence::of("{one} {one:gain|gains} {points} on touching {two}, up to the limit{gone}")
+                } else {
+                    Sentence::of(
+                        "{one} {one:gain|gains} {points} on touching {two} if that stays below the limit{gone}",
+                    )
+                };
+                sentence
+                    .alone("{every} {every:gain|gains} {points}")
                     .with("points", Value::Count(value.into(), "health point"))
                     .and_gone(kill_second)
             }
@@ -178,12 +243,12 @@ impl Effect {
                     None => Sentence::of(
                         "{one} {one:lose|loses} {points} on touching {two}, and {one:die|dies} when {last}",
                     )
-                    .alone("{every} loses {points}"),
+                    .alone("{every} {every:lose|loses} {points}"),
                     Some(stype) => Sentence::of(
-                        "when {one} {one:touch|touches} {two}, {who} loses {points}, and dies when {last}",
+                        "when {one} {one:touch|touches} {two}, that costs {who} {points}, and kills when {last}",
                     )
-                    .alone("{who} loses {points}")
-                    .with("who", Value::A(stype)),
+                    .alone("it costs {who} {points}")
+                    .with("who", Value::Party(stype)),
                 };
                 let last = match limit {
                     0 => "none is left".to_owned(),
@@ -193,12 +258,19 @@ impl Effect {
                     .with("points", Value::Count(value.into(), "health point"))
                     .with("last", Value::Text(last))
             }
-            Effect::CollectResource { .. } => Sentence::of("{two} {two:collect|collects} {one}"),
-            Effect::CollectResourceIfHeld { held, value, .. } => Sentence::of(
-                "{two} {two:collect|collects} {one} if {two:you hold|it holds} at least {least} {resource}",
+            Effect::CollectResource { kill_resource } => {
+                Sentence::of("{two} {two:collect|collects} {one}{stays}").part(
+                    "stays",
+                    !kill_resource,
+                    ", which stays where it is",
+                )
+            }
+            Effect::CollectResourceIfHeld { held, value, kill_resource } => Sentence::of(
+                "{two} {two:collect|collects} {one} if {two:you hold|it holds} at least {least} {resource}{lost}",
             )
             .with("least", Value::Number(value.into()))
-            .with("resource", Value::Name(held)),
+            .with("resource", Value::Many(held, value.into()))
+            .part("lost", kill_resource, ", and it is lost if there is no room for it"),
             Effect::ChangeResource { resource, value, kill_resource } => {
                 let (template, number) = if value < 0 {
                     ("{one} {one:lose|loses} {number} {resource} on touching {two}{gone}", value.saturating_neg())
@@ -207,12 +279,13 @@ impl Effect {
                 };
                 Sentence::of(template)
                     .with("number", Value::Number(number.into()))
-                    .with("resource", Value::Name(resource))
+                    .with("resource", Value::Many(resource, number.into()))
                     .and_gone(kill_resource)
             }
             Effect::Spawn { stype, prob } => {
                 Sentence::of("when {one} {one:touch|touches} {two}, {made} appears there{chance}")
-                    .alone("{made} appears at {every}")
+                    .alone("{made} appears at {every}{chance}")
+                    .scored_if(prob)
                     .with("made", Value::A(stype))
                     .with("chance", Value::Chance(prob))
             }
@@ -222,25 +295,39 @@ impl Effect {
             )
             .with("bound", Value::Text(if more { "at least" } else { "at most" }.to_owned()))
             .with("limit", Value::Number(limit.into()))
-            .with("resource", Value::Name(resource))
+            .with("resource", Value::Many(resource, limit.into()))
             .with("made", Value::A(stype))
             .with("chance", Value::Chance(prob))
-            .part("cost", more && spend != 0, ", which costs {spend}")
-            .with("spend", Value::Number(spend.into())),
-            Effect::SpawnBeside { stype, shift, prob, .. } => {
+            .part("cost", more && spend != 0, ", which costs {spend} {spent}")
+            .with("spend", Value::Number(spend.into()))
+            .with("spent", Value::Many(resource, spend.into()))
+            .scored("if it appears, "),
+            Effect::SpawnBeside { stype, shift, step_back, prob } => {
                 let side = match shift {
                     (0, -1) => "above",
                     (0, 1) => "below",
                     (-1, 0) => "to the left of",
                     _ => "to the right of",
                 };
-                Sentence::of("when {one} {one:touch|touches} {two}, {made} appears {side} {two}{chance}")
+                let sentence = if step_back {
+                    Sentence::of(
+                        "when {one} {one:touch|touches} {two}, {made} appears {side} the cell that {two} {two:have|has} just left{chance}",
+                    )
+                    .scored_always()
+                } else {
+                    Sentence::of("when {one} {one:touch|touches} {two}, {made} appears {side} {two}{chance}")
+                        .scored_if(prob)
+                };
+                sentence
                     .with("made", Value::A(stype))
                     .with("side", Value::Text(side.to_owned()))
                     .with("chance", Value::Chance(prob))
             }
             Effect::SpawnBehind { stype, prob } => {
-                Sentence::of("when {one} {one:touch|touches} {two}, {made} appears behind {two}{chance}")
+                Sentence::of(
+                    "when {one} {one:touch|touches} {two}, {made} appears in the cell that {two} {two:have|has} just left{chance}",
+                )
+                    .scored_always()
                     .with("made", Value::A(stype))
                     .with("chance", Value::Chance(prob))
             }
@@ -250,13 +337,13 @@ impl Effect {
                 "when {one} {one:touch|touches} {two}, {made} appears there if there are {limit} {counted} of the right kinds, \
                  else {other}",
             )
+            .scored("if there are, ")
             .with("made", Value::A(stype))
             .with("limit", Value::Number(limit.into()))
-            .with("counted", Value::Name(counted))
+            .with("counted", Value::Many(counted, limit.into()))
             .with("other", Value::A(otherwise)),
             Effect::CloneSprite => {
                 Sentence::of("when {one} {one:touch|touches} {two}, another one like {one:you|it} appears")
-                    .alone("{every} is doubled")
             }
             Effect::UpdateSpawnType { stype, spawn_point } => Sentence::of(
                 "when {one} {one:touch|touches} {two}, every {spawner} makes {made} from then on",
@@ -265,7 +352,7 @@ impl Effect {
             .with("made", Value::A(stype)),
             Effect::TransformTo { stype, kill_second, .. } => {
                 Sentence::of("{one} {one:turn|turns} into {to} on touching {two}{gone}")
-                    .alone("{every} turns into {to}")
+                    .alone("{every} {every:turn|turns} into {to}")
                     .with("to", Value::A(stype))
                     .and_gone(kill_second)
             }
@@ -284,17 +371,20 @@ impl Effect {
             Effect::TransformIfCount(ref rule) => {
                 let TransformIfCount { stype, counted, at_least, at_most, otherwise, .. } = **rule;
                 let many = match (at_least, at_most) {
-                    (least, 10_000) => format!("at least {least}"),
-                    (0, most) => format!("at most {most}"),
-                    (least, most) => format!("{least} to {most}"),
+                    (least, 10_000) => (format!("at least {least}"), least),
+                    (0, most) => (format!("at most {most}"), most),
+                    (least, most) if least == most => (format!("exactly {least}"), least),
+                    (least, most) => (format!("{least} to {most}"), most),
                 };
+                let (many, number) = many;
                 let sentence = Sentence::of(
                     "{one} {one:turn|turns} into {to} on touching {two} if there are {many} {counted}{otherwise}",
                 )
                 .with("to", Value::A(stype))
                 .with("many", Value::Text(many))
-                .with("counted", Value::Name(counted))
-                .part("otherwise", otherwise.is_some(), ", and otherwise into {other}");
+                .with("counted", Value::Many(counted, number.into()))
+                .part("otherwise", otherwise.is_some(), ", and otherwise into {other}")
+                .scored("if there are, ");
                 match otherwise {
                     Some(other) => sentence.with("other", Value::A(other)),
                     None => sentence,
@@ -306,20 +396,23 @@ impl Effect {
             .with("to", Value::Name(stype))
             .with("other", Value::A(other)),
             Effect::StepBack { .. } => Sentence::of("{one} cannot enter {two}"),
-            Effect::UndoAll { .. } => {
+            Effect::UndoAll { ref spare } => {
                 Sentence::of("{one} cannot enter {two}: when {one} {one:touch|touches} {two}, {alone}")
-                    .alone("every move of that tick is taken back")
+                    .alone("every move of that tick is taken back{spared}")
+                    .part("spared", !spare.is_empty(), ", but not that of {spare}")
+                    .with("spare", Value::AnyOf(spare.clone()))
             }
-            Effect::TurnAround => Sentence::of("{one} {one:turn|turns} around at {two}, further down"),
+            Effect::TurnAround => Sentence::of("{one} {one:turn|turns} around at {two}, two steps further down"),
             Effect::ReverseDirection => {
-                Sentence::of("{one} {one:turn|turns} back at {two}").alone("{every} turns back")
+                Sentence::of("{one} {one:turn|turns} back at {two}").alone("{every} {every:turn|turns} back")
             }
             Effect::FlipDirection => {
                 Sentence::of("{one} {one:turn|turns} in a random direction on touching {two}")
-                    .alone("{every} turns in a random direction")
+                    .alone("{every} {every:turn|turns} in a random direction")
             }
             Effect::AttractGaze { prob, .. } => {
                 Sentence::of("{one} {one:turn|turns} to face the way of {two} on touching {two}{chance}")
+                    .scored_if(prob)
                     .with("chance", Value::Chance(prob))
             }
             Effect::Align { .. } => {

@@ -2,7 +2,7 @@
 
 use engine::EffectFamily;
 use engine::analysis::{EffectSummary, Precondition, Side};
-use engine::describe::{Part, Template, templates};
+use engine::describe::{Part, Template, plural, templates};
 use itertools::Itertools;
 use regex::{Captures, Regex};
 use std::cmp::Reverse;
@@ -25,8 +25,8 @@ pub(super) struct Beliefs<'a> {
     taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
     /// Things whose touch has another effect: on the type of the player, on its resources, or elsewhere.
     pub(super) changes: BTreeSet<&'a str>,
-    /// Things whose removal wins the game.
-    pub(super) wins: BTreeSet<&'a str>,
+    /// Things whose removal wins the game, by one of their forms: the rules say `no lamp` and `at most 2 lamps`.
+    wins: BTreeSet<&'a str>,
     /// Things whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
     pub(super) moves: BTreeSet<&'a str>,
@@ -87,7 +87,7 @@ static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     use Subject::{Group, Lose, Motion, Win};
     let others = [
         (r"^Any (?P<one>\S+) means (?P<two>.+)$", Group),
-        (r"^You win when (?:no (?P<one>.+) is left|at most \d+ (?P<two>.+) are left)$", Win),
+        (r"^You win when (?:no (?P<one>.+) is left|at most \d+ (?P<two>.+) (?:is|are) left)$", Win),
         (r"^You lose when no (?P<one>.+) is left$", Lose),
         (r"^the (?P<one>\S+) (?:moves (?:straight|up|left|down|right)|wanders|chases|flees).*$", Motion),
     ];
@@ -176,7 +176,7 @@ const YOU_HOLD: &str = "you hold";
 
 /// The effect of the use key in the description of the keys.
 static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
-    let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|ahead of you)(?: and costs (?P<ammo>[^;.]+))?[;.]";
+    let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|ahead of you)(?: and costs (?P<ammo>[^;.]+?)(?:, if you hold more than [^;.]+)?)?[;.]";
     Regex::new(pattern).expect("a pattern of ours")
 });
 
@@ -230,6 +230,11 @@ impl<'a> Beliefs<'a> {
     /// Returns `true` if touching it removes it, given the resources held.
     pub(super) fn is_taken(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
         applies(&self.taken, name, held)
+    }
+
+    /// Returns `true` if its removal wins the game.
+    pub(super) fn is_wanted(&self, name: &str) -> bool {
+        self.wins.contains(name) || self.wins.contains(plural(name).as_str())
     }
 
     /// Returns `true` if a shot removes it.
@@ -294,6 +299,7 @@ impl<'a> Beliefs<'a> {
             ammo: ammo
                 .split(" or ")
                 .flat_map(|part| part.split(", "))
+                .map(|part| part.split_once(' ').map_or(part, |(_, name)| name))
                 .filter(|name| !name.is_empty())
                 .collect(),
             flight: sentences.iter().find_map(flight),
@@ -349,6 +355,8 @@ impl<'a> Party<'a> {
 
 impl ResourceCondition<'_> {
     fn is_met(self, held: &BTreeMap<&str, i32>) -> bool {
-        (held.get(self.resource).copied().unwrap_or(0) >= self.least) != self.not
+        let own = |name: &str| name == self.resource || plural(name) == self.resource;
+        let amount: i32 = held.iter().filter(|(name, _)| own(name)).map(|(_, amount)| amount).sum();
+        (amount >= self.least) != self.not
     }
 }

@@ -9,7 +9,7 @@ mod route;
 use super::shown::{Shown, You};
 use super::{Unanswerable, actions_except_nil};
 use beliefs::Beliefs;
-use engine::describe::Guide;
+use engine::describe::{Guide, plural};
 use engine::{Action, Game, Sampler, Seed};
 use route::{Board, DIRECTIONS, Routes};
 use std::collections::BTreeMap;
@@ -91,7 +91,7 @@ impl Reflex<'_> {
     fn rank(&self, cell: usize) -> Option<u32> {
         let rank = |name: &str| {
             let (beliefs, taken) = (&self.beliefs, self.is_taken(name));
-            if beliefs.wins.contains(name) && taken {
+            if beliefs.is_wanted(name) && taken {
                 return Some(0);
             }
             if taken || beliefs.changes.contains(name) {
@@ -121,7 +121,10 @@ impl Reflex<'_> {
     /// Returns the use key if a target is in the line of fire, or a turn towards a target in another line.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
-        let has_ammo = |ammo: &&str| self.held.get(ammo).copied().unwrap_or(0) > 0;
+        let has_ammo = |ammo: &&str| {
+            let own = |name: &str| name == *ammo || plural(name) == **ammo;
+            self.held.iter().any(|(name, amount)| *amount > 0 && own(name))
+        };
         if !self.shown.actions.contains(&Action::Use)
             || !(shot.ammo.is_empty() || shot.ammo.iter().any(has_ammo))
         {

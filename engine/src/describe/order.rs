@@ -1,0 +1,166 @@
+//! The course of a tick, in words.
+
+use super::phrases::Phrase;
+use super::rules::ending;
+use super::sprites::distance;
+use super::words::list;
+use crate::analysis::{Analysis, EffectSummary, Encounter, Goal, Motion, Side};
+use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
+use crate::rules::effects::Gives;
+
+/// The facts about ticks that matter in a game.
+pub(super) fn order(analysis: &Analysis) -> Vec<String> {
+    let movers: Vec<SpriteType> = possible(analysis)
+        .filter(|&stype| !matches!(analysis.facts(stype).motion, Motion::Still | Motion::Steered))
+        .collect();
+    let traits = |stype: SpriteType| &analysis.game().0.types[stype.index()].traits;
+    let mut lines = vec![if movers.is_empty() { Phrase::YouThenContacts } else { Phrase::YouThenOthers }];
+    lines.push(Phrase::Touch);
+    if movers.iter().any(|&stype| traits(stype).cooldown > 1) {
+        lines.push(Phrase::Period);
+    }
+    let rests = |stype: &SpriteType| {
+        matches!(analysis.facts(*stype).motion, Motion::Straight(_)) && traits(*stype).cooldown < 2
+    };
+    if movers.iter().any(rests) {
+        lines.push(Phrase::Rest);
+    }
+    let glides = |&stype: &SpriteType| {
+        let (pace, traits) = (analysis.facts(stype).pace, traits(stype));
+        traits.continuous || (pace > 0.0 && traits.speed > 0.0 && traits.speed.fract() != 0.0)
+    };
+    if possible(analysis).any(|stype| glides(&stype)) {
+        lines.push(Phrase::Glide);
+    }
+    if blocking_matters(analysis) {
+        lines.push(Phrase::PutBack);
+    }
+    let mut lines: Vec<String> = lines.into_iter().map(|phrase| phrase.with(&[])).collect();
+    let reopened = reopens(analysis);
+    if reopened || lingers(analysis) {
+        let reopened = if reopened { Phrase::Reopened.text() } else { "" };
+        lines.push(Phrase::Lingers.with(&[("reopened", reopened)]));
+    }
+    if analysis.game().0.effects.iter().any(|info| info.summary.gives.is_some_and(gives_more)) {
+        lines.push(Phrase::AtLimit.with(&[]));
+    }
+    lines.extend(pursuit(analysis, &movers));
+    lines.extend(tie(analysis));
+    lines
+}
+
+fn possible(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
+    analysis.game().sprite_types().filter(|&stype| analysis.facts(stype).possible)
+}
+
+fn gives_more(gives: Gives) -> bool {
+    match gives {
+        Gives::First { .. } => true,
+        Gives::Amount { value, .. } => value > 0,
+    }
+}
+
+fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
+    let game = analysis.game();
+    let motions = || movers.iter().map(|&stype| analysis.facts(stype).motion);
+    let mut lines = Vec::new();
+    if motions().any(|motion| matches!(motion, Motion::Chasing(_))) {
+        lines.push(Phrase::ChaseStep.with(&[]));
+    }
+    if motions().any(|motion| matches!(motion, Motion::Fleeing(_))) {
+        lines.push(Phrase::FleeStep.with(&[]));
+    }
+    // Those that follow paths stay where they are.
+    let steps_at_random = |stype: &SpriteType| {
+        let class = game.0.types[stype.index()].class;
+        class.is_some_and(|class| class.is_a(SpriteClass::Chaser) && class != SpriteClass::PathChaser)
+    };
+    let follows = |stype: &SpriteType| match analysis.facts(*stype).motion {
+        Motion::Chasing(target) | Motion::Fleeing(target) => {
+            let far = distance(analysis, &game.0.types[stype.index()].traits).is_some();
+            let you = analysis.avatars().iter().any(|avatar| analysis.applies(target, avatar.stype));
+            (far || !you).then_some(far)
+        }
+        _ => None,
+    };
+    let lost: Vec<bool> = movers.iter().filter(|stype| steps_at_random(stype)).filter_map(follows).collect();
+    if !lost.is_empty() {
+        let near = if lost.contains(&true) { " in reach" } else { "" };
+        lines.push(Phrase::NoTarget.with(&[("near", near)]));
+    }
+    lines
+}
+
+/// Tests whether two encounters can be of the same two sprites, whichever is named first.
+fn same_pair(analysis: &Analysis, one: &Encounter, other: &Encounter) -> bool {
+    let alike = |a: SpriteType, b: SpriteType| {
+        possible(analysis).any(|stype| analysis.applies(a, stype) && analysis.applies(b, stype))
+    };
+    let (Some(second), Some(other_second)) = (one.second, other.second) else { return false };
+    (alike(one.first, other.first) && alike(second, other_second))
+        || (alike(one.first, other_second) && alike(second, other.first))
+}
+
+/// Tests whether a pair has a line that puts back and another one that counts before or after it.
+fn blocking_matters(analysis: &Analysis) -> bool {
+    let encounters = analysis.encounters();
+    let blockers = encounters.iter().filter(|encounter| encounter.blocks());
+    let counts = |other: &Encounter| !other.blocks() && !other.does(|effect| *effect == EffectSummary::Turn);
+    blockers
+        .into_iter()
+        .any(|blocker| encounters.iter().any(|other| counts(other) && same_pair(analysis, blocker, other)))
+}
+
+/// Tests whether the player can remove something that blocks in the same tick.
+fn reopens(analysis: &Analysis) -> bool {
+    let is_you = |stype: SpriteType| analysis.avatars().iter().any(|a| analysis.applies(stype, a.stype));
+    let encounters = analysis.encounters();
+    encounters.iter().filter(|encounter| encounter.blocks() && is_you(encounter.first)).any(|blocker| {
+        encounters.iter().any(|other| {
+            let removes = (other.ends(Side::First) && other.second.is_some_and(is_you))
+                || (other.ends(Side::Second) && is_you(other.first));
+            removes && other.line < blocker.line && same_pair(analysis, blocker, other)
+        })
+    })
+}
+
+/// Tests whether sprites that vanish by themselves do something to others.
+fn lingers(analysis: &Analysis) -> bool {
+    let acts = |stype: SpriteType| {
+        let touched =
+            |encounter: &Encounter| encounter.second.is_some_and(|second| analysis.applies(second, stype));
+        analysis.encounters().iter().any(touched)
+    };
+    possible(analysis).any(|stype| analysis.facts(stype).fleeting && acts(stype))
+}
+
+/// The outcome of a tick in which several terminations hold.
+fn tie(analysis: &Analysis) -> Option<String> {
+    let goals = analysis.goals();
+    let is_at = |win: bool| goals.iter().position(|goal| goal.win == win);
+    let last = |win: bool| goals.iter().rposition(|goal| goal.win == win);
+    let (first_win, last_win) = (is_at(true)?, last(true)?);
+    let (first_loss, last_loss) = (is_at(false)?, last(false)?);
+    let told = |goals: &[Goal], word: &str| {
+        let ways: Vec<String> =
+            goals.iter().map(|goal| ending(analysis, &goal.condition, goal.win)).collect();
+        list(&ways, word)
+    };
+    Some(if last_loss < first_win {
+        Phrase::TieLost.with(&[])
+    } else if last_win < first_loss {
+        Phrase::TieWon.with(&[])
+    } else if goals[first_win..=last_win].iter().all(|goal| goal.win) {
+        Phrase::TieMixed.with(&[("ways", &told(&goals[..first_win], "or"))])
+    } else {
+        let each: Vec<String> = goals
+            .iter()
+            .map(|goal| {
+                let verb = if goal.win { "you win" } else { "you lose" };
+                format!("{verb} {}", ending(analysis, &goal.condition, goal.win))
+            })
+            .collect();
+        Phrase::TieOrder.with(&[("ways", &each.join("; "))])
+    })
+}

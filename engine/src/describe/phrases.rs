@@ -1,0 +1,126 @@
+//! The sentences that do not come from effects, and parts of sentences, as templates with named holes.
+
+use crate::rules::effects::templates;
+use std::collections::BTreeSet;
+
+/// Declares the phrases, each with its template.
+macro_rules! phrases {
+    ($($name:ident: $text:literal,)*) => {
+        /// A template.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Phrase { $($name,)* }
+
+        impl Phrase {
+            pub(super) const ALL: &[Phrase] = &[$(Phrase::$name,)*];
+
+            pub(super) fn text(self) -> &'static str {
+                match self { $(Phrase::$name => $text,)* }
+            }
+        }
+    };
+}
+
+phrases! {
+    // The course of a tick.
+    YouThenOthers: "Each tick you act, then the others move, then contacts count, in the order of the lines below.",
+    YouThenContacts: "Each tick you act, then contacts count, in the order of the lines below.",
+    Touch: "Sprites touch if they overlap after the moves: swapping places is no touch. Pairs that no line names do nothing.",
+    Period: "Every N ticks means N, 2N, 3N ticks after it appeared; a blocked move is lost.",
+    Rest: "What moves straight on rests in its first tick.",
+    Glide: "What lies in two cells between steps touches what is in either.",
+    PutBack: "What a line puts back has touched for the lines above it, but not for those below.",
+    Lingers: "What disappears still blocks and touches others in that tick{reopened}.",
+    Reopened: ": what you open lets you in at the next press",
+    AtLimit: "At the limit of what can be held, more stays where it is and brings no points.",
+    ChaseStep: "Chasers take a step nearer, not around obstacles, at random if several are.",
+    FleeStep: "Fleeing ones take a step further away, sideways too, at random if several are.",
+    NoTarget: "With none to chase or flee{near}, the step is in a random direction.",
+    TieLost: "A tick that both wins and loses is lost.",
+    TieWon: "A tick that both wins and loses is won.",
+    TieMixed: "A tick that both wins and loses is won, but lost {ways}.",
+    TieOrder: "Of several ways to win or lose in one tick, the first of these counts: {ways}.",
+    // Movement.
+    MovesTo: "moves {way}, {pace}",
+    MovesFirstTo: "moves {way} at first, {pace}",
+    MovesAnyWay: "moves straight in a random direction, {pace}",
+    MovesAhead: "moves straight ahead, {pace}",
+    Wanders: "wanders at random, {pace}",
+    Chases: "chases {target}{near}, {pace}",
+    Flees: "flees from {target}{near}, {pace}",
+    Near: " within {distance}",
+    // Making others.
+    Makes: "makes {made} every {period}{from}{chance}{total}",
+    From: ", first in tick 1",
+    Total: ", {total} in all, and then disappears",
+    Spreads: "spreads {made} to each side once, {delay} after it appears{chance}",
+    // Other properties.
+    LeadsTo: "leads to a random {exit}, and kills if there is none",
+    Held: "can be held, up to {limit}{each}",
+    Each: ", {value} each",
+    Vanishes: "vanishes {ticks} after it appears",
+    Health: "has {points}",
+    Single: "only one exists at a time: no other is made until it is gone",
+    SingleOnly: "exists only once at a time: no other is made until it is gone",
+    Hidden: "cannot be seen",
+    Stands: "The {names} only {stand} there.",
+    // The player.
+    Shoots: "; the use key puts {made} ahead of you{cost}",
+    Drops: "; the use key puts {made} where you are{cost}",
+    Leaves: "; you leave {made} behind",
+    Builds: "; the up key puts {made} beside you",
+    KeyShoots: "the {key} key shoots {made}",
+    Costs: " and costs {costs}",
+    CostsMore: " and costs {costs}, if you hold more than {least}",
+    HasHealth: "; you start with {points}",
+    // Groups and times.
+    Group: "Any {name} means {members}.",
+    Every: "every {period} from tick {first} on, {planned}",
+    Once: "at tick {tick}, {planned}",
+    // Points.
+    Gains: "you gain {points}",
+    Loses: "you lose {points}",
+    Instead: "If that kills, {points} instead.",
+    Counter: "Counter {number} changes by {change}.",
+    // Endings.
+    Gone: "when you are gone",
+    NoneLeft: "when no {name} is left",
+    AtMost: "when at most {limit} {name} {are} left",
+    AtLeast: "when there {are} at least {limit} {name}",
+    Exactly: "when there {are} exactly {limit} {name}",
+    Survive: "if you last until tick {tick}",
+    Reached: "when tick {tick} is reached",
+    UnlessZero: ", if your score is not 0",
+    UnlessEqual: ", if the counters are not all the same",
+    IfCounter: ", if the counter is at {value}",
+}
+
+impl Phrase {
+    /// The template with its holes filled, each by the text of its name.
+    pub(super) fn with(self, values: &[(&str, &str)]) -> String {
+        let mut text = String::new();
+        let mut rest = self.text();
+        while let Some((before, after)) = rest.split_once('{') {
+            let (hole, after) = after.split_once('}').expect("a hole of a template ends");
+            let value = values.iter().find(|(name, _)| *name == hole);
+            text += before;
+            text += value.expect("a hole of a template has a value").1;
+            rest = after;
+        }
+        text + rest
+    }
+}
+
+/// Returns the templates of all sentences and parts of sentences: `{one}` and `{two}` are the sprites that meet,
+/// `{one:die|disappears}` is a word that agrees with one of them, and all other holes are values.
+///
+/// ```
+/// let all = infinite_arcade_engine::describe::texts();
+/// assert!(all.contains(&"{one} cannot enter {two}") && all.contains(&"when no {name} is left"));
+/// ```
+pub fn texts() -> Vec<&'static str> {
+    let mut texts: Vec<&'static str> = templates().collect();
+    texts.extend(Phrase::ALL.iter().map(|phrase| phrase.text()));
+    let mut seen = BTreeSet::new();
+    texts.retain(|text| seen.insert(*text));
+    texts
+}
