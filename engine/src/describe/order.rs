@@ -2,7 +2,7 @@
 
 use super::phrases::Phrase;
 use super::rules::ending;
-use super::sprites::distance;
+use super::sprites::{chase, distance, is_updated_at_once};
 use super::words::list;
 use crate::analysis::{Analysis, EffectSummary, Encounter, Goal, Motion, Side};
 use crate::rules::SpriteType;
@@ -15,28 +15,36 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
         .filter(|&stype| !matches!(analysis.facts(stype).motion, Motion::Still | Motion::Steered))
         .collect();
     let traits = |stype: SpriteType| &analysis.game().0.types[stype.index()].traits;
-    let mut lines = vec![if movers.is_empty() { Phrase::YouThenContacts } else { Phrase::YouThenOthers }];
-    lines.push(Phrase::Touch);
-    if movers.iter().any(|&stype| traits(stype).cooldown > 1) {
-        lines.push(Phrase::Period);
+    let first = if movers.is_empty() { Phrase::YouThenContacts } else { Phrase::YouThenOthers };
+    let lines = [first, Phrase::Touch];
+    let mut lines: Vec<String> = lines.into_iter().map(|phrase| phrase.with(&[])).collect();
+    let paced: Vec<SpriteType> = movers.iter().copied().filter(|&stype| traits(stype).cooldown > 1).collect();
+    if !paced.is_empty() {
+        let sooner = paced.iter().filter(|&&stype| is_updated_at_once(analysis, stype).0);
+        let names: Vec<&str> = sooner.map(|&stype| analysis.game().name(stype)).collect();
+        let sooner = if names.is_empty() {
+            String::new()
+        } else {
+            Phrase::Sooner.with(&[("names", &list(&names, "and"))])
+        };
+        lines.push(Phrase::Period.with(&[("sooner", &sooner)]));
     }
     let rests = |stype: &SpriteType| {
         matches!(analysis.facts(*stype).motion, Motion::Straight(_)) && traits(*stype).cooldown < 2
     };
     if movers.iter().any(rests) {
-        lines.push(Phrase::Rest);
+        lines.push(Phrase::Rest.with(&[]));
     }
     let glides = |&stype: &SpriteType| {
         let (pace, traits) = (analysis.facts(stype).pace, traits(stype));
         traits.continuous || (pace > 0.0 && traits.speed > 0.0 && traits.speed.fract() != 0.0)
     };
     if possible(analysis).any(|stype| glides(&stype)) {
-        lines.push(Phrase::Glide);
+        lines.push(Phrase::Glide.with(&[]));
     }
     if blocking_matters(analysis) {
-        lines.push(Phrase::PutBack);
+        lines.push(Phrase::PutBack.with(&[]));
     }
-    let mut lines: Vec<String> = lines.into_iter().map(|phrase| phrase.with(&[])).collect();
     let reopened = reopens(analysis);
     if reopened || lingers(analysis) {
         let reopened = if reopened { Phrase::Reopened.text() } else { "" };
@@ -65,7 +73,11 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
     let game = analysis.game();
     let motions = || movers.iter().map(|&stype| analysis.facts(stype).motion);
     let mut lines = Vec::new();
-    if motions().any(|motion| matches!(motion, Motion::Chasing(_))) {
+    let by_steps = |stype: &SpriteType| {
+        let class = game.0.types[stype.index()].class;
+        matches!(analysis.facts(*stype).motion, Motion::Chasing(_)) && chase(class) != Phrase::Follows
+    };
+    if movers.iter().any(by_steps) {
         lines.push(Phrase::ChaseStep.with(&[]));
     }
     if motions().any(|motion| matches!(motion, Motion::Fleeing(_))) {

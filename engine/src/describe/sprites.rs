@@ -39,6 +39,9 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let traits = &info.traits;
     let name = |stype: SpriteType| analysis.game().name(stype);
     let mut parts: Vec<String> = motion(analysis, stype).into_iter().collect();
+    if matches!(info.class, Some(SpriteClass::RandomAltChaser | SpriteClass::RandomPathAltChaser)) {
+        parts.push(Phrase::Strays.with(&[("chance", &percent(traits.epsilon))]));
+    }
     if let (Some(class), false) = (info.class, facts.makes.is_empty()) {
         let made: Vec<String> = facts.makes.iter().map(|&made| a(name(made))).collect();
         let word = if class == SpriteClass::SpawnPointMultiSprite { "and" } else { "or" };
@@ -97,9 +100,19 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
             None => Phrase::MovesAhead.with(&[("pace", &pace)]),
         },
         Motion::Wandering => Phrase::Wanders.with(&[("pace", &pace)]),
-        Motion::Chasing(target) => following(Phrase::Chases, target),
+        Motion::Chasing(target) => following(chase(info.class), target),
         Motion::Fleeing(target) => following(Phrase::Flees, target),
     })
+}
+
+/// The words for the way in which sprites of a class chase.
+pub(super) fn chase(class: Option<SpriteClass>) -> Phrase {
+    use SpriteClass as C;
+    match class {
+        Some(C::PathChaser | C::PathAltChaser | C::RandomPathAltChaser) => Phrase::Follows,
+        Some(C::LOSChaser) => Phrase::LooksOut,
+        _ => Phrase::Chases,
+    }
 }
 
 /// The distance within which a sprite chases or flees, if there is one.
@@ -127,9 +140,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.encounters().iter().any(turns)
 }
 
-/// The number of ticks from the tick in which a sprite appears to its update of that number; several, if it depends on
-/// how the sprite came.
-fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
+/// The answers to whether sprites of a type, when they are made in play, are updated in that tick already.
+pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (bool, bool) {
     let rules = &analysis.game().0;
     let order = |stype: SpriteType| rules.types[stype.index()].order;
     let makes = |maker: &SpriteType| {
@@ -152,7 +164,13 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     };
     // Levels seldom place what is made in play, even where a character stands for it.
     let later = makers.is_empty() || makers.contains(&false) || analysis.encounters().iter().any(by_rules);
-    match (makers.contains(&true), later) {
+    (makers.contains(&true), later)
+}
+
+/// The number of ticks from the tick in which a sprite appears to its update of that number; several, if it depends on
+/// how the sprite came.
+fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
+    match is_updated_at_once(analysis, stype) {
         (true, true) => format!("{} or {}", (updates - 1).max(0), count(updates, "tick")),
         (true, false) => count((updates - 1).max(0), "tick"),
         (false, _) => count(updates, "tick"),
@@ -170,7 +188,9 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
         probability => format!(", with a chance of {}", percent(probability)),
     };
     if class == SpriteClass::Spreader {
-        let (delay, chance) = (delay(analysis, stype, 2), chance(traits.spread_probability));
+        // A spreader spreads at age 2.
+        let delay = delay(analysis, stype, 2 - i64::from(traits.age));
+        let chance = chance(traits.spread_probability);
         return Phrase::Spreads.with(&[("made", made), ("delay", &delay), ("chance", &chance)]);
     }
     let period = if traits.cooldown == 1 { "tick".to_owned() } else { count(traits.cooldown.into(), "tick") };

@@ -13,6 +13,7 @@ use std::fmt::Write as _;
 /// - `sprites`: the types besides the avatar, which is a MovingAvatar unless it is among them. The level character of a type
 ///   is the first letter of its name; `A` is the avatar.
 /// - `rules`: the interactions.
+/// - `header`: more parameters of the first line.
 /// - `counters`: the number of counters, by default one.
 /// - `ends`: the terminations; by default, the game goes on.
 /// - `play`: level, keys (`u`, `d`, `l`, `r`, `s` for use, `.` for none) and the result, as [`shown`] writes it.
@@ -33,6 +34,7 @@ struct Row {
     sprites: &'static str,
     rules: &'static str,
     counters: &'static str,
+    header: &'static str,
     ends: &'static str,
     /// Levels, keys and results.
     plays: Vec<[&'static str; 3]>,
@@ -49,6 +51,7 @@ fn row(text: &'static str) -> Row {
             Some(("  says", says)) => row.says = says,
             Some(("  sprites", sprites)) => row.sprites = sprites,
             Some(("  rules", rules)) => row.rules = rules,
+            Some(("  header", header)) => row.header = header,
             Some(("  counters", counters)) => row.counters = counters,
             Some(("  ends", ends)) => row.ends = ends,
             Some(("  play", play)) => {
@@ -114,7 +117,8 @@ fn game(row: &Row) -> Result<Game, String> {
     let sprites: String = types.iter().map(|line| format!("    {line}\n")).collect();
     let ends = if row.ends.is_empty() { "Timeout limit=99 win=False" } else { row.ends };
     let source = format!(
-        "BasicGame square_size=10 no_counters={}\n  SpriteSet\n{sprites}  LevelMapping\n{mapping}  InteractionSet\n{}  TerminationSet\n{}",
+        "BasicGame square_size=10 {} no_counters={}\n  SpriteSet\n{sprites}  LevelMapping\n{mapping}  InteractionSet\n{}  TerminationSet\n{}",
+        row.header,
         if row.counters.is_empty() { "1" } else { row.counters },
         indented(row.rules),
         indented(ends),

@@ -89,7 +89,10 @@ static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
         (r"^Any (?P<one>\S+) means (?P<two>.+)$", Group),
         (r"^You win when (?:no (?P<one>.+) is left|at most \d+ (?P<two>.+) (?:is|are) left)$", Win),
         (r"^You lose when no (?P<one>.+) is left$", Lose),
-        (r"^the (?P<one>\S+) (?:moves (?:straight|up|left|down|right)|wanders|chases|flees).*$", Motion),
+        (
+            r"^the (?P<one>\S+) (?:moves (?:straight|up|left|down|right)|wanders|chases|flees|follows).*$",
+            Motion,
+        ),
     ];
     let others = others.map(|(pattern, subject)| (pattern.to_owned(), Some(subject)));
     let mut meetings = templates();
