@@ -1,5 +1,6 @@
 //! From sprite names to English: `seaGlass` is "sea glass", "a sea glass", "sea glasses".
 
+pub(crate) use engine::describe::plural;
 use itertools::Itertools;
 
 /// Replaces each capital by a space and the small letter.
@@ -12,24 +13,6 @@ pub(crate) fn spaced(name: &str) -> String {
         text.push(letter.to_ascii_lowercase());
     }
     text
-}
-
-pub(crate) fn plural(noun: &str) -> String {
-    let ends = |endings: &[&str]| endings.iter().any(|ending| noun.ends_with(ending));
-    if ends(&["fish"]) {
-        noun.to_owned()
-    } else if ends(&["ay", "ey", "oy", "uy"]) {
-        format!("{noun}s")
-    } else if let Some(stem) = noun.strip_suffix('y') {
-        format!("{stem}ies")
-    } else if ends(&["leaf", "sheaf", "loaf", "wolf", "shelf", "thief", "knife"]) {
-        let stem = noun.trim_end_matches('e').trim_end_matches('f');
-        format!("{stem}ves")
-    } else if ends(&["s", "x", "z", "ch", "sh"]) {
-        format!("{noun}es")
-    } else {
-        format!("{noun}s")
-    }
 }
 
 /// Adds the indefinite article.

@@ -375,8 +375,11 @@ fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {
         let name = word.trim_end_matches([',', '.']);
+        let rest = &word[name.len()..];
         if names.contains(&name) {
-            format!("{}{}", spaced(name), &word[name.len()..])
+            format!("{}{rest}", spaced(name))
+        } else if let Some(one) = names.iter().find(|one| plural(one) == name) {
+            format!("{}{rest}", plural(&spaced(one)))
         } else {
             word.to_owned()
         }
@@ -389,6 +392,15 @@ mod tests {
     use super::super::surface::checks;
     use super::*;
     use engine::syntax;
+
+    #[test]
+    fn goals_about_several_have_spaced_names() {
+        let game = game(
+            "BasicGame\n  SpriteSet\n    fairLamp > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    l > fairLamp\n  \
+             InteractionSet\n    fairLamp avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=fairLamp limit=2 win=True\n",
+        );
+        assert_eq!(goal(&Analysis::of(&game)), "You win when at most 2 fair lamps are left.");
+    }
 
     fn seed() -> Seed {
         Seed::from_text("retold")
