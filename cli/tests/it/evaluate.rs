@@ -304,10 +304,10 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     // A Timeout of the game bounds the steps, whatever --max-steps says.
     let unbounded =
         ["--json", "evaluate", "hailglass", "--levels", "0", "--model", "openai:gpt-4o", "--dry-run"];
-    assert_eq!(json(&run(home.path(), &unbounded, 0))["requests"], 400);
+    assert_eq!(json(&run(home.path(), &unbounded, 0))["requests"], 401);
     let unpaid = ["--json", "evaluate", "hailglass", "--levels", "0,1", "--player", "random", "--dry-run"];
     let forecast = json(&run(home.path(), &unpaid, 0));
-    assert_eq!((&forecast["max_steps"], &forecast["steps"]), (&400.into(), &800.into()));
+    assert_eq!((&forecast["max_steps"], &forecast["steps"]), (&401.into(), &802.into()));
     assert!(server.received().is_empty() && !home.path().join("results").exists());
 }
 

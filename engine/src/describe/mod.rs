@@ -38,7 +38,7 @@ pub struct Guide {
     pub groups: Vec<String>,
     /// The effects that run by the clock, a line each.
     pub timed_effects: Vec<String>,
-    /// The interactions, a line each, in file order.
+    /// The interactions, a line each, in order of execution: those with the edge first.
     pub meetings: Vec<String>,
     /// The sprites that each level character places, by character.
     pub legend: Vec<String>,

@@ -15,7 +15,13 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
         .filter(|&stype| !matches!(analysis.facts(stype).motion, Motion::Still | Motion::Steered))
         .collect();
     let traits = |stype: SpriteType| &analysis.game().0.types[stype.index()].traits;
-    let first = if movers.is_empty() { Phrase::YouThenContacts } else { Phrase::YouThenOthers };
+    let acts = |stype: SpriteType| {
+        let facts = analysis.facts(stype);
+        facts.motion != Motion::Steered
+            && (facts.motion != Motion::Still || facts.fleeting || !facts.makes.is_empty())
+    };
+    let others = possible(analysis).any(acts);
+    let first = if others { Phrase::YouThenOthers } else { Phrase::YouThenContacts };
     let lines = [first, Phrase::Touch];
     let mut lines: Vec<String> = lines.into_iter().map(|phrase| phrase.with(&[])).collect();
     let paced: Vec<SpriteType> = movers.iter().copied().filter(|&stype| traits(stype).cooldown > 1).collect();
@@ -42,6 +48,9 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     if possible(analysis).any(|stype| glides(&stype)) {
         lines.push(Phrase::Glide.with(&[]));
     }
+    if analysis.has_timed_effects() {
+        lines.push(Phrase::Clock.with(&[]));
+    }
     if blocking_matters(analysis) {
         lines.push(Phrase::PutBack.with(&[]));
     }
@@ -50,8 +59,14 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
         let reopened = if reopened { Phrase::Reopened.text() } else { "" };
         lines.push(Phrase::Lingers.with(&[("reopened", reopened)]));
     }
-    if analysis.game().0.effects.iter().any(|info| info.summary.gives.is_some_and(gives_more)) {
+    let gives = |what: fn(Gives) -> bool| {
+        analysis.game().0.effects.iter().any(|info| info.summary.gives.is_some_and(what))
+    };
+    if gives(|gives| matches!(gives, Gives::First { .. })) {
         lines.push(Phrase::AtLimit.with(&[]));
+    }
+    if gives(|gives| matches!(gives, Gives::Amount { value, .. } if value > 0)) {
+        lines.push(Phrase::TooMuch.with(&[]));
     }
     lines.extend(pursuit(analysis, &movers));
     lines.extend(tie(analysis));
@@ -60,13 +75,6 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
 
 fn possible(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
     analysis.game().sprite_types().filter(|&stype| analysis.facts(stype).possible)
-}
-
-fn gives_more(gives: Gives) -> bool {
-    match gives {
-        Gives::First { .. } => true,
-        Gives::Amount { value, .. } => value > 0,
-    }
 }
 
 fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {

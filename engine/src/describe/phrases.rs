@@ -22,17 +22,19 @@ macro_rules! phrases {
 
 phrases! {
     // The course of a tick.
-    YouThenOthers: "Each tick you act, then the others move, then contacts count, in the order of the lines below.",
+    YouThenOthers: "Each tick you act, then the others act, then contacts count, in the order of the lines below.",
     YouThenContacts: "Each tick you act, then contacts count, in the order of the lines below.",
-    Touch: "Sprites touch if they overlap after the moves: swapping places is no touch. Pairs that no line names do nothing.",
-    Period: "Every N ticks means N, 2N, 3N ticks after it appeared{sooner}; a blocked move is lost.",
+    Touch: "Sprites touch in each tick in which they overlap after the moves; swapping places is no touch. Pairs that no line names do nothing.",
+    Period: "What moves every N ticks does so N, 2N, 3N ticks after it appeared{sooner}; a blocked move is lost.",
     Sooner: ", a tick sooner for the {names}",
     Rest: "What moves straight on rests in its first tick.",
     Glide: "What lies in two cells between steps touches what is in either.",
+    Clock: "What is due by the clock happens before contacts.",
     PutBack: "What a line puts back has touched for the lines above it, but not for those below.",
     Lingers: "What disappears still blocks and touches others in that tick{reopened}.",
     Reopened: ": what you open lets you in at the next press",
     AtLimit: "At the limit of what can be held, more stays where it is and brings no points.",
+    TooMuch: "A gain beyond the limit of what can be held does not happen, not even in part.",
     ChaseStep: "Chasers take a step nearer, not around obstacles, at random if several are.",
     FleeStep: "Fleeing ones take a step further away, sideways too, at random if several are.",
     NoTarget: "With none to chase or flee{near}, the step is in a random direction.",
@@ -55,6 +57,7 @@ phrases! {
     // Making others.
     Makes: "makes {made} every {period}{from}{chance}{total}",
     From: ", first in tick 1",
+    Soon: ", first within {period}",
     Total: ", {total} in all, and then disappears",
     Spreads: "spreads {made} to each side once, {delay} after it appears{chance}",
     // Other properties.
@@ -62,7 +65,7 @@ phrases! {
     Held: "can be held, up to {limit}{each}",
     Each: ", {value} each",
     Vanishes: "vanishes {ticks} after it appears",
-    Health: "has {points}",
+    Health: "has {points}{most}",
     Single: "only one exists at a time: no other is made until it is gone",
     SingleOnly: "exists only once at a time: no other is made until it is gone",
     Hidden: "cannot be seen",
@@ -75,7 +78,8 @@ phrases! {
     KeyShoots: "the {key} key shoots {made}",
     Costs: " and costs {costs}",
     CostsMore: " and costs {costs}, if you hold more than {least}",
-    HasHealth: "; you start with {points}",
+    HasHealth: "; you start with {points}{most}",
+    Most: ", and the limit is {limit}",
     // Groups and times.
     Group: "Any {name} means {members}.",
     Every: "every {period} from tick {first} on, {planned}",

@@ -7,17 +7,12 @@ use crate::analysis::{Analysis, Condition, Encounter, Goal, Motion};
 use crate::rules::terminations::Decision;
 use crate::rules::{Counting, SpriteType, Timed};
 
-/// One sentence for each interaction line, in order of execution; partners of one line together.
+/// One sentence for each interaction line, in order of execution; partners of one line together. A line that runs in
+/// several places, because one of its pairs has been named before, has a sentence for each.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
-    let mut lines: Vec<(usize, Vec<&Encounter>)> = Vec::new();
-    for encounter in analysis.encounters() {
-        match lines.iter_mut().find(|(line, _)| *line == encounter.line) {
-            Some((_, all)) => all.push(encounter),
-            None => lines.push((encounter.line, vec![encounter])),
-        }
-    }
-    lines.sort_by_key(|(line, _)| *line);
-    lines.iter().filter_map(|(line, encounters)| meeting(analysis, *line, encounters)).collect()
+    let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
+    let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
+    parts.filter_map(|(line, encounters)| meeting(analysis, line, &encounters)).collect()
 }
 
 fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Option<String> {

@@ -63,7 +63,8 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     }
     if traits.health != 0 {
         let points = count(i64::from(traits.health), "health point");
-        parts.push(Phrase::Health.with(&[("points", &points)]));
+        let most = most_health(analysis, traits);
+        parts.push(Phrase::Health.with(&[("points", &points), ("most", &most)]));
     }
     if facts.singleton {
         let phrase = if parts.is_empty() { Phrase::SingleOnly } else { Phrase::Single };
@@ -177,6 +178,14 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     }
 }
 
+/// The limit of health points, in games where they can be gained.
+fn most_health(analysis: &Analysis, traits: &Traits) -> String {
+    let gains = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by > 0);
+    let gained = analysis.encounters().iter().any(|encounter| encounter.does(gains));
+    let limit = traits.limit_health.to_string();
+    if gained { Phrase::Most.with(&[("limit", &limit)]) } else { String::new() }
+}
+
 fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))])
 }
@@ -195,8 +204,14 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
     }
     let period = if traits.cooldown == 1 { "tick".to_owned() } else { count(traits.cooldown.into(), "tick") };
     // Those of a level count from their first update.
-    let placed = !analysis.facts(stype).symbols.is_empty() && traits.cooldown > 1;
-    let from = if placed { Phrase::From.with(&[]) } else { String::new() };
+    let from = if traits.cooldown < 2 {
+        String::new()
+    } else if analysis.facts(stype).symbols.is_empty() {
+        // In play, the first time depends on the tick in which it appeared, too.
+        Phrase::Soon.with(&[("period", &period)])
+    } else {
+        Phrase::From.with(&[])
+    };
     let total = match traits.total {
         total if total > 0 => Phrase::Total.with(&[("total", &total.to_string())]),
         _ => String::new(),
@@ -273,7 +288,8 @@ fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
     };
     if info.traits.health != 0 {
         let points = count(i64::from(info.traits.health), "health point");
-        text += &Phrase::HasHealth.with(&[("points", &points)]);
+        let most = most_health(analysis, &info.traits);
+        text += &Phrase::HasHealth.with(&[("points", &points), ("most", &most)]);
     }
     text + "."
 }

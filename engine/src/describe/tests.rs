@@ -57,9 +57,9 @@ How you lose:
   You lose when tick 601 is reached.
 
 How a tick goes:
-  Each tick you act, then the others move, then contacts count, in the order of the lines below.
-  Sprites touch if they overlap after the moves: swapping places is no touch. Pairs that no line names do nothing.
-  Every N ticks means N, 2N, 3N ticks after it appeared; a blocked move is lost.
+  Each tick you act, then the others act, then contacts count, in the order of the lines below.
+  Sprites touch in each tick in which they overlap after the moves; swapping places is no touch. Pairs that no line names do nothing.
+  What moves every N ticks does so N, 2N, 3N ticks after it appeared; a blocked move is lost.
   What lies in two cells between steps touches what is in either.
   What disappears still blocks and touches others in that tick.
   At the limit of what can be held, more stays where it is and brings no points.
@@ -81,6 +81,7 @@ Words for several:
   Any pest means the slug or snail.
 
 What happens when sprites meet:
+  The stone or wasp disappears on touching the edge of the board.
   You cannot enter the wall or pond.
   You collect the pear. You gain 1 point.
   The gate disappears on touching you if you hold at least 3 pears, which costs 3 pears. If it disappears, you gain 5 points.
@@ -89,7 +90,6 @@ What happens when sprites meet:
   Any pest turns into a pear on touching the net.
   You push the cart.
   The cart and the pond both disappear when they touch.
-  The stone or wasp disappears on touching the edge of the board.
 
 What the level's characters stand for:
   A  picker
@@ -145,10 +145,10 @@ fn several_avatars_are_distinguished() {
     assert_eq!(
         guide.meetings,
         [
+            "You cannot enter the edge of the board.",
             "You as bare turn into an armed on touching the key, and the key disappears.",
             "You as bare cannot enter the door.",
             "The door disappears on touching you as armed.",
-            "You cannot enter the edge of the board.",
         ]
     );
     assert_eq!(guide.losing, Vec::<String>::new());
@@ -189,4 +189,22 @@ fn levels_with_goals_out_of_reach() {
     let won = "You win when no gate, slug or snail is left, but here nothing can ever end the gate in column 4, row 2, \
                the gate in column 5, row 2, the gate in column 6, row 2 and 1 more.";
     check("wwwwwwwww\nwA ggggpw\nwwwwwwwww\n", &["You can get to 7 of its 27 cells, at most.", lost, won]);
+}
+
+/// A pair runs where it is named first, and so it is told there.
+#[test]
+fn lines_are_in_the_order_in_which_they_count() {
+    let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    nut > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > \
+                  gem\n    n > nut\n  InteractionSet\n    gem avatar > transformTo stype=nut\n    nut avatar > killSprite\n    \
+                  gem nut avatar > spawn stype=gem\n  TerminationSet\n    Timeout limit=9 win=True\n";
+    let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
+    assert_eq!(
+        guide.meetings,
+        [
+            "The gem turns into a nut on touching you.",
+            "When the gem touches you, a gem appears there.",
+            "The nut disappears on touching you.",
+            "When the gem touches the nut, a gem appears there.",
+        ]
+    );
 }

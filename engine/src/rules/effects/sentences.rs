@@ -337,7 +337,7 @@ impl Effect {
                 "when {one} {one:touch|touches} {two}, {made} appears there if there are {limit} {counted} of the right kinds, \
                  else {other}",
             )
-            .scored("if there are, ")
+            .scored("if so, ")
             .with("made", Value::A(stype))
             .with("limit", Value::Number(limit.into()))
             .with("counted", Value::Many(counted, limit.into()))
@@ -372,6 +372,7 @@ impl Effect {
                 let TransformIfCount { stype, counted, at_least, at_most, otherwise, .. } = **rule;
                 let many = match (at_least, at_most) {
                     (least, 10_000) => (format!("at least {least}"), least),
+                    (0, 0) => ("no".to_owned(), 0),
                     (0, most) => (format!("at most {most}"), most),
                     (least, most) if least == most => (format!("exactly {least}"), least),
                     (least, most) => (format!("{least} to {most}"), most),
@@ -384,7 +385,7 @@ impl Effect {
                 .with("many", Value::Text(many))
                 .with("counted", Value::Many(counted, number.into()))
                 .part("otherwise", otherwise.is_some(), ", and otherwise into {other}")
-                .scored("if there are, ");
+                .scored("if so, ");
                 match otherwise {
                     Some(other) => sentence.with("other", Value::A(other)),
                     None => sentence,

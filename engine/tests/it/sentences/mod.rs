@@ -13,6 +13,7 @@ use std::fmt::Write as _;
 /// - `sprites`: the types besides the avatar, which is a MovingAvatar unless it is among them. The level character of a type
 ///   is the first letter of its name; `A` is the avatar.
 /// - `rules`: the interactions.
+/// - `only`: the types besides the avatar that levels can place, by default all.
 /// - `header`: more parameters of the first line.
 /// - `counters`: the number of counters, by default one.
 /// - `ends`: the terminations; by default, the game goes on.
@@ -35,6 +36,7 @@ struct Row {
     rules: &'static str,
     counters: &'static str,
     header: &'static str,
+    only: &'static str,
     ends: &'static str,
     /// Levels, keys and results.
     plays: Vec<[&'static str; 3]>,
@@ -51,6 +53,7 @@ fn row(text: &'static str) -> Row {
             Some(("  says", says)) => row.says = says,
             Some(("  sprites", sprites)) => row.sprites = sprites,
             Some(("  rules", rules)) => row.rules = rules,
+            Some(("  only", only)) => row.only = only,
             Some(("  header", header)) => row.header = header,
             Some(("  counters", counters)) => row.counters = counters,
             Some(("  ends", ends)) => row.ends = ends,
@@ -103,12 +106,13 @@ fn game(row: &Row) -> Result<Game, String> {
         types.push("avatar > MovingAvatar");
     }
     let mut mapping = String::new();
+    let mapped = |name: &str| row.only.is_empty() || row.only.split(' ').any(|only| only == name);
     for line in &types {
         let (name, class) = line.trim().split_once('>').unwrap_or((line, ""));
         let name = name.trim();
         if class.contains("Avatar") && !mapping.contains("A > ") {
             _ = writeln!(mapping, "    A > {name}");
-        } else if !class.trim().is_empty() {
+        } else if !class.trim().is_empty() && mapped(name) {
             _ = writeln!(mapping, "    {} > {name}", &name[..1]);
         }
     }
