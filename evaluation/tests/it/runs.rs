@@ -255,9 +255,9 @@ impl Progress for Stopping {
     }
 }
 
-/// Episodes that are being played elsewhere are told of a stop.
+/// A stop reaches episodes that wait elsewhere.
 #[test]
-fn a_stop_is_told() {
+fn a_stop_reaches_waiting_episodes() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![corridor()]);
     let evaluation = Evaluation::create(home.path(), settings(&subjects), subjects).unwrap();
     let progress = Stopping::default();
