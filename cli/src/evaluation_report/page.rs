@@ -26,7 +26,7 @@ struct Page<'a> {
     headlines: Vec<Fact>,
     /// The results in a paragraph.
     lead: Option<&'a String>,
-    /// How each player failed.
+    /// The failures of each player, in a sentence each.
     fails: &'a [String],
     counted: &'a [String],
     warnings: &'a [String],

@@ -96,18 +96,32 @@ impl GoalDistance {
 impl Ending {
     /// Returns the cause in words: `died of touching dragonfly`.
     pub fn words(&self) -> String {
-        let sprite = self.sprite.as_deref().unwrap_or("a sprite");
+        let particulars = self.particulars().unwrap_or_default();
+        match self.kind {
+            EndingKind::Died => format!("died {particulars}").trim_end().to_owned(),
+            EndingKind::Lost => format!("lost {particulars}"),
+            EndingKind::Appeared => format!("lost when {particulars} appeared"),
+            EndingKind::OutOfTime => "ran out of time".to_owned(),
+            EndingKind::Otherwise => "lost by the rules".to_owned(),
+            EndingKind::StepLimit => "reached the limit of steps".to_owned(),
+            EndingKind::NoWinner => "ended without a winner".to_owned(),
+        }
+    }
+
+    /// Returns the sprites of the cause in words, to follow its kind: `of touching dragonfly`, `flower to arrow`, `weed`. `None` if
+    /// they are not known, or if the kind is about no sprite.
+    pub fn particulars(&self) -> Option<String> {
+        let sprite = || self.sprite.as_deref().unwrap_or("a sprite");
         match (self.kind, &self.by) {
-            (EndingKind::Died, Some(by)) if by == EDGE => "died at the edge of the screen".to_owned(),
-            (EndingKind::Died, Some(by)) => format!("died of touching {by}"),
-            (EndingKind::Died, None) => "died".to_owned(),
-            (EndingKind::Lost, Some(by)) => format!("lost {sprite} to {by}"),
-            (EndingKind::Lost, None) => format!("lost {sprite}"),
-            (EndingKind::Appeared, _) => format!("lost when {sprite} appeared"),
-            (EndingKind::OutOfTime, _) => "ran out of time".to_owned(),
-            (EndingKind::Otherwise, _) => "lost by the rules".to_owned(),
-            (EndingKind::StepLimit, _) => "reached the limit of steps".to_owned(),
-            (EndingKind::NoWinner, _) => "ended without a winner".to_owned(),
+            (EndingKind::Died, Some(by)) if by == EDGE => Some("at the edge of the screen".to_owned()),
+            (EndingKind::Died, Some(by)) => Some(format!("of touching {by}")),
+            (EndingKind::Lost, Some(by)) => Some(format!("{} to {by}", sprite())),
+            (EndingKind::Lost, None) | (EndingKind::Appeared, _) => Some(sprite().to_owned()),
+            (EndingKind::Died, None)
+            | (
+                EndingKind::OutOfTime | EndingKind::Otherwise | EndingKind::StepLimit | EndingKind::NoWinner,
+                _,
+            ) => None,
         }
     }
 

@@ -19,6 +19,8 @@ pub struct EndingRow {
     pub kind: EndingKind,
     /// The cause in words: `died of touching dragonfly`.
     pub cause: String,
+    /// The sprites of the cause in words, if it has any: `of touching dragonfly`.
+    pub particulars: Option<String>,
     /// The line of the game that caused it, as written.
     pub rule: Option<String>,
     /// The number of episodes.
@@ -64,6 +66,7 @@ fn of_player(study: &Study, player: usize) -> Vec<EndingRow> {
             game,
             kind,
             cause,
+            particulars: ending.particulars(),
             rule,
             episodes: 0,
             levels: BTreeSet::new(),

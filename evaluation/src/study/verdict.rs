@@ -46,7 +46,15 @@ impl Study {
             };
             self.leaderboard.iter().filter(is_other)
         };
-        let is_first = |other: &LeaderRow| other.scores.win_rate.is_none_or(|other| other.value < rate.value);
+        // A higher rate may be that of easier levels: on those that both played, the other may be ahead.
+        let is_ahead = |other: &LeaderRow| {
+            let found =
+                self.comparison(row, other).and_then(|(sign, found)| Some(sign * found.over_games?.value));
+            found.is_some_and(|gap| gap < 0.0)
+        };
+        let is_first = |other: &LeaderRow| {
+            other.scores.win_rate.is_none_or(|other| other.value < rate.value) && !is_ahead(other)
+        };
         let won = match wins {
             0 => "won nothing",
             _ if others(false).count() > 0 && others(false).all(is_first) => "won most",
@@ -58,20 +66,25 @@ impl Study {
         format!("{label} {won}: {value} % ({wins} of {episodes} episodes); {about}, {low} to {high} %.")
     }
 
+    /// Returns the comparison of two players, with the sign that makes its differences those of the first.
+    fn comparison(&self, one: &LeaderRow, other: &LeaderRow) -> Option<(f64, &OverallComparison)> {
+        let all = [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);
+        all.filter_map(|found| match found.players {
+            players if players == [one.player, other.player] => Some((1.0, found)),
+            players if players == [other.player, one.player] => Some((-1.0, found)),
+            _ => None,
+        })
+        .next()
+    }
+
     fn against(&self, best: &LeaderRow, next: &LeaderRow) -> Option<String> {
-        let is_it = |found: &&OverallComparison| {
-            found.players == [best.player, next.player] || found.players == [next.player, best.player]
-        };
-        let mut all =
-            [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);
-        let found = all.find(is_it)?;
+        let (sign, found) = self.comparison(best, next)?;
         let [ours, theirs] = [best, next].map(|row| self.players[row.player].label());
         let Some((estimate, p)) = found.over_games.zip(found.p) else {
             return Some(format!(
                 "One game says nothing about whether {ours} is better than {theirs} in others."
             ));
         };
-        let sign = if found.players[0] == best.player { 1.0 } else { -1.0 };
         let mut ends = [sign * estimate.low, sign * estimate.high];
         ends.sort_unstable_by(f64::total_cmp);
         let points = |share: f64| format!("{:+.0}", 100.0 * share).replace('-', "−");
@@ -135,20 +148,13 @@ impl Study {
                 EndingKind::StepLimit => "reached the limit of steps",
                 EndingKind::NoWinner => "ended without a winner",
             };
-            let most = causes().find(|row| row.kind == *kind && row.rule.is_some());
-            let by_rules = matches!(kind, EndingKind::Died | EndingKind::Lost | EndingKind::Appeared);
-            let most = most.filter(|_| by_rules).map_or(String::new(), |row| {
+            let most = causes().filter(|row| row.kind == *kind).find_map(|row| {
                 let times =
                     if row.episodes == 1 { "once".to_owned() } else { format!("{} times", row.episodes) };
-                {
-                    let beginnings = ["died ", "lost when ", "lost "];
-                    let cause = beginnings.iter().find_map(|start| row.cause.strip_prefix(start));
-                    let cause = cause.unwrap_or(&row.cause);
-                    let cause = cause.strip_suffix(" appeared").unwrap_or(cause);
-                    format!(" (most often {cause} in {}, {times})", self.title(row.game))
-                }
+                let particulars = row.particulars.as_ref()?;
+                Some(format!(" (most often {particulars} in {}, {times})", self.title(row.game)))
             });
-            format!("{count} {how}{most}")
+            format!("{count} {how}{}", most.unwrap_or_default())
         };
         let how = kinds.map(told).join(", ");
         let near =

@@ -166,4 +166,14 @@ fn the_best_is_called_best_only_if_it_is() {
     assert!(first(2, 1).starts_with("m (zero-shot) won most: 50 %"), "{}", first(2, 1));
     assert!(first(1, 2).starts_with("m (zero-shot) won: 25 %"), "{}", first(1, 2));
     assert!(first(0, 2).starts_with("m (zero-shot) won nothing: 0 %"), "{}", first(0, 2));
+    // The higher rate is of one easy level more: on those that both played, the baseline won more.
+    let on = |wins: &[(&str, bool)]| {
+        let outcome = |won: bool| if won { Won } else { Lost };
+        wins.iter().map(|&(game, won)| episode(game, 0, 0, outcome(won), 0.0, 9)).collect::<Vec<_>>()
+    };
+    let ours = on(&[("f", true), ("g", true), ("h", false), ("i", true)]);
+    let baseline = on(&[("g", true), ("h", true), ("j", false), ("k", false)]);
+    let results = vec![(Player::model("m", "zero-shot"), ours), (Player::reference("b"), baseline)];
+    let lead = Study::new(results, Vec::new()).verdict().swap_remove(0);
+    assert!(lead.starts_with("m (zero-shot) won: 75 %"), "{lead}");
 }
