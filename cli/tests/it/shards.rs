@@ -1,18 +1,13 @@
 //! A release made in slices, interrupted and resumed: the same bytes.
 
-use crate::arcade::{arcade, files, run, sweeping, text};
+use crate::arcade::{SLICES, SLICES_RECIPE, arcade, copy_of_slices, files, run, sweeping, text};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// Four jobs, each within a second; with this seed few candidates fail.
-const RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'pieces'\n[generated]\ngames = 1\nlevels = 1\n\
-    candidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 100\nbudget = 80000\n\
-    depths = [10, 25]\nrandom_plays = 10\n";
-
 fn recipe(folder: &Path) {
-    fs::write(folder.join("slices.toml"), RECIPE).unwrap();
+    fs::write(folder.join("slices.toml"), SLICES_RECIPE).unwrap();
 }
 
 #[test]
@@ -20,21 +15,18 @@ fn the_number_of_threads_changes_no_byte() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     recipe(folder);
-    for jobs in ["1", "3"] {
+    let minted = files(&SLICES.path().join("slices"));
+    for jobs in if sweeping() { &["1", "3"][..] } else { &["1"] } {
         run(folder, &["release", "slices.toml", "--jobs", jobs, "--out", jobs], 0);
+        assert_eq!(files(&folder.join(jobs)), minted, "{jobs} and 2 threads");
     }
-    assert_eq!(files(&folder.join("1")), files(&folder.join("3")));
 }
 
 #[test]
 fn shards_in_any_order_give_the_bytes_of_one_process() {
-    let home = tempfile::tempdir().unwrap();
+    let (home, whole) = copy_of_slices();
     let folder = home.path();
     recipe(folder);
-    let output = run(folder, &["release", "slices.toml", "--out", "the whole"], 0);
-    // The proposed command can be pasted into a shell.
-    assert!(text(&output.stdout).contains("arcade verify 'the whole'"), "{}", text(&output.stdout));
-    fs::rename(folder.join("the whole"), folder.join("whole")).unwrap();
     for shard in ["3/3", "1/3", "2/3"] {
         run(
             folder,
@@ -42,8 +34,11 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
             0,
         );
     }
-    run(folder, &["merge", "shard2", "shard3", "shard1", "--out", "merged"], 0);
-    assert_eq!(files(&folder.join("whole")), files(&folder.join("merged")));
+    let output = run(folder, &["merge", "shard2", "shard3", "shard1", "--out", "all merged"], 0);
+    // The proposed command can be pasted into a shell.
+    assert!(text(&output.stdout).contains("arcade verify 'all merged'"), "{}", text(&output.stdout));
+    fs::rename(folder.join("all merged"), folder.join("merged")).unwrap();
+    assert_eq!(files(&whole), files(&folder.join("merged")));
     run(folder, &["regenerate", "merged"], 0);
 
     let said = |arguments: &[&str]| text(&run(folder, arguments, 2).stderr);
@@ -52,10 +47,10 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
         said(&["merge", "shard1", "shard2", "shard3", "shard1", "--out", "x"])
             .contains("they are the same shard")
     );
-    assert!(said(&["merge", "whole", "--out", "x"]).contains("not a shard"));
+    assert!(said(&["merge", "slices", "--out", "x"]).contains("not a shard"));
     assert!(said(&["release", "slices.toml", "--shard", "4/3", "--out", "x"]).contains("K from 1 to N"));
     assert!(said(&["release", "slices.toml", "--shard", "1/3"]).contains("--shard needs --out"));
-    fs::write(folder.join("other.toml"), RECIPE.replace("'slices'", "'others'")).unwrap();
+    fs::write(folder.join("other.toml"), SLICES_RECIPE.replace("'slices'", "'others'")).unwrap();
     run(folder, &["release", "other.toml", "--shard", "2/3", "--out", "other2"], 0);
     assert!(said(&["merge", "shard1", "other2", "shard3", "--out", "x"]).contains("different recipes"));
 
@@ -79,7 +74,7 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(clean(&["--shards"]).contains("3 of 3 removed"));
     let is_there = |name: &str| folder.join(name).exists();
     assert!(!is_there("shard1") && !is_there("shard3") && !is_there("other2"));
-    assert!(is_there("shard2/SHARD.json") && is_there("whole") && is_there("merged"));
+    assert!(is_there("shard2/SHARD.json") && is_there("slices") && is_there("merged"));
 }
 
 /// Interrupts a mint into the folder `out`, kills it repeatedly, and resumes it; finished work is kept unless its
@@ -148,14 +143,13 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
 #[cfg(unix)]
 #[test]
 fn killed_mints_resume() {
-    let home = tempfile::tempdir().unwrap();
+    let (home, whole) = copy_of_slices();
     let folder = home.path();
     recipe(folder);
-    run(folder, &["release", "slices.toml", "--out", "alone"], 0);
-    let mints = [["release", "slices.toml"], ["regenerate", "alone"]];
+    let mints = [["release", "slices.toml"], ["regenerate", "slices"]];
     for mint in mints.into_iter().take(if sweeping() { 2 } else { 1 }) {
         kill_and_resume(folder, &mint);
-        assert_eq!(files(&folder.join("out")), files(&folder.join("alone")));
+        assert_eq!(files(&folder.join("out")), files(&whole));
         fs::remove_dir_all(folder.join("out")).unwrap();
     }
 }
@@ -193,7 +187,7 @@ fn full_disks_report_how_to_continue() {
 
 /// Writes a recipe that asks for more games of a kind than its candidates have.
 fn greedy(folder: &Path) {
-    let greedy = format!("{RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
+    let greedy = format!("{SLICES_RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
     fs::write(folder.join("slices.toml"), greedy).unwrap();
 }
 

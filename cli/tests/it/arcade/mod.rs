@@ -14,11 +14,33 @@ pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-/// Returns a copy of the shared mint, to tamper with.
-pub(crate) fn copy_of_tiny() -> (TempDir, PathBuf) {
+/// A recipe of four jobs, each within a second; with this seed few candidates fail.
+pub(crate) const SLICES_RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'pieces'\n[generated]\ngames = 1\n\
+    levels = 1\ncandidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 100\n\
+    budget = 80000\ndepths = [10, 25]\nrandom_plays = 10\n";
+
+/// A folder with one undisturbed mint of [`SLICES_RECIPE`] in `slices`, shared like [`TINY`].
+pub(crate) static SLICES: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
-    let root = folder.path().join("tiny");
-    copy_tree(&TINY.path().join("tiny"), &root);
+    fs::write(folder.path().join("slices.toml"), SLICES_RECIPE).unwrap();
+    run(folder.path(), &["release", "slices.toml", "--out", "slices", "--jobs", "2"], 0);
+    folder
+});
+
+/// Returns a copy of the shared mint of `tiny`, to tamper with.
+pub(crate) fn copy_of_tiny() -> (TempDir, PathBuf) {
+    copy_of(&TINY, "tiny")
+}
+
+/// Returns a copy of the shared mint of [`SLICES_RECIPE`].
+pub(crate) fn copy_of_slices() -> (TempDir, PathBuf) {
+    copy_of(&SLICES, "slices")
+}
+
+fn copy_of(minted: &TempDir, name: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join(name);
+    copy_tree(&minted.path().join(name), &root);
     (folder, root)
 }
 
