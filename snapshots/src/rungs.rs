@@ -1,20 +1,16 @@
 //! The win rates of the ladder's players over a whole release, and their differences between two releases.
 //!
 //! A level counts with the share of its plays that were won, and all levels have the same weight. Levels of one game
-//! are alike, so the intervals are clustered: whole games are resampled ([`statistics::clustered_mean`]). If all games
-//! have the same rate, resampling is uninformative, and Wilson's interval with one trial per game is used instead. The
-//! interval of a difference is combined from those of its two sides (G. Y. Zou and A. Donner, "Construction of
-//! confidence limits about effect measures: a general approach", 2008), as if the games of the two were independent
-//! samples. With fewer than about ten games, intervals are too narrow. The results are bit-identical on every machine.
+//! are alike, so games are the sampling unit of the intervals ([`statistics::share_over_games`]). The interval of a
+//! difference is combined from those of its two sides (G. Y. Zou and A. Donner, "Construction of confidence limits
+//! about effect measures: a general approach", 2008), as if the games of the two were independent samples. The results
+//! are bit-identical on every machine.
 
-use engine::Seed;
 use forge::card::Card;
 use serde::{Deserialize, Serialize};
-use statistics::{Interval, Z95, clustered_mean, wilson};
+use statistics::{Interval, Z95, share_over_games};
 use validators::PlayerResult;
 
-/// The number of resamples for an interval.
-const RESAMPLES: usize = 4000;
 /// The difference, in standard errors, that a two-sided test at the 5 % level detects with 80 % power: the sum of the
 /// normal quantiles of 0.975 and 0.8.
 const DETECTABLE_ERRORS: f64 = Z95 + 0.8416212335729143;
@@ -59,19 +55,15 @@ impl RungRate {
 
     fn of(first: &PlayerResult, held_out: bool, games: &[Vec<&PlayerResult>]) -> RungRate {
         let share = |result: &&PlayerResult| result.rate.wins as f64 / result.rate.plays as f64;
-        let shares: Vec<Vec<f64>> = games.iter().map(|levels| levels.iter().map(share).collect()).collect();
+        let sum = |levels: &Vec<&PlayerResult>| (levels.iter().map(share).sum::<f64>(), levels.len() as f64);
+        let sums: Vec<(f64, f64)> = games.iter().map(sum).collect();
         let all = || games.iter().flatten();
         let levels = all().count() as u64;
-        let mean = (shares.iter().flatten().sum::<f64>() / levels as f64).clamp(0.0, 1.0);
-        let error = error(&shares, mean);
-        let interval = match error {
-            Some(_) => {
-                let seed = Seed::from_text("rungs").child(&first.player, 0);
-                clustered_mean(&shares, RESAMPLES, 0.95, *seed.as_bytes())
-                    .expect("there are levels, and their rates are numbers")
-            }
-            None => uniform_interval(mean, games.len() as u64),
-        };
+        let won: f64 = sums.iter().map(|game| game.0).sum();
+        let mean = (won / levels as f64).clamp(0.0, 1.0);
+        // Of a single game, nothing is known about games like it.
+        let found = share_over_games(&sums, 0.95);
+        let interval = found.map_or(Interval { low: 0.0, high: 1.0 }, |found| found.interval);
         RungRate {
             player: first.player.clone(),
             looks_ahead: first.looks_ahead,
@@ -82,35 +74,13 @@ impl RungRate {
             wins: all().map(|result| result.rate.wins).sum(),
             mean,
             interval: [interval.low.clamp(0.0, mean), interval.high.clamp(mean, 1.0)],
-            error,
+            error: found.and_then(|found| found.error),
         }
     }
 }
 
-/// The standard error of a mean over levels, with games as the sampling unit: that of a ratio of sums over games (W.
-/// G. Cochran, *Sampling Techniques*, 1977, §6.4).
-fn error(games: &[Vec<f64>], mean: f64) -> Option<f64> {
-    let own = |levels: &Vec<f64>| levels.iter().sum::<f64>() / levels.len() as f64;
-    let first = own(games.first()?);
-    if games.iter().all(|levels| (own(levels) - first).abs() < 1e-9) {
-        return None;
-    }
-    let residue = |levels: &Vec<f64>| levels.iter().sum::<f64>() - mean * levels.len() as f64;
-    let squares: f64 = games.iter().map(residue).map(|residue| residue * residue).sum();
-    let (count, levels) = (games.len() as f64, games.iter().map(Vec::len).sum::<usize>() as f64);
-    Some((count / (count - 1.0) * squares).sqrt() / levels)
-}
-
-/// The interval for games that all have the same rate: Wilson's, with one trial per game, rounded outwards.
-fn uniform_interval(rate: f64, games: u64) -> Interval {
-    let won = rate * games as f64;
-    let (few, many) = (wilson(won.floor() as u64, games, Z95), wilson(won.ceil() as u64, games, Z95));
-    Interval { low: few.low, high: many.high }
-}
-
 /// The win rates of each player of the ladders over some games: rungs from the weakest to the strongest, as the first
-/// ladder names them, then held-out players. Levels without a ladder are left out. Cost: some thousand resamples of
-/// the games for each player.
+/// ladder names them, then held-out players. Levels without a ladder are left out.
 pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());
     let mut players: Vec<(&PlayerResult, bool)> = Vec::new();
@@ -267,8 +237,9 @@ pub(crate) mod tests {
         assert!((low - 0.116).abs() < 0.03 && (high - 0.384).abs() < 0.03, "{low} to {high}");
         assert_eq!((olets.player.as_str(), olets.held_out, olets.looks_ahead), ("olets:9", true, true));
         // A rate of 1 in the sample does not prove a rate of 1.
-        let trials = wilson(40, 40, Z95);
+        let trials = statistics::rate_over_games(&[(1, 1); 40], 0.95).unwrap().interval;
         assert_eq!((olets.mean, olets.interval, olets.error), (1.0, [trials.low, 1.0], None));
+        assert!((trials.low - 0.907).abs() < 1e-3, "{trials:?}");
         assert_eq!(olets.detectable(1000), None);
     }
 

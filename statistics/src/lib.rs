@@ -41,7 +41,7 @@ pub use correction::{benjamini_hochberg, bonferroni};
 pub use design::{Design, Spread};
 pub use difference::difference;
 pub use fisher::fisher;
-pub use over_games::{PairedOverGames, RateOverGames, paired_over_games, rate_over_games};
+pub use over_games::{PairedOverGames, RateOverGames, paired_over_games, rate_over_games, share_over_games};
 pub use pearson::{correlation_p, pearson};
 pub use power::{Power, fisher_power};
 pub use quantile::quantile;

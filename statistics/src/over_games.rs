@@ -11,6 +11,8 @@ pub struct RateOverGames {
     pub rate: f64,
     /// The number of independent trials that would be as informative.
     pub effective: f64,
+    /// The standard error; `None` if no game differs from another.
+    pub error: Option<f64>,
     /// The confidence interval.
     pub interval: Interval,
 }
@@ -33,9 +35,22 @@ pub struct RateOverGames {
 /// assert!((never.interval.high - 0.5242).abs() < 1e-4);
 /// ```
 pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames> {
-    let played: Vec<(f64, f64)> =
-        games.iter().filter(|game| game.1 > 0).map(|&(won, of)| (won as f64, of as f64)).collect();
-    let possible = played.iter().all(|(won, of)| won <= of) && level > 0.0 && level < 1.0;
+    let games: Vec<(f64, f64)> = games.iter().map(|&(won, of)| (won as f64, of as f64)).collect();
+    share_over_games(&games, level)
+}
+
+/// Returns the mean of many shares, such as the win rates of levels that count alike, with a confidence interval for games like
+/// these: [`rate_over_games`] for the sum and the number of the shares of each game.
+///
+/// ```
+/// use infinite_arcade_statistics::share_over_games;
+/// // Three levels a game, won in 2.5 of 3 and in 0.5 of 3 plays.
+/// let found = share_over_games(&[(2.5, 3.0), (0.5, 3.0)], 0.95).unwrap();
+/// assert_eq!((found.rate, found.error), (0.5, Some(1.0 / 3.0)));
+/// ```
+pub fn share_over_games(games: &[(f64, f64)], level: f64) -> Option<RateOverGames> {
+    let played: Vec<(f64, f64)> = games.iter().copied().filter(|game| game.1 > 0.0).collect();
+    let possible = played.iter().all(|(won, of)| (0.0..=*of).contains(won)) && level > 0.0 && level < 1.0;
     if played.len() < 2 || !possible {
         return None;
     }
@@ -50,9 +65,10 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
         })
         .sum();
     let variance = squares * count / (count - 1.0) / (of * of);
-    let effective = if variance > 1e-18 { (rate * (1.0 - rate) / variance).clamp(1.0, of) } else { count };
+    let error = (variance > 1e-18).then(|| variance.sqrt());
+    let effective = error.map_or(count, |_| (rate * (1.0 - rate) / variance).clamp(1.0, of));
     let interval = score_interval(rate, effective, student_quantile(1.0 - level, count - 1.0));
-    Some(RateOverGames { rate, effective, interval })
+    Some(RateOverGames { rate, effective, error, interval })
 }
 
 /// The comparison of two players over the games that both played.

@@ -1,7 +1,7 @@
 //! The `CARD.json` of a release: planned and achieved figures, the results of the ladder, novelty, and composition.
 
 use super::Plan;
-use super::select::{Bin, Contender, bins, is_new};
+use super::select::{Bin, Contender, bins, is_new, word};
 use crate::rungs::{RungRate, rates};
 use forge::Tally;
 use forge::card::{Card, Origin};
@@ -23,10 +23,10 @@ pub struct ReleaseCard {
     pub levels: u64,
     /// The number of games from generators.
     pub new_games: u64,
-    /// The requested and the achieved figures: difficulties in levels (a deviation of one is allowed), quotas in
-    /// games.
+    /// The requested and the achieved figures: difficulties in levels (a deviation of one is allowed) by the plays that
+    /// selected them, quotas in games.
     pub planned: Vec<Bin>,
-    /// The number of levels of each difficulty, if it was measured.
+    /// The number of levels of each difficulty by the ladders of the cards, if it was measured.
     pub difficulty: BTreeMap<String, u64>,
     /// The number of games with each goal.
     pub goals: BTreeMap<String, u64>,
@@ -110,7 +110,7 @@ pub(crate) fn generator(card: &Card) -> String {
 }
 
 impl ReleaseCard {
-    /// The card of the selected games. Cost: new games², and some thousand resamples for each player.
+    /// The card of the selected games. Cost: new games².
     pub(super) fn of(
         plan: &Plan<'_>,
         contenders: &[Contender],
@@ -144,7 +144,9 @@ impl ReleaseCard {
             levels: levels().count() as u64,
             new_games: cards.iter().filter(|card| is_new(card)).count() as u64,
             planned: bins(recipe, contenders, taken),
-            difficulty: counted(games().flat_map(Contender::labels)),
+            difficulty: counted(
+                levels().filter_map(|level| level.ladder.as_ref()).map(|ladder| word(&ladder.difficulty)),
+            ),
             goals: counted(games().map(|game| game.goal.name().to_owned())),
             avatars: counted(games().map(|game| game.avatar.name().to_owned())),
             generators: counted(cards.iter().map(generator)),

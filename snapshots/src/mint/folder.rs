@@ -48,7 +48,7 @@ impl<'a, 'b> Folder<'a, 'b> {
 
     /// Writes the files of a game.
     pub(super) fn game(&mut self, frozen: FrozenGame) -> Result<(), SnapshotError> {
-        let FrozenGame { text, mut card, levels, witnesses, paths } = frozen;
+        let FrozenGame { text, mut card, levels, witnesses, paths, .. } = frozen;
         let folder = format!("games/{}", card.id);
         card.canary = self.canary.clone();
         let text = marked(&syntax::parse(&text).0, &self.canary);

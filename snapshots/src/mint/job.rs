@@ -1,12 +1,13 @@
 //! The result of a job, as data that can be stored and shipped.
 
 use crate::witness::descendant;
-use engine::{Episode, Seed};
+use engine::{Analysis, Episode, Seed};
 use forge::Tally;
 use forge::card::Card;
 use forge::games::{FoundLevel, MadeGame, Step};
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
+use validators::{Case, Criteria, Difficulty};
 
 /// The games of a job; none if nothing passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,8 +25,11 @@ pub struct JobResult {
 pub struct FrozenGame {
     /// The rules, headed by the title.
     pub text: String,
-    /// The card that describes it.
+    /// The card that describes it. Its ladders are of plays that neither the judges nor the selection saw.
     pub card: Card,
+    /// The difficulty of each level for its judges, by which games are selected; empty if no ladder played.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub difficulties: Vec<Difficulty>,
     /// The levels.
     pub levels: Vec<String>,
     /// The winning episode of each level.
@@ -35,15 +39,35 @@ pub struct FrozenGame {
 }
 
 impl FrozenGame {
-    /// The game of a job. `job` holds the steps from the release's root to the job's seed.
-    pub(super) fn of(made: MadeGame, root: Seed, job: &[Step]) -> FrozenGame {
+    /// The game of a job. `job` holds the steps from the release's root to the job's seed. `criteria` are those of its
+    /// judges: if they asked a ladder, it plays once more, because accepted levels were lucky in the plays that they
+    /// were accepted for.
+    pub(super) fn of(mut made: MadeGame, root: Seed, job: &[Step], criteria: &Criteria) -> FrozenGame {
         let start: Vec<Step> = job.iter().chain(&made.path).cloned().collect();
+        let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
+        let difficulties = ladders.map(|ladder| ladder.difficulty).collect();
+        climb_again(&mut made, descendant(root, &start).child("published", 0), criteria);
         let won = made.levels.iter().zip(&made.witnesses);
         let paths = won.map(|(found, witness)| path(root, &start, found, made.levels.len(), witness));
         let paths = paths.map(Option::unwrap_or_default).collect();
         let MadeGame { text, card, levels, witnesses, .. } = made;
         let levels = levels.iter().map(|found| found.level.to_string()).collect();
-        FrozenGame { text, card, levels, witnesses, paths }
+        FrozenGame { text, card, difficulties, levels, witnesses, paths }
+    }
+}
+
+/// Replaces the ladders of a game's card by fresh ones.
+fn climb_again(made: &mut MadeGame, seed: Seed, criteria: &Criteria) {
+    let players = criteria.ladder_config().expect("the recipe was checked");
+    let analysis = Analysis::of(&made.game);
+    let won = made.levels.iter().zip(&made.witnesses);
+    for (number, (card, (found, witness))) in made.card.levels.iter_mut().zip(won).enumerate() {
+        if card.ladder.is_some() {
+            let seed = seed.child("level", number as u64);
+            let (game, level) = (&made.game, &found.level);
+            card.ladder =
+                Some(players.ladder(Case { game, level, seed, analysis: &analysis, witness: Some(witness) }));
+        }
     }
 }
 

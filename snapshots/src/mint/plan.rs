@@ -226,7 +226,11 @@ impl<'a> Plan<'a> {
                 }
             }
         };
-        let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps));
+        let criteria = match job {
+            Job::Corpus(_) => self.corpus_criteria(),
+            _ => &self.recipe.criteria,
+        };
+        let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria));
         Ok(JobResult { games: games.collect(), tally })
     }
 
@@ -347,7 +351,36 @@ pub(super) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
-    use super::apportion;
+    use super::super::job::FrozenGame;
+    use super::super::select::Contender;
+    use super::super::tests::{FETCH, corpus, recipe};
+    use super::*;
+    use validators::Difficulty;
+
+    /// Published plays are not those that a level was accepted or selected for: those were lucky.
+    #[test]
+    fn the_ladder_plays_again_for_the_card() {
+        let corpus = corpus(&[("fetch", FETCH)]);
+        let mut recipe = recipe("ladder");
+        recipe.criteria.ask.push("skill".to_owned());
+        recipe.criteria.ladder = vec!["random".to_owned(), "mcts:400".to_owned()];
+        recipe.criteria.held_out = vec!["olets:100".to_owned()];
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let [job] = plan.jobs()[..] else { panic!("one job") };
+        let steps = plan.steps(job);
+        let (made, _) = plan.new_levels(0, descendant(plan.seed, &steps));
+        let [made] = &made[..] else { panic!("one game") };
+        let judged = made.card.levels[0].ladder.as_ref().unwrap();
+        let mut frozen = FrozenGame::of(made.clone(), plan.seed, &steps, &recipe.criteria);
+        let published = frozen.card.levels[0].ladder.clone().unwrap();
+        assert_eq!(frozen.difficulties, [judged.difficulty]);
+        assert_eq!(published.rungs[1].rate.plays, judged.rungs[1].rate.plays);
+        assert_ne!(&published, judged);
+        // The selection counts what the judges saw.
+        frozen.difficulties = vec![Difficulty::VeryHard];
+        let contender = Contender::of(0, 0, &frozen).unwrap();
+        assert_eq!(contender.labels, [(Difficulty::VeryHard, 1)].into());
+    }
 
     #[test]
     fn shares_add_up() {

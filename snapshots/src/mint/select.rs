@@ -30,7 +30,7 @@ pub(super) struct Contender {
     pub(super) is_new: bool,
     title: String,
     cast: Cast,
-    labels: BTreeMap<Difficulty, i64>,
+    pub(super) labels: BTreeMap<Difficulty, i64>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
     pub(super) rules: usize,
@@ -58,7 +58,7 @@ impl Contender {
             is_new: is_new(&frozen.card),
             title: frozen.card.title.clone(),
             cast: Cast::of(&game),
-            labels: labels(&frozen.card),
+            labels: labels(&frozen.difficulties),
             goal: kind.goal,
             avatar: kind.avatar,
             rules: game.description().interactions.len(),
@@ -74,13 +74,6 @@ impl Contender {
             false => self.items.iter().any(|item| plan.recipe.known.items.contains(item)),
         }
     }
-
-    /// The difficulty of each level, as spelt in data.
-    pub(super) fn labels(&self) -> impl Iterator<Item = String> {
-        self.labels
-            .iter()
-            .flat_map(|(label, &levels)| std::iter::repeat_n(word(label), levels.max(0) as usize))
-    }
 }
 
 /// Tests whether a game comes from a generator.
@@ -88,11 +81,11 @@ pub(super) fn is_new(card: &Card) -> bool {
     matches!(card.origin, Origin::Generated { .. })
 }
 
-/// The number of levels of a game at each difficulty; empty if none was measured.
-fn labels(card: &Card) -> BTreeMap<Difficulty, i64> {
+/// The number of levels at each difficulty.
+fn labels(difficulties: &[Difficulty]) -> BTreeMap<Difficulty, i64> {
     let mut labels = BTreeMap::new();
-    for ladder in card.levels.iter().filter_map(|level| level.ladder.as_ref()) {
-        *labels.entry(ladder.difficulty).or_default() += 1;
+    for &difficulty in difficulties {
+        *labels.entry(difficulty).or_default() += 1;
     }
     labels
 }

@@ -289,7 +289,7 @@ impl Shards {
 
 /// The first fault of a game in a result of a plan with this root seed.
 fn problem(frozen: &FrozenGame, root: Seed) -> Option<String> {
-    let FrozenGame { text, card, levels, witnesses, paths } = frozen;
+    let FrozenGame { text, card, difficulties, levels, witnesses, paths } = frozen;
     let id = card.id.escape_debug();
     let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
@@ -297,6 +297,9 @@ fn problem(frozen: &FrozenGame, root: Seed) -> Option<String> {
     }
     if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
         return Some(format!("`{id}` does not have a witness and a place in its card for each level"));
+    }
+    if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
+        return Some(format!("`{id}` does not have a difficulty for each ladder"));
     }
     let is_foreign =
         |(path, episode): (&Vec<Step>, &Episode)| !path.is_empty() && descendant(root, path) != episode.seed;
