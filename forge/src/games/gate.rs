@@ -39,12 +39,14 @@ impl<'a> GameGate<'a> {
     }
 
     /// Finds a course of levels for a game, sets its time limit by the wins found, and judges it; `None`, with the reason in
-    /// the tally, if anything stands in its way. `number` is told in the card.
+    /// the tally, if anything stands in its way. `number` is told in the card. A game near to one of `peers` is refused before
+    /// it costs a level.
     pub(super) fn judge(
         &self,
         genome: &KernelGenome,
         number: u32,
         seed: Seed,
+        peers: &[GameForm],
         tally: &mut Tally,
     ) -> Option<MadeGame> {
         let generator = self.order.method.name();
@@ -56,7 +58,7 @@ impl<'a> GameGate<'a> {
             tally.game_rejected("the rules do not compile");
             return None;
         };
-        if self.is_known(&first) {
+        if self.is_known(&first, peers) {
             tally.game_rejected(NEAR_KNOWN);
             return None;
         }
@@ -114,9 +116,9 @@ impl<'a> GameGate<'a> {
         made
     }
 
-    fn is_known(&self, candidate: &Candidate) -> bool {
+    fn is_known(&self, candidate: &Candidate, peers: &[GameForm]) -> bool {
         let form = GameForm::of(&candidate.game);
-        form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
+        form.nearest(self.known.iter().chain(peers)).is_some_and(|(_, apart)| apart < NEAR)
     }
 }
 
@@ -168,7 +170,7 @@ mod tests {
     fn judge(order: &GameOrder, known: &[GameForm], genome: &KernelGenome) -> (Option<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let seed = Seed::from_text("gate");
-        let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &mut tally);
+        let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &[], &mut tally);
         (made, tally)
     }
 

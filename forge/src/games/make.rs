@@ -172,7 +172,8 @@ impl<'a> Maker<'a> {
                 attempted.tally.game_rejected("look");
             }
             for (at, genome) in (0..).zip(&proposed) {
-                let made = self.gate.judge(genome, attempt, seed.child("judges", at), &mut attempted.tally);
+                let seed = seed.child("judges", at);
+                let made = self.gate.judge(genome, attempt, seed, &company.forms, &mut attempted.tally);
                 self.progress.looked();
                 if let Some(mut made) = made {
                     self.progress.made(&made.card.title);
@@ -254,7 +255,7 @@ impl<'a> Maker<'a> {
                 let mut tally = Tally::default();
                 let key = genome.key().to_string();
                 let seed = self.seed.child("judges", 0).child(&key, 0);
-                let mut made = self.gate.judge(genome, round, seed, &mut tally);
+                let mut made = self.gate.judge(genome, round, seed, &[], &mut tally);
                 self.progress.looked();
                 if let Some(made) = &mut made {
                     made.path = path([("judges", 0), (&key, 0)]);

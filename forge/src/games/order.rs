@@ -65,7 +65,7 @@ impl GameOrder {
     /// `count` games of all kinds by a method, five levels each.
     pub fn new(method: Method, count: u32) -> GameOrder {
         let (attempts, patience) = match method {
-            Method::Constructive => (96, 3),
+            Method::Constructive => (160, 3),
             Method::Search => (24, 2),
             Method::Evolutionary => (48, 1),
         };
