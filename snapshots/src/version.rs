@@ -55,11 +55,6 @@ impl Version {
         VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
     }
 
-    /// The newest known version that replays witnesses of these semantics.
-    pub fn that_replays(semantics: u32) -> Option<&'static Version> {
-        VERSIONS.iter().rev().find(|version| version.semantics == semantics)
-    }
-
     /// The commands that install it, to run in a clone of the repository.
     pub fn install_command(&self) -> String {
         install_command(&match self.commit {
@@ -187,7 +182,6 @@ mod tests {
             Some(format!("git fetch --tags && git checkout v0.99.0 {install}"))
         );
         assert_eq!(command(None, 99, 7), None);
-        assert_eq!(Version::that_replays(2).map(|version| version.number), Some("0.9.0"));
     }
 
     #[test]

@@ -66,7 +66,7 @@ pub struct Decoding {
 }
 
 /// A model's answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChatReply {
     /// The text.
     pub text: String,
@@ -89,21 +89,12 @@ pub struct ChatReply {
 impl ChatReply {
     /// Creates an answer of which nothing else is known.
     pub(crate) fn new(text: String, finish: Finish) -> ChatReply {
-        ChatReply {
-            text,
-            reasoning: None,
-            finish,
-            usage: Usage::default(),
-            served_by: None,
-            failures: Vec::new(),
-            latency_ms: 0.0,
-            cached: false,
-        }
+        ChatReply { text, finish, ..ChatReply::default() }
     }
 }
 
 /// The reason why an answer ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Finish {
     /// It is complete.
@@ -113,6 +104,7 @@ pub enum Finish {
     /// The model or its provider declined (content filter, refusal).
     Refusal,
     /// Another reason of the provider, or none.
+    #[default]
     Other,
 }
 
