@@ -73,7 +73,7 @@ pub(crate) fn fixtures(description: &Description, types: &[TypeInfo], program: &
     let touched = program
         .passes
         .iter()
-        .filter(|pass| !program.effects[usize::from(pass.effect)].summary.spares_second());
+        .filter(|pass| !program.effects[usize::from(pass.effect)].summary.spares_still_second());
     let trees = firsts.chain(touched.map(|pass| pass.second)).filter_map(|stype| types.get(stype.index()));
     let touched: BTreeSet<SpriteType> = trees.flat_map(|info| info.tree.iter().copied()).collect();
     let valued = valued(description, types);

@@ -535,8 +535,8 @@ impl Summary {
         }
     }
 
-    /// Tests whether an execution leaves the second sprite as it is, provided that no parameter names its type.
-    pub(crate) fn spares_second(&self) -> bool {
+    /// Tests whether an execution leaves a second sprite as it is that nothing else moves, and whose type no parameter names.
+    pub(crate) fn spares_still_second(&self) -> bool {
         use EffectSummary as E;
         let spares = |effect: &EffectSummary| match effect {
             E::Kill(side) | E::Change { side, .. } => *side == Side::First,
@@ -549,7 +549,8 @@ impl Summary {
         };
         let stays = match self.moves {
             Moves::Nothing | Moves::First => true,
-            Moves::Anything => false,
+            // It is at its last place already.
+            Moves::Anything => self.undoes().is_some() || self.displacement == Some(Displacement::Apart),
         };
         stays && self.redirects.is_none() && self.effects.iter().all(spares)
     }
