@@ -98,7 +98,7 @@ fn threshold(prob: f64) -> i32 {
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {
-        let sprite = world.sprite(slot);
+        let sprite = world.own(slot);
         let lives = traits.total <= 0 || sprite.count < traits.total;
         let moves = || sprite.activity & mark::SKIPPED == 0 && !stays(sprite, traits, world);
         if !lives || !sprite.is(flag::STARTED) || moves() {
@@ -151,7 +151,7 @@ pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
             if step.stopped.is_some() {
                 return;
             }
-            slot = step.world.sprite(slot).next;
+            slot = step.world.own(slot).next;
         }
     }
 }
@@ -159,7 +159,7 @@ pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
 /// Tests whether the update of a sprite does nothing in this tick, or nothing more.
 #[inline(always)]
 fn is_done(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits: &Traits) -> bool {
-    let sprite = step.world.sprite(slot);
+    let sprite = step.world.own(slot);
     match mover.update_kind {
         UpdateKind::Moves => {
             mover.may_fly && sprite.activity & mark::SKIPPED != 0 || stays(sprite, traits, step.world)
@@ -184,12 +184,12 @@ fn is_done(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits
 #[inline(always)]
 fn update_one(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits: &Traits) {
     if mover.update_kind == UpdateKind::Moves {
-        step.updating_id = step.world.sprite(slot).id;
+        step.updating_id = step.world.own(slot).id;
         sprites::base(step, slot);
     } else {
         step.update_sprite(slot, mover.class, traits.oriented_image);
     }
-    let moved = mover.may_fly && step.scheduler.flies && !step.world.sprite(slot).is_back();
+    let moved = mover.may_fly && step.scheduler.flies && !step.world.own(slot).is_back();
     *step.world.activity(slot) = if moved { mark::MOVED } else { mark::NOTHING };
     step.scheduler.any_moved |= moved;
 }

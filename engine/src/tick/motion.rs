@@ -8,7 +8,7 @@ use crate::world::{Slot, Sprite, flag};
 impl<S: Scheduler> Step<'_, S> {
     /// The reference's `lastmove`: ticks since the last move, at this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
-        let sprite = self.world.sprite(slot);
+        let sprite = self.world.own(slot);
         // The reference's counter overflows too.
         if sprite.is(flag::FROZEN) {
             sprite.moved_at
@@ -63,10 +63,10 @@ impl<S: Scheduler> Step<'_, S> {
         if self.is_held_up(slot) {
             return false;
         }
-        let Rect { x, y, .. } = self.world.sprite(slot).rect;
+        let Rect { x, y, .. } = self.world.own(slot).rect;
         let by = if base < 2 { amount.saturating_neg() } else { amount };
         let (dx, dy) = if base.is_multiple_of(2) { (0, by) } else { (by, 0) };
-        let aim = self.world.sprite(slot).rect.at(x.wrapping_add(dx), y.wrapping_add(dy));
+        let aim = self.world.own(slot).rect.at(x.wrapping_add(dx), y.wrapping_add(dy));
         self.go(slot, aim);
         true
     }
@@ -74,13 +74,13 @@ impl<S: Scheduler> Step<'_, S> {
     /// Tests whether a sprite's cooldown prevents it from moving.
     #[inline(always)]
     fn is_held_up(&self, slot: Slot) -> bool {
-        self.rules.types[self.world.sprite(slot).stype.index()].traits.cooldown > self.age(slot)
+        self.rules.types[self.world.own(slot).stype.index()].traits.cooldown > self.age(slot)
     }
 
     /// Moves a sprite to any place, as part of its own movement.
     #[inline(never)]
     fn go(&mut self, slot: Slot, aim: Rect) {
-        let sprite = self.world.sprite(slot);
+        let sprite = self.world.own(slot);
         let special = sprite.is(flag::FROZEN) || aim == sprite.rect || aim.h == 0;
         if special {
             self.place(slot, aim);
@@ -95,7 +95,7 @@ impl<S: Scheduler> Step<'_, S> {
     /// The rectangle after a displacement; `None` if it does not move.
     #[inline(always)]
     pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
-        let sprite = self.world.sprite(slot);
+        let sprite = self.world.own(slot);
         let amount = if amount == 0 { self.world.overrides_of(sprite).speed as i32 } else { amount };
         if amount == 0 || direction.x.abs() + direction.y.abs() == 0.0 {
             return None;

@@ -247,6 +247,12 @@ impl World {
         }
     }
 
+    /// The sprite in a slot that is not a fixture's: without the look for one.
+    #[inline(always)]
+    pub(crate) fn own(&self, slot: Slot) -> &Sprite {
+        &self.sprites[usize::from(slot)]
+    }
+
     /// The sprite in a slot; `None` for [`NONE`] and fixtures.
     pub(crate) fn get(&self, slot: Slot) -> Option<&Sprite> {
         self.sprites.get(usize::from(slot))

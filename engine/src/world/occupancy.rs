@@ -14,7 +14,7 @@ const MAX_COVERED: i32 = 100;
 impl World {
     /// Enters a sprite into its cells.
     pub(crate) fn enter_cell(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
-        let rect = self.sprite(slot).rect;
+        let rect = self.own(slot).rect;
         let Rect { w, h, .. } = self.screen();
         let to = if (0..w).contains(&rect.x) && (0..h).contains(&rect.y) {
             let place = |at: i32| (at as u32 / self.block as u32 + 1) as i16;
@@ -81,7 +81,7 @@ impl World {
     }
 
     pub(crate) fn leave_cell(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
-        let sprite = self.sprite(slot);
+        let sprite = self.own(slot);
         let (cell, stype, flags) = (self.cell_of(sprite), sprite.stype, sprite.flags);
         if flags & flag::PLACEMENT != 0 {
             self.sprites[usize::from(slot)].flags &= !flag::PLACEMENT;
@@ -128,7 +128,7 @@ impl World {
     /// [`World::relocate_to`] for a sprite that may change its size.
     #[inline(always)]
     pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
-        let before = self.sprite(slot).rect;
+        let before = self.own(slot).rect;
         if (before.w, before.h) == (rect.w, rect.h) {
             let places = self.locate_move(slot, rect);
             self.relocate_to(models, slot, rect, places, watcher);

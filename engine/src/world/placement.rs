@@ -60,7 +60,7 @@ impl World {
     /// The place at which a sprite is entered.
     #[inline(always)]
     pub(crate) fn located(&self, slot: Slot) -> Located {
-        let &Sprite { column, row, flags, .. } = self.sprite(slot);
+        let &Sprite { column, row, flags, .. } = self.own(slot);
         Located { column, row, flags: flags & flag::PLACEMENT }
     }
 
@@ -121,7 +121,7 @@ impl World {
     #[inline(always)]
     pub(crate) fn locate_move(&self, slot: Slot, rect: Rect) -> (Located, Located) {
         let from = self.located(slot);
-        (from, self.locate_moved(from, self.sprite(slot).rect, rect))
+        (from, self.locate_moved(from, self.own(slot).rect, rect))
     }
 
     /// The column and row of a rectangle's top-left corner, counted with the ring.
