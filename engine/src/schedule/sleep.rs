@@ -247,12 +247,12 @@ impl Step<'_, Foresight<'_>> {
         }
         for at in 0..self.world.moved().len() {
             let slot = self.world.moved()[at];
-            let sprite = self.world.sprite(slot);
+            let sprite = self.world.own(slot);
             let (activity, back) = (sprite.activity, sprite.is_back());
             if activity == mark::MOVED && !back && self.take_off(slot) {
                 continue;
             }
-            let sprite = self.world.sprite(slot);
+            let sprite = self.world.own(slot);
             let may_sleep =
                 || self.scheduler.sleeps && self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps;
             if activity < mark::DISTURBED && activity != mark::NOTHING && back && may_sleep() {

@@ -13,7 +13,7 @@ use crate::world::{Slot, flag};
 /// Updates the player's avatar, before all other sprites.
 pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     use SpriteClass as C;
-    let stype = step.world.sprite(slot).stype;
+    let stype = step.world.own(slot).stype;
     let class = step.rules.types[stype.index()].class.expect("an avatar has a class");
     let direction = base(action).map_or(Direction::NONE, |base| Direction::BASE[base]);
     use ClassFamily as Family;
@@ -74,7 +74,7 @@ fn base(action: Action) -> Option<usize> {
 }
 
 fn is_off_grid(step: &Step<'_, impl Scheduler>, slot: Slot) -> bool {
-    step.rules.types[step.world.sprite(slot).stype.index()].traits.off_grid
+    step.rules.types[step.world.own(slot).stype.index()].traits.off_grid
 }
 
 /// The passive movement, which avatars with grid physics do not have.
@@ -113,7 +113,7 @@ fn shooting(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
 
 /// Shoots from its own corner if it has ammunition; the shot keeps its own orientation.
 fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
-    let sprite = *step.world.sprite(slot);
+    let sprite = *step.world.own(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let ammo = traits.ammo.first().copied();
     if let Some(ammo) = ammo {
@@ -141,7 +141,7 @@ fn shoot(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
 }
 
 fn shoot_towards(step: &mut Step<'_, impl Scheduler>, slot: Slot, facing: Direction) {
-    let kinds = step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes.len();
+    let kinds = step.rules.types[step.world.own(slot).stype.index()].traits.stypes.len();
     let ready = (0..kinds).find(|&kind| is_loaded(step, slot, kind));
     if let Some(kind) = ready {
         shoot_kind(step, slot, kind, facing);
@@ -149,12 +149,12 @@ fn shoot_towards(step: &mut Step<'_, impl Scheduler>, slot: Slot, facing: Direct
 }
 
 fn is_loaded(step: &Step<'_, impl Scheduler>, slot: Slot, kind: usize) -> bool {
-    let traits = &step.rules.types[step.world.sprite(slot).stype.index()].traits;
+    let traits = &step.rules.types[step.world.own(slot).stype.index()].traits;
     traits.ammo.get(kind).is_none_or(|&ammo| step.world.amount(slot, ammo) > 0)
 }
 
 fn shoot_kind(step: &mut Step<'_, impl Scheduler>, slot: Slot, kind: usize, facing: Direction) {
-    let sprite = *step.world.sprite(slot);
+    let sprite = *step.world.own(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let ahead =
         |corner: i32, component: f64, size: i32| (f64::from(corner) + component * f64::from(size)) as i32;
@@ -184,7 +184,7 @@ fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
         Action::Use => 4,
         Action::Nil => return,
     };
-    let sprite = *step.world.sprite(slot);
+    let sprite = *step.world.own(slot);
     let kinds = step.rules.types[sprite.stype.index()].traits.stypes.len();
     if kind < kinds && is_loaded(step, slot, kind) {
         shoot_kind(step, slot, kind, step.world.overrides(slot).orientation.normalised());
@@ -198,7 +198,7 @@ fn ongoing_turning(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: D
         physics::turn(step, slot, direction);
     }
     physics::passive(step, slot);
-    let (rect, last) = (step.world.sprite(slot).rect, step.world.last(slot));
+    let (rect, last) = (step.world.own(slot).rect, step.world.last(slot));
     if !rect.intersects(last) {
         step.add(step.world.overrides(slot).spawns, last.x, last.y);
     }
@@ -214,7 +214,7 @@ fn aimed(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     if action == Action::Use {
         shoot(step, slot);
     }
-    let diff = step.rules.types[step.world.sprite(slot).stype.index()].traits.angle_diff;
+    let diff = step.rules.types[step.world.own(slot).stype.index()].traits.angle_diff;
     let angle = match action {
         Action::Up => -diff,
         Action::Down => diff,
@@ -230,7 +230,7 @@ fn aimed(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
 
 /// Moves along the rotation, or against it.
 fn thrust(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
-    let rotation = step.world.rotation(step.rules, step.world.sprite(slot));
+    let rotation = step.world.rotation(step.rules, step.world.own(slot));
     let speed = step.world.overrides(slot).speed;
     match action {
         Action::Up => physics::active(step, slot, heading(rotation), speed),
@@ -241,7 +241,7 @@ fn thrust(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
 
 /// Turns the rotation with the left and right keys.
 fn steer(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
-    let diff = step.rules.types[step.world.sprite(slot).stype.index()].traits.angle_diff;
+    let diff = step.rules.types[step.world.own(slot).stype.index()].traits.angle_diff;
     let extra = step.world.extra(step.rules, slot);
     match action {
         Action::Left => extra.rotation -= diff,
@@ -253,7 +253,7 @@ fn steer(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
 fn spaceship(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     if action == Action::Use {
-        let facing = heading(step.world.rotation(step.rules, step.world.sprite(slot)));
+        let facing = heading(step.world.rotation(step.rules, step.world.own(slot)));
         shoot_towards(step, slot, facing);
         shoot_towards(step, slot, facing);
     }
@@ -286,7 +286,7 @@ fn lander(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
 fn bird(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     oriented(step, slot, action);
     let overrides = *step.world.overrides(slot);
-    let strength = step.rules.types[step.world.sprite(slot).stype.index()].traits.jump_strength;
+    let strength = step.rules.types[step.world.own(slot).stype.index()].traits.jump_strength;
     let push = if overrides.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };
     if action == Action::Use {
         step.world.edit_overrides(slot).orientation.y = 0.0;
@@ -301,7 +301,7 @@ fn bird(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
 /// Runs, and jumps if the last event phase found ground.
 fn platformer(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction, action: Action) {
     glide(step, slot);
-    let sprite = *step.world.sprite(slot);
+    let sprite = *step.world.own(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let grounded = sprite.is(flag::ON_GROUND);
     if direction != Direction::NONE {
@@ -323,7 +323,7 @@ fn wizard(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction,
     let ready = step.world.extra(rules, slot).block_time.wrapping_add(BLOCK_PAUSE) <= tick;
     if action == Action::Up && ready {
         physics::active(step, slot, Direction::DOWN, -1.0);
-        let (sprite, last) = (*step.world.sprite(slot), step.world.last(slot));
+        let (sprite, last) = (*step.world.own(slot), step.world.last(slot));
         let facing = step.world.extra(rules, slot).facing;
         for &stype in &rules.types[sprite.stype.index()].traits.stypes {
             let x = f64::from(sprite.rect.x) + facing.x * f64::from(last.w) * 1.2;

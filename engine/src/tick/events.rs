@@ -150,7 +150,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
             self.work(1 + usize::from(self.world.group(stype).count));
             let mut slot = self.world.group(stype).head;
             while slot != NONE {
-                let sprite = self.world.sprite(slot);
+                let sprite = self.world.own(slot);
                 if sprite.is(flag::OFF) && !sprite.is(flag::KILLED | flag::DISABLED) {
                     let tail = self.world.group(stype).tail;
                     self.execute(effect, slot, None, watch);
@@ -162,7 +162,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
                         break;
                     }
                 }
-                slot = self.world.sprite(slot).next;
+                slot = self.world.own(slot).next;
             }
         }
     }
@@ -198,7 +198,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
             }
             let mut slot = self.world.group(stype).head;
             while slot != NONE {
-                let sprite = self.world.sprite(slot);
+                let sprite = self.world.own(slot);
                 if sprite.id >= newborn {
                     break;
                 }
@@ -242,7 +242,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
                 if self.stopped.is_some() {
                     return;
                 }
-                slot = self.world.sprite(slot).next;
+                slot = self.world.own(slot).next;
             }
         }
         self.work(visited);
@@ -250,11 +250,11 @@ impl<'a, S: Scheduler> Step<'a, S> {
 
     /// Checks once more before a hit counts: the first sprite is not dead and still there.
     pub(crate) fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut (impl Watch + ?Sized)) {
-        if self.rules.types[self.world.sprite(one).stype.index()].ground_aware {
+        if self.rules.types[self.world.own(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
         }
         S::meets(self, one, two);
-        let (first, second) = (self.world.sprite(one), self.world.sprite(two));
+        let (first, second) = (self.world.own(one), self.world.sprite(two));
         if !first.is(flag::KILLED) && first.rect.intersects(second.rect) {
             self.execute(pass.effect, one, Some(two), watch);
         }

@@ -81,7 +81,7 @@ pub(crate) fn active(
     direction: Direction,
     speed: f64,
 ) -> Movement {
-    let sprite = step.world.sprite(slot);
+    let sprite = step.world.own(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.continuous {
         return accelerate(step, slot, direction, speed);
@@ -111,7 +111,7 @@ pub(crate) fn active_along(
     base: usize,
     speed: f64,
 ) -> Movement {
-    let sprite = step.world.sprite(slot);
+    let sprite = step.world.own(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let pixels = (speed * f64::from(step.world.block())) as i32;
     if traits.continuous || traits.stationary || traits.rotate_in_place || pixels == 0 {
@@ -123,7 +123,7 @@ pub(crate) fn active_along(
 /// Applies a force in continuous physics: it changes orientation and speed; the next passive movement moves the sprite.
 fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction, speed: f64) -> Movement {
     let &Overrides { orientation, speed: own, .. } = step.world.overrides(slot);
-    let traits = &step.rules.types[step.world.sprite(slot).stype.index()].traits;
+    let traits = &step.rules.types[step.world.own(slot).stype.index()].traits;
     let speed = if speed == 0.0 || speed == -1.0 { own } else { speed };
     // The reference rounds the mass to 32 bits on the way.
     let mass = f64::from(traits.mass as f32);
@@ -144,7 +144,7 @@ fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction,
 /// Changes the orientation if the sprite has one and it differs.
 #[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) -> bool {
-    let sprite = step.world.sprite(slot);
+    let sprite = step.world.own(slot);
     if !sprite.is(flag::ORIENTED) || step.world.overrides_of(sprite).orientation == direction {
         return false;
     }

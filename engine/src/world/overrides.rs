@@ -109,7 +109,7 @@ impl World {
     pub(crate) fn face(&mut self, slot: Slot, direction: Direction) {
         let bits = |direction: Direction| (direction.x.to_bits(), direction.y.to_bits());
         // Most sprites keep their orientation, and with it their hash contribution.
-        if bits(self.overrides(slot).orientation) != bits(direction) {
+        if bits(self.overrides_of(self.own(slot)).orientation) != bits(direction) {
             self.turn_to(slot, direction);
         }
     }
