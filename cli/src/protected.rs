@@ -9,8 +9,13 @@ use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 /// Refuses to write at `place` if it lies in a release, or in the held-back part of one; its `papers/` folder is
-/// allowed.
+/// allowed. Refuses `-` too, which is standard output where a verb can write there.
 pub(crate) fn check(place: &Path) -> Result<(), Failure> {
+    if place == Path::new("-") {
+        bail!(
+            "this does not go to standard output: name a folder or file instead of `-` (./- is one of that name)"
+        );
+    }
     let there = resolved(place);
     for folder in there.ancestors().skip(1) {
         let below = there.strip_prefix(folder).unwrap_or(&there);

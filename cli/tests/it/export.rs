@@ -176,6 +176,8 @@ fn unverified_releases_are_not_exported() {
     assert!(text(&output.stderr).contains("MANIFEST.json"), "{}", text(&output.stderr));
     let output = run(folder.path(), &["export", "tampered", "--format", "xlsx", "--out", "out"], 2);
     assert!(text(&output.stderr).contains("jsonl"), "{}", text(&output.stderr));
+    let output = run(folder.path(), &["export", "tampered", "--format", "jsonl", "--out", "-"], 2);
+    assert!(text(&output.stderr).contains("standard output"), "{}", text(&output.stderr));
     let output = run(folder.path(), &["export", "tampered", "--format", "jsonl", "--out", "tampered"], 2);
     assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
     let output =
