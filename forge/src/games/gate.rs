@@ -196,6 +196,10 @@ mod tests {
         let same = |_: &mut GameOrder| {};
         check(&same, &[GameForm::of(&genome_game(&genome))], NEAR_KNOWN);
         check(&same, &[GameForm::of(&made.game)], NEAR_KNOWN);
+        let (order, peers, mut tally) = (order(), [GameForm::of(&made.game)], Tally::default());
+        let gate = GameGate::new(&order, &[], "canary");
+        assert!(gate.judge(&genome, 0, Seed::from_text("gate"), &peers, &mut tally).is_none());
+        assert_eq!((tally.rejections.get(NEAR_KNOWN), tally.levels_tried), (Some(&1), 0));
         check(&|order| order.least_interactions = 100, &[], MEAGRE);
         check(&|order| order.least_mechanics = 100, &[], MEAGRE);
         let long =

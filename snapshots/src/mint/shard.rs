@@ -433,6 +433,11 @@ mod tests {
             same,
             Some("a witness and a place in its card for each level"),
         );
+        check(
+            |game| game.difficulties.push(validators::Difficulty::Easy),
+            same,
+            Some("does not have a difficulty for each ladder"),
+        );
         check(|game| game.card.levels[0].difficulty = 1e300, same, Some("level 0: a difficulty of 1"));
         check(|game| game.card.levels[0].random.wins = 99, same, Some("`random` has 99 wins"));
         check(|game| game.card.levels[0].witness_ticks += 1, same, Some("not the ticks and score"));

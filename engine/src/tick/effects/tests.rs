@@ -91,8 +91,9 @@ fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<Strin
             continue;
         }
         expect(is_first || is_second || summary.affects_distant_sprites, "a distant sprite changes");
-        // The summary speaks of sprites that do not move by themselves, of types that no parameter names.
-        if is_second && named != "two" && with.0.types[two.index()].is_idle() {
+        // The summary speaks of types that no parameter names. Only a sprite that does not move by itself is at its last place.
+        let is_still = summary.moves != Moves::Anything || with.0.types[two.index()].is_idle();
+        if is_second && named != "two" && is_still {
             expect(!summary.spares_still_second(), "the second sprite changes");
         }
         // A sprite that turns, or changes its speed, moves otherwise by itself in the next tick.
