@@ -7,6 +7,7 @@
 
 pub mod answer;
 pub mod client;
+mod commitment;
 pub mod encoding;
 mod error;
 pub mod legend;
@@ -22,9 +23,10 @@ mod subject;
 pub mod tokens;
 mod turn;
 
+pub use commitment::Commitment;
 pub use error::EvaluationError;
 pub use log::{Event, Journal};
 pub use player::{Agent, Choice, Contestant, Halt, Validity};
 pub use run::{Entrant, Evaluation, Settings};
 pub use subject::{Subject, SubjectFacts, SubjectLevel, Unreadable};
-pub use turn::{Before, Observed, Turn};
+pub use turn::{Before, Observed, Played, Turn};

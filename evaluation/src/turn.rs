@@ -1,5 +1,6 @@
 //! The view of a player at one decision.
 
+use crate::commitment::Commitment;
 use crate::run::Task;
 use crate::subject::Subject;
 use engine::{Action, Game, Observation, State};
@@ -16,18 +17,22 @@ pub struct Turn<'a> {
     pub number: u64,
     /// The maximum number of decisions of the episode.
     pub limit: u64,
+    /// The number of actions to commit to.
+    pub commit: Commitment,
     /// The current observation.
     pub observation: &'a Observation,
-    /// The preceding decision, which led to the current observation; `None` at the first decision.
+    /// The preceding action, which led to the current observation; `None` at the first decision.
     pub before: Option<Before<'a>>,
+    /// The actions since the preceding look, with what came of each.
+    pub played: &'a [Played],
     /// The available actions, [`Action::Nil`] first.
     pub actions: &'a [Action],
 }
 
-/// The preceding decision.
+/// The preceding action.
 #[derive(Clone, Copy, Debug)]
 pub struct Before<'a> {
-    /// The observation at that decision.
+    /// The observation before that action.
     pub observation: &'a Observation,
     /// The action played.
     pub action: Action,
@@ -35,22 +40,50 @@ pub struct Before<'a> {
     pub reward: f64,
 }
 
+/// An action of a commitment, and what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Played {
+    /// The action asked for; [`Action::Nil`] where the player gave too few.
+    pub asked: Action,
+    /// `true` if the action was not available, so that nothing was done.
+    pub is_unavailable: bool,
+    /// Column and row of the avatar after it, if there is one.
+    pub avatar: Option<(i32, i32)>,
+    /// The change of the score.
+    pub reward: f64,
+}
+
+/// The past of an episode as far as the next turn shows it.
+#[derive(Debug, Default)]
+pub(crate) struct Recent {
+    /// The observation before the last action, the action and its reward.
+    pub(crate) last: Option<(Observation, Action, f64)>,
+    /// The actions since the last look.
+    pub(crate) played: Vec<Played>,
+}
+
 impl<'a> Turn<'a> {
-    /// The turn of an episode after `number` steps, of which the last led from the observation in `before`.
+    /// The turn of an episode after `number` steps.
     pub(crate) fn of(
         task: &Task<'a>,
         number: u64,
         observation: &'a Observation,
-        before: &'a Option<(Observation, Action, f64)>,
+        recent: &'a Recent,
         actions: &'a [Action],
     ) -> Turn<'a> {
-        let before = before.as_ref().map(|(observation, action, reward)| Before {
+        let before = recent.last.as_ref().map(|(observation, action, reward)| Before {
             observation,
             action: *action,
             reward: *reward,
         });
-        let (subject, level, limit) = (task.subject, task.level.number, task.max_steps);
-        Turn { subject, level, number, limit, observation, before, actions }
+        let Task { subject, max_steps: limit, commit, .. } = *task;
+        let (level, played) = (task.level.number, recent.played.as_slice());
+        Turn { subject, level, number, limit, commit, observation, before, played, actions }
+    }
+
+    /// Returns the number of actions that the decision covers, at least one.
+    pub fn due(&self) -> u64 {
+        self.commit.due(self.limit.saturating_sub(self.number)).max(1)
     }
 }
 
@@ -71,7 +104,8 @@ impl Observed {
 
     /// Returns the first turn.
     pub fn turn<'a>(&'a self, task: &Task<'a>) -> Turn<'a> {
-        Turn::of(task, 0, &self.observation, &None, &self.actions)
+        const NONE: &Recent = &Recent { last: None, played: Vec::new() };
+        Turn::of(task, 0, &self.observation, NONE, &self.actions)
     }
 }
 

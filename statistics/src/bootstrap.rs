@@ -85,7 +85,7 @@ fn percentiles(mut found: Vec<f64>, level: f64) -> Option<Interval> {
 }
 
 /// Draws uniformly from `0..bound`, without bias (D. Lemire, "Fast random integer generation in an interval", 2019).
-fn below(draws: &mut ChaCha8Rng, bound: usize) -> usize {
+pub(crate) fn below(draws: &mut ChaCha8Rng, bound: usize) -> usize {
     let bound = bound as u64;
     loop {
         let wide = u128::from(draws.next_u64()) * u128::from(bound);

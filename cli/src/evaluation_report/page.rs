@@ -81,6 +81,12 @@ fn headlines(study: &Study) -> Vec<Fact> {
             Fact::plain(study.players[row.player].label(), value).of(won).within(band)
         })
         .collect();
+    let horizon = study.horizons.iter().find(|row| !row.player.is_reference()).or(study.horizons.first());
+    facts.extend(horizon.map(|row| {
+        Fact::plain(format!("horizon of {}", row.player.label()), row.told_value())
+            .of("ticks ahead".to_owned())
+            .within(row.told_interval())
+    }));
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count() as u64;
     facts.push(Fact::plain("episodes", words::grouped(ended)));
     facts

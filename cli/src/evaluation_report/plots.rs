@@ -1,9 +1,12 @@
 //! The plots of the page, from the numbers of the study.
 
-use crate::page::plots::{ForestRow, HeatMap, Label, Violin, forest, group_width, heat_map, matrix, violins};
+use crate::page::plots::{
+    CurvePoint, ForestRow, HeatMap, Label, Violin, curve, forest, group_width, heat_map, matrix, violins,
+};
 use crate::page::words;
 use evaluation::study::{
-    CORRELATED, Correlation, FailureMeasure, Matrix, Measure, Scope, Scores, Study, Test,
+    CORRELATED, Correlation, FailureMeasure, Foresight, HorizonRow, Matrix, Measure, Scope, Scores, Study,
+    Test,
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -216,6 +219,30 @@ pub(super) fn win_rates(study: &Study) -> Plot {
         svg: forest("win rates with Wilson intervals", &rows),
         caption: "95 % intervals for games like these; of one game, for exactly its levels.".to_owned(),
     }
+}
+
+/// Plots win rates by commitment, a plot for each player and kind of game.
+pub(super) fn horizons(study: &Study) -> Vec<Plot> {
+    let plot = |row: &HorizonRow| {
+        let points: Vec<CurvePoint> = row
+            .rates
+            .iter()
+            .filter_map(|found| {
+                let rate = found.rate?;
+                let (name, band) = (found.commit.clone(), [rate.low, rate.high]);
+                Some(CurvePoint { at: found.ticks, name, share: rate.value, band })
+            })
+            .collect();
+        let head = match row.games {
+            Foresight::All => row.player.label(),
+            games => format!("{}: games {}", row.player.label(), games.name()),
+        };
+        let marked = row.horizon.map(|horizon| (horizon.value, [horizon.low, horizon.high]));
+        let svg = curve(&format!("{head}: win rate by commitment"), &points, marked);
+        let caption = row.horizon.map_or(String::new(), |_| format!("Horizon: {}", row.told()));
+        Plot { head, svg, caption }
+    };
+    study.horizons.iter().map(plot).collect()
 }
 
 /// Plots win rates by game, a plot for each player.

@@ -40,6 +40,15 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     leaders.tables = of(&["leaderboard"]);
     leaders.tables.iter_mut().for_each(|table| table.rows.extend(optimum(study, &table.columns)));
 
+    let mut horizons = Section::new(
+        "horizons",
+        "How far players see ahead",
+        "The win rate by commitment: the actions that a player chooses without another look. The mark below a curve is the horizon.",
+    );
+    horizons.plots = plots::horizons(study);
+    horizons.tables = of(&["horizons"]);
+    let horizons = Some(horizons).filter(|section| !section.tables.is_empty());
+
     let heats = Heats::of(study);
     let rules = heats.rules();
     let mut levels = Section::new(
@@ -101,7 +110,9 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut answers = Section::new("answers", "Answers, failures and times", "");
     answers.tables = of(&["answers", "times"]);
 
-    (vec![leaders, kinds, losses, levels, games, pairs, modes, aids, walked, correlations, answers], rules)
+    let first = std::iter::once(leaders).chain(horizons);
+    let others = [kinds, losses, levels, games, pairs, modes, aids, walked, correlations, answers];
+    (first.chain(others).collect(), rules)
 }
 
 /// Returns the proved shortest wins as a row of the leaderboard.

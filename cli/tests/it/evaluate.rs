@@ -70,6 +70,33 @@ fn built_in_players() {
     assert_eq!(logs(&home.path().join("one")), logs(&home.path().join("two")));
 }
 
+/// A commitment is part of the player's name, of the log and of what `--resume` compares.
+#[test]
+fn players_commit_to_plans() {
+    let home = tempfile::tempdir().unwrap();
+    let args =
+        ["--json", "evaluate", "hailglass", "--levels", "0", "--max-steps", "7", "--player", "mcts:20"];
+    let with = |more: &[&str], status: i32| run(home.path(), &[&args[..], more].concat(), status);
+    let played = json(&with(&["--commit", "3", "--out", "plans"], 0));
+    assert_eq!(played["entrant"]["aids"], serde_json::json!(["commit=3"]));
+    let log = read(&home.path().join("plans/episodes/hailglass-lvl0-run0.jsonl")).unwrap();
+    let plans = log.iter().filter_map(|event| match event {
+        Event::Plan { step, actions, .. } => Some((*step, actions.len())),
+        _ => None,
+    });
+    assert_eq!(plans.collect::<Vec<_>>(), [(0, 3), (3, 3), (6, 1)]);
+    let other = with(&["--commit", "all", "--out", "plans", "--resume"], 2);
+    assert!(text(&other.stderr).contains("was started with another --commit"), "{}", text(&other.stderr));
+    let none = with(&["--commit", "0", "--out", "none"], 2);
+    assert!(
+        text(&none.stderr).contains("`0` is no number of actions to commit to"),
+        "{}",
+        text(&none.stderr)
+    );
+    let report = run(home.path(), &["report", "plans", "--out", "report"], 0);
+    assert!(text(&report.stdout).contains("mcts:20 (commit=3)"), "{}", text(&report.stdout));
+}
+
 /// A person at a terminal sees the prompts of a model, and may leave in the middle.
 #[test]
 fn human_players_resume() {

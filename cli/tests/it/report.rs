@@ -51,6 +51,7 @@ impl Agent for Talker {
             },
             reasoning: Some("I see a light.".to_owned()),
             action: readable.then_some(Action::Right),
+            plan: None,
             stage: None,
             finish: Finish::Stop,
             usage: Usage { input_tokens: Some(100), output_tokens: Some(5), ..Usage::default() },
@@ -64,8 +65,8 @@ impl Agent for Talker {
             journal.push(event).map_err(|error| Halt::Log(error.to_string()))?;
         }
         Ok(match readable {
-            true => Choice { action: Action::Right, validity: Validity::Valid },
-            false => Choice { action: Action::Nil, validity: Validity::Invalid },
+            true => Choice::of(Action::Right),
+            false => Choice::nothing(Validity::Invalid),
         })
     }
 
@@ -98,6 +99,7 @@ fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
         seed: "test".to_owned(),
         runs: 2,
         max_steps: 12,
+        commit: evaluation::Commitment::ONE,
         games: Evaluation::entries(&subjects),
     };
     let evaluation = Evaluation::create(folder, settings, subjects).unwrap();

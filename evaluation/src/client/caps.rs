@@ -242,6 +242,7 @@ mod tests {
                 text: "up".to_owned(),
                 reasoning: None,
                 action: None,
+                plan: None,
                 stage: None,
                 finish: Finish::Stop,
                 usage: usage(100, 10),

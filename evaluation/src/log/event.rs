@@ -1,6 +1,7 @@
 //! The events of a log, one line of JSON each.
 
 use crate::client::{ChatReply, Failure, Finish, Role, Usage};
+use crate::commitment::Commitment;
 use crate::player::Validity;
 use engine::{Action, Digest, Outcome, Seed, StateHash};
 use serde::{Deserialize, Serialize};
@@ -31,8 +32,11 @@ pub enum Event {
         run: u64,
         /// The seed of the game's chance: the same for every player, so that runs are paired.
         seed: Seed,
-        /// The maximum number of decisions.
+        /// The maximum number of actions.
         max_steps: u64,
+        /// The number of actions that the player commits to at each look.
+        #[serde(default, skip_serializing_if = "Commitment::is_one")]
+        commit: Commitment,
         /// The state hash before the first tick.
         hash: StateHash,
         /// Column and row of the avatar, if there is one.
@@ -63,6 +67,16 @@ pub enum Event {
     },
     /// The answer to a request.
     Reply(Reply),
+    /// The player committed to several actions. The steps that follow play them. Logs with a look before every action have
+    /// none.
+    Plan {
+        /// The number of steps before it.
+        step: u64,
+        /// The actions, at most those that are due. Nothing is done in the ticks that they leave.
+        actions: Vec<Action>,
+        /// The origin of the choice, which is that of all its steps.
+        validity: Validity,
+    },
     /// An action was played.
     Step {
         /// The number of the step, from 0.
@@ -123,6 +137,9 @@ pub struct Reply {
     /// The action read from the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub action: Option<Action>,
+    /// The actions read from the text, where the player commits to several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Vec<Action>>,
     /// The rule of the parser that read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stage: Option<String>,
@@ -155,6 +172,7 @@ impl Reply {
             text,
             reasoning,
             action: None,
+            plan: None,
             stage: None,
             finish,
             usage,
@@ -190,6 +208,16 @@ pub enum Status {
     Over,
     /// The step limit was reached.
     StepLimit,
+}
+
+/// Returns the origins of the decisions of a log: of its plans, or of its steps where there is a look before every action.
+pub fn decisions(log: &[Event]) -> impl Iterator<Item = Validity> {
+    let is_one = !matches!(log.first(), Some(Event::Start { commit, .. }) if !commit.is_one());
+    log.iter().filter_map(move |event| match event {
+        Event::Step { validity, .. } if is_one => Some(*validity),
+        Event::Plan { validity, .. } => Some(*validity),
+        _ => None,
+    })
 }
 
 /// Returns the event with its times set to 0, for comparing runs.

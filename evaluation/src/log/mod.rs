@@ -3,6 +3,6 @@
 mod event;
 mod journal;
 
-pub use event::{Event, Reply, ReplyClass, SCHEMA, Status, without_times};
+pub use event::{Event, Reply, ReplyClass, SCHEMA, Status, decisions, without_times};
 pub(crate) use journal::NEXT_STEP;
 pub use journal::{Journal, read};

@@ -30,13 +30,33 @@ impl<'a> Answers<'a> {
     /// Compares a step with the answers before it, and clears them.
     pub(super) fn step(&mut self, event: &Event) -> Result<(), String> {
         let Event::Step { step, action, validity, calls, .. } = event else { return Ok(()) };
+        let is_named = |reply: &Reply| reply.action == Some(*action);
+        self.decision(*step, *validity, *action == Action::Nil, calls.is_some(), is_named)
+    }
+
+    /// Compares a plan with the answers before it, and clears them.
+    pub(super) fn plan(&mut self, event: &Event) -> Result<(), String> {
+        let Event::Plan { step, actions, validity } = event else { return Ok(()) };
+        let is_named = |reply: &Reply| reply.plan.as_ref() == Some(actions);
+        self.decision(*step, *validity, actions.is_empty(), false, is_named)
+    }
+
+    /// Compares a decision with the answers before it: `is_named` tests that an answer names its actions.
+    fn decision(
+        &mut self,
+        step: u64,
+        validity: Validity,
+        is_nothing: bool,
+        is_planned: bool,
+        is_named: impl Fn(&Reply) -> bool,
+    ) -> Result<(), String> {
         let Answers { replies, is_model } = std::mem::take(self);
         let wrong = |what: &str| Err(format!("step {step} is recorded as {}, but {what}", validity.name()));
-        let is_valid = *validity == Validity::Valid;
-        if !is_valid && *action != Action::Nil {
+        let is_valid = validity == Validity::Valid;
+        if !is_valid && !is_nothing {
             return wrong("it has an action");
         }
-        if !is_valid && calls.is_some() {
+        if !is_valid && is_planned {
             return wrong("a planner chose its action");
         }
         let Some(last) = replies.last() else {
@@ -52,9 +72,7 @@ impl<'a> Answers<'a> {
             };
         }
         match (validity, last.class) {
-            (Validity::Valid, ReplyClass::Strict | ReplyClass::Tolerant) if last.action == Some(*action) => {
-                Ok(())
-            }
+            (Validity::Valid, ReplyClass::Strict | ReplyClass::Tolerant) if is_named(last) => Ok(()),
             (Validity::Valid, ReplyClass::Strict | ReplyClass::Tolerant) => {
                 wrong("the last answer names another action")
             }

@@ -24,11 +24,14 @@ impl Choices {
     pub fn of(log: &[Event]) -> Choices {
         let mut choices = Choices::default();
         let mut class = None;
+        // The class of the plan that is being played.
+        let mut planned = None;
         for event in log {
             match event {
                 Event::Reply(reply) => class = Some(reply.class),
+                Event::Plan { .. } => planned = class.take(),
                 Event::Step { validity, .. } => {
-                    let count = match (validity, class.take()) {
+                    let count = match (validity, class.take().or(planned)) {
                         (Validity::Valid, Some(ReplyClass::Tolerant)) => &mut choices.tolerant,
                         (Validity::Valid, _) => &mut choices.valid,
                         (Validity::Invalid, _) => &mut choices.invalid,
@@ -170,6 +173,7 @@ mod tests {
                 text: String::new(),
                 reasoning: None,
                 action: None,
+                plan: None,
                 stage: None,
                 finish: Finish::Stop,
                 usage: Usage::default(),

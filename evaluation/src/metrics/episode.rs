@@ -1,5 +1,6 @@
 //! All metrics of an episode.
 
+use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::log::Event;
 use crate::metrics::choices::{Choices, Spending};
@@ -33,6 +34,9 @@ pub struct EpisodeMetrics {
     pub steps: u64,
     /// The maximum number of actions.
     pub max_steps: u64,
+    /// The number of actions that the player commits to at each look.
+    #[serde(skip_serializing_if = "Commitment::is_one")]
+    pub commit: Commitment,
     /// The ticks of the level's shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
     /// The meaningful step ratio: meaningful steps divided by steps.
@@ -83,7 +87,7 @@ impl EpisodeMetrics {
     /// The same as those of [`replay`].
     pub fn of(subject: &Subject, log: &[Event]) -> Result<EpisodeMetrics, EvaluationError> {
         let replayed = replay(subject, log)?;
-        let Some(Event::Start { level, run, max_steps, .. }) = log.first() else {
+        let Some(Event::Start { level, run, max_steps, commit, .. }) = log.first() else {
             unreachable!("the replay began with it")
         };
         let Replayed { meaningful, meaningful_as_code, cells, .. } = &replayed;
@@ -105,6 +109,7 @@ impl EpisodeMetrics {
             score: replayed.score,
             steps: replayed.actions.len() as u64,
             max_steps: *max_steps,
+            commit: *commit,
             optimal_ticks: replayed.optimal_ticks,
             meaningful: fraction(meaningful),
             meaningful_as_code: fraction(meaningful_as_code),
@@ -132,6 +137,7 @@ impl EpisodeMetrics {
             score: 0.0,
             steps: 0,
             max_steps: 0,
+            commit: Commitment::ONE,
             optimal_ticks: None,
             meaningful: None,
             meaningful_as_code: None,

@@ -7,6 +7,7 @@
 mod answers;
 mod as_code;
 mod choices;
+mod commit;
 mod ending;
 mod episode;
 mod meaningful;

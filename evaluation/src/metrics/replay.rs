@@ -4,6 +4,7 @@ use crate::error::EvaluationError;
 use crate::log::{Event, NEXT_STEP, SCHEMA, Status};
 use crate::metrics::answers::Answers;
 use crate::metrics::as_code::{AsCode, flags_as_code};
+use crate::metrics::commit::Commit;
 use crate::metrics::ending::{Ending, LastTick};
 use crate::metrics::meaningful::{Effect, meaningful};
 use crate::subject::{Subject, SubjectLevel};
@@ -43,7 +44,7 @@ pub struct Replayed {
 /// # Errors
 /// The log is of another game, level or version of the suite, or contradicts itself or the game: the message names the line.
 pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
-    let Some(start @ Event::Start { max_steps, .. }) = log.first() else {
+    let Some(start @ Event::Start { max_steps, commit, .. }) = log.first() else {
         return Err(EvaluationError::Malformed(format!(
             "line 1 is not the start of an episode of {}; {NEXT_STEP}",
             subject.id
@@ -72,15 +73,21 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
     let mut places = vec![seen.place()];
     seen.absorb(&mut course);
     let mut answers = Answers::default();
+    let mut plan = Commit::new(*commit, *max_steps);
     for (event, line) in log.iter().zip(1..).skip(1) {
         let malformed =
             |what: String| EvaluationError::Malformed(format!("line {line}: {what}; {NEXT_STEP}"));
         match event {
             Event::Start { .. } => return Err(malformed("there is a second start of an episode".to_owned())),
+            Event::Plan { .. } => {
+                plan.begin(event, replayed.actions.len() as u64).map_err(malformed)?;
+                answers.plan(event).map_err(malformed)?;
+            }
             Event::Step { action, .. } => {
                 if state.is_over() || replayed.actions.len() as u64 >= *max_steps {
                     return Err(malformed("there is a step after the end of the episode".to_owned()));
                 }
+                let is_decision = plan.step(event, &subject.game, &state).map_err(malformed)?;
                 texts.push(code.text(&subject.game.observe(&state)));
                 let idle = (*action != Action::Nil).then(|| {
                     let mut idle = state.clone();
@@ -103,7 +110,9 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                 seen.absorb(&mut course);
                 course.update(format!("{action:?} {:?} {}\n", replayed.outcome, replayed.score).as_bytes());
                 compare(event, &state, &replayed).map_err(malformed)?;
-                answers.step(event).map_err(malformed)?;
+                if is_decision {
+                    answers.step(event).map_err(malformed)?;
+                }
             }
             Event::End { .. } => {
                 compare_end(event, &replayed, *max_steps).map_err(malformed)?;

@@ -1,7 +1,7 @@
 //! Built-in players, which plan with the forward model or repeat a recorded episode.
 
 use crate::log::Journal;
-use crate::player::{Agent, Choice, Halt, Validity};
+use crate::player::{Agent, Choice, Halt};
 use crate::turn::Turn;
 use agents::{Budget, PlannerSpec};
 use engine::{Action, Digest, Episode};
@@ -40,9 +40,9 @@ impl Replay {
 
 impl Agent for Replay {
     fn act(&mut self, turn: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
-        let action = usize::try_from(turn.number).ok().and_then(|number| self.actions.get(number));
-        let offered = action.filter(|action| turn.actions.contains(action));
-        Ok(Choice { action: *offered.unwrap_or(&Action::Nil), validity: Validity::Valid })
+        let past = usize::try_from(turn.number).unwrap_or(usize::MAX);
+        let due = usize::try_from(turn.due()).unwrap_or(usize::MAX);
+        Ok(Choice::plan(self.actions.iter().skip(past).take(due).copied().collect()))
     }
 
     fn recall(&mut self, _: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {

@@ -14,7 +14,7 @@ use engine::Action;
 
 /// A player that chooses actions by the turns it is shown.
 pub trait Agent: Send {
-    /// Chooses the next action. Every message and payment on the way is added to the journal as it happens, before and after
+    /// Chooses the next action, or the next actions ([`Turn::due`]). Every message and payment on the way is added to the journal as it happens, before and after
     /// each request, so that nothing is lost or paid for twice if the program is killed. Events that an interrupted run has
     /// recorded for this turn are already in the journal ([`Journal::pending`]) and are used before anything is requested.
     ///
@@ -33,12 +33,35 @@ pub trait Agent: Send {
 }
 
 /// The decision of an agent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The action to play.
-    pub action: Action,
+    /// The actions to play, one a tick. [`Action::Nil`] is played for those that are missing up to the commitment, and for
+    /// those that are not available when their turn comes; those beyond it are not played.
+    pub actions: Vec<Action>,
     /// The origin of the choice.
     pub validity: Validity,
+}
+
+impl Choice {
+    /// Creates the choice of one action.
+    pub fn of(action: Action) -> Choice {
+        Choice::plan(vec![action])
+    }
+
+    /// Creates the choice of several actions.
+    pub fn plan(actions: Vec<Action>) -> Choice {
+        Choice { actions, validity: Validity::Valid }
+    }
+
+    /// Creates the choice of a player whose answer cannot be used: nothing is done.
+    pub fn nothing(validity: Validity) -> Choice {
+        Choice { actions: Vec::new(), validity }
+    }
+
+    /// Returns the action of a tick, counted from the decision.
+    pub fn action(&self, tick: usize) -> Action {
+        self.actions.get(tick).copied().unwrap_or(Action::Nil)
+    }
 }
 
 engine::named_enum! {

@@ -75,17 +75,17 @@ impl ModelPlayer {
                     return Err(Halt::Log(format!("the log has no answer for step {}", turn.number)));
                 }
             };
-            let (class, action, why) = classify(&prompter, turn, &reply.text, reply.finish);
-            let again = action.is_none() && attempt < self.reasks;
+            let (class, actions, why) = classify(&prompter, turn, &reply.text, reply.finish);
+            let again = actions.is_none() && attempt < self.reasks;
             let complaint = again.then(|| prompter.complaint(&why));
             attempts.push(Attempt { answer: reply.text, complaint });
             if !again {
-                let validity = action.map_or_else(|| validity_of(class), |_| Validity::Valid);
-                break (prompt.shown, Choice { action: action.unwrap_or(Action::Nil), validity });
+                let nothing = || Choice::nothing(validity_of(class));
+                break (prompt.shown, actions.map_or_else(nothing, Choice::plan));
             }
             attempt += 1;
         };
-        self.past.push(Past::new(shown, &attempts, choice.action));
+        self.past.push(Past::new(shown, &attempts, choice.action(0)));
         Ok(choice)
     }
 
@@ -116,12 +116,16 @@ impl ModelPlayer {
             ChatErrorKind::Budget => Halt::Budget(error.message),
             ChatErrorKind::Rejected => Halt::Rejected(error.message),
         })?;
-        let (class, action, _) = classify(&self.prompter, turn, &answer.text, answer.finish);
+        let (class, actions, _) = classify(&self.prompter, turn, &answer.text, answer.finish);
         let stage = match self.prompter.read(&answer.text, turn) {
-            Reading::Tolerant { stage, .. } if action.is_some() => Some(stage.name().to_owned()),
+            Reading::Tolerant { stage, .. } if actions.is_some() => Some(stage.name().to_owned()),
             _ => None,
         };
-        let reply = Reply { action, stage, ..Reply::of(step, attempt, class, answer) };
+        let (action, plan) = match turn.commit.is_one() {
+            true => (actions.and_then(|actions| actions.first().copied()), None),
+            false => (None, actions),
+        };
+        let reply = Reply { action, plan, stage, ..Reply::of(step, attempt, class, answer) };
         push(journal, Event::Reply(reply.clone()))?;
         Ok(reply)
     }
@@ -164,21 +168,21 @@ impl Agent for ModelPlayer {
     }
 }
 
-/// Returns the class of an answer, its action, and the reason as a clause about it if there is none.
+/// Returns the class of an answer, its actions, and the reason as a clause about it if there are none.
 fn classify(
     prompter: &Prompter,
     turn: &Turn<'_>,
     text: &str,
     finish: Finish,
-) -> (ReplyClass, Option<Action>, String) {
+) -> (ReplyClass, Option<Vec<Action>>, String) {
     if finish == Finish::Refusal {
         return (ReplyClass::Refused, None, DECLINED.to_owned());
     }
     match (prompter.read(text, turn), finish) {
-        (Reading::Strict(action), _) => (ReplyClass::Strict, Some(action), String::new()),
+        (Reading::Strict(actions), _) => (ReplyClass::Strict, Some(actions), String::new()),
         // An action considered before the cut is not a decision.
         (_, Finish::Length) => (ReplyClass::Truncated, None, CUT_OFF.to_owned()),
-        (Reading::Tolerant { action, .. }, _) => (ReplyClass::Tolerant, Some(action), String::new()),
+        (Reading::Tolerant { choice, .. }, _) => (ReplyClass::Tolerant, Some(choice), String::new()),
         (Reading::Invalid { why }, _) => (ReplyClass::Invalid, None, why),
     }
 }

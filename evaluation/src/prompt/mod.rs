@@ -17,6 +17,7 @@ pub use settings::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 
 use crate::answer::{self, Format, Reading};
 use crate::client::{ChatMessage, Role};
+use crate::commitment::Commitment;
 use crate::encoding;
 use crate::error::EvaluationError;
 use crate::legend::{Legend, LegendOptions};
@@ -35,7 +36,7 @@ use render::Style;
 use serde::Serialize;
 
 /// The version of the templates, raised when a word of them changes, so that results tell prompts apart at a glance.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 const TEMPLATES: [(&str, &str); 6] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
@@ -54,6 +55,7 @@ const NUMBERED: [Action; 6] =
 #[derive(Debug)]
 pub struct Prompter {
     settings: PromptSettings,
+    commit: Commitment,
     environment: Environment<'static>,
     legend: Legend,
     mask: Option<Mask>,
@@ -113,23 +115,30 @@ pub struct Prompt {
 }
 
 impl Prompter {
-    /// Prepares the prompts of a game.
+    /// Prepares the prompts of a game, with a look before every action and without a limit of actions.
     ///
     /// # Errors
     /// The settings are out of their ranges, or the names of the game cannot be masked.
     pub fn new(subject: &Subject, settings: PromptSettings) -> Result<Prompter, EvaluationError> {
-        Prompter::within(subject, settings, u64::MAX)
+        Prompter::within(subject, settings, u64::MAX, Commitment::ONE)
     }
 
-    /// Prepares the prompts of a game in which an episode has at most `limit` decisions: its rules tell no later tick.
+    /// Prepares the prompts of a game in which an episode has at most `limit` actions: its rules tell no later tick. Answers
+    /// are asked for as many actions as the player commits to.
     ///
     /// # Errors
-    /// The settings are out of their ranges, or the names of the game cannot be masked.
+    /// The settings are out of their ranges, the reference's style asks for one action, or the names of the game cannot be
+    /// masked.
     pub fn within(
         subject: &Subject,
         settings: PromptSettings,
         limit: u64,
+        commit: Commitment,
     ) -> Result<Prompter, EvaluationError> {
+        if settings.style == PromptStyle::Reference && !commit.is_one() {
+            let message = "the reference's prompts ask for one action; a commitment to several needs the standard style";
+            return Err(EvaluationError::Malformed(message.to_owned()));
+        }
         let cell = settings.encodings.image_cell;
         if !(render::MIN_CELL..=40).contains(&cell) {
             let message = format!("`image_cell` is {cell}, but must be from 4 to 40 pixels");
@@ -163,6 +172,7 @@ impl Prompter {
             holding: !analysis.resources().is_empty(),
             static_part: String::new(),
             static_tokens: Vec::new(),
+            commit,
             settings,
         };
         prompter.static_part = prompter.write_static(analysis, limit);
@@ -190,8 +200,8 @@ impl Prompter {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates and the settings. Two runs of the same game with the same
-    /// digest have the same prompts, under the same [`engine::SEMANTICS`] and the same limit of decisions.
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. Two runs of the same game with the same
+    /// digest have the same prompts, under the same [`engine::SEMANTICS`] and the same limit of actions.
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
@@ -199,6 +209,9 @@ impl Prompter {
         let texts = TEMPLATES.iter().flat_map(|(name, text)| [*name, *text]).chain([settings.as_str()]);
         for text in texts {
             hasher.update(&(text.len() as u64).to_le_bytes()).update(text.as_bytes());
+        }
+        if let Some(commit) = self.commit.aid() {
+            hasher.update(commit.as_bytes());
         }
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
@@ -249,7 +262,8 @@ impl Prompter {
             "complaint.j2",
             data(serde_json::json!({
                 "why": why,
-                "format": self.format() == Format::Word,
+                "style": self.settings.style,
+                "commit": self.commit_data(),
                 "actions": self.words(),
             })),
         )
@@ -277,17 +291,21 @@ impl Prompter {
         format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
     }
 
-    /// Reads an answer to a turn.
-    pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading {
-        answer::read(answer, self.format(), &self.actions, turn.actions)
-    }
-
-    /// The requested format.
-    pub fn format(&self) -> Format {
-        match self.settings.style {
+    /// Reads an answer to a turn: an action, or as many as are due.
+    pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading<Vec<Action>> {
+        if !self.commit.is_one() {
+            return answer::read_plan(answer, turn.due(), &self.actions);
+        }
+        let format = match self.settings.style {
             PromptStyle::Standard => Format::Word,
             PromptStyle::Reference => Format::Number,
-        }
+        };
+        answer::read(answer, format, &self.actions, turn.actions).map(|action| vec![action])
+    }
+
+    /// Returns the commitment as templates take it: nothing for one action, a number, or `all`.
+    fn commit_data(&self) -> Option<String> {
+        (!self.commit.is_one()).then(|| self.commit.to_string())
     }
 
     fn template(&self, [standard, reference]: [&'static str; 2]) -> &'static str {
@@ -312,6 +330,7 @@ impl Prompter {
             self.template(["standard_static.j2", "reference_static.j2"]),
             data(serde_json::json!({
             "settings": self.settings,
+            "commit": self.commit_data(),
             "described": described,
             "vgdl": vgdl,
             "winning": guide.winning,

@@ -3,7 +3,7 @@
 use super::{Encodings, PromptSettings, PromptStyle, Rules};
 use crate::encoding::{self, direction_name};
 use crate::legend::{Entry, Legend};
-use crate::turn::Turn;
+use crate::turn::{Played, Turn};
 use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;
 use render::EMPTY;
@@ -62,7 +62,8 @@ impl View<'_> {
         json!({
             // None are offered after the end of an episode.
             "actions_now": (!actions.is_empty() && actions.len() < self.actions.len()).then_some(actions),
-            "feedback": self.settings.has_feedback().then(|| self.feedback()).flatten(),
+            "feedback": (self.settings.has_feedback() && self.turn.commit.is_one()).then(|| self.feedback()).flatten(),
+            "played": if self.turn.commit.is_one() { Vec::new() } else { self.played() },
             "grid": grid.then(|| board(encoding::grid(now, legend), spaced)),
             "stacks": if grid { encoding::stacks(now, legend) } else { Vec::new() },
             "grounding": if grounding { encoding::grounding(now, legend) } else { Vec::new() },
@@ -88,6 +89,17 @@ impl View<'_> {
             "became": both.filter(|(from, to)| from.name != to.name).map(|(_, to)| to.name.clone()),
             "gone": from.is_some() && to.is_none(),
         }))
+    }
+
+    /// Returns what came of each action since the last look: `right (4,2)`, `use as nil (4,2), score +1`.
+    fn played(&self) -> Vec<String> {
+        let told = |played: &Played| {
+            let nil = if played.is_unavailable { " as nil" } else { "" };
+            let place = played.avatar.map_or("gone".to_owned(), |(column, row)| format!("({column},{row})"));
+            let score = (played.reward != 0.0).then(|| format!(", score {}", signed(played.reward)));
+            format!("{}{nil} {place}{}", played.asked, score.unwrap_or_default())
+        };
+        self.turn.played.iter().map(told).collect()
     }
 
     /// Returns the data of the reference's composition.

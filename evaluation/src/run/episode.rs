@@ -1,12 +1,13 @@
 //! The play of one episode, from its first tick or an interruption to its end.
 
+use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, SCHEMA, Status};
 use crate::player::{Choice, Contestant, Halt, Validity};
 use crate::run::clock::Stopwatch;
 use crate::subject::{Subject, SubjectLevel};
-use crate::turn::{Turn, choices};
-use agents::{Planner, Player};
+use crate::turn::{Played, Recent, Turn, choices};
+use agents::{OpenLoop, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
 
 /// An episode to play.
@@ -20,8 +21,10 @@ pub struct Task<'a> {
     pub run: u64,
     /// The seed of the whole evaluation.
     pub seed: Seed,
-    /// The maximum number of decisions.
+    /// The maximum number of actions.
     pub max_steps: u64,
+    /// The number of actions that the player commits to at each look.
+    pub commit: Commitment,
 }
 
 impl Task<'_> {
@@ -38,19 +41,26 @@ impl Task<'_> {
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
     }
 
-    /// The maximum number of decisions that can be made: a Timeout may end the episode before `max_steps`.
+    /// The maximum number of actions that can be played: a Timeout may end the episode before `max_steps`.
     pub fn most_steps(&self) -> u64 {
         self.max_steps.min(self.subject.game.time_limit())
     }
 
+    /// The maximum number of decisions, each of which covers as many actions as the player commits to.
+    pub fn most_decisions(&self) -> u64 {
+        let steps = self.most_steps();
+        steps.div_ceil(self.commit.due(steps).max(1))
+    }
+
     /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
     pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
-        let Event::Start { game, level, run, seed, max_steps, .. } = start else { return Ok(()) };
+        let Event::Start { game, level, run, seed, max_steps, commit, .. } = start else { return Ok(()) };
         let fields = [
             ("game", game.clone(), self.subject.id.clone()),
             ("level", level.to_string(), self.level.number.to_string()),
             ("run", run.to_string(), self.run.to_string()),
             ("an episode with `max_steps`", max_steps.to_string(), self.max_steps.to_string()),
+            ("an episode with `commit`", commit.to_string(), self.commit.to_string()),
         ];
         if let Some((what, found, requested)) = fields.iter().find(|(_, found, requested)| found != requested)
         {
@@ -135,23 +145,25 @@ struct Playing<'a> {
     task: &'a Task<'a>,
     contestant: &'a mut Contestant,
     /// The planner's memory between decisions.
-    player: Option<Player>,
+    player: Option<OpenLoop<Player>>,
     state: State,
     steps: u64,
     seen: Observation,
-    /// The observation before the last action, the action and its reward.
-    before: Option<(Observation, Action, f64)>,
+    recent: Recent,
 }
 
 impl<'a> Playing<'a> {
     fn start(task: &'a Task<'a>, contestant: &'a mut Contestant) -> Playing<'a> {
         let state = task.subject.game.start(&task.level.level, task.chance());
         let player = match contestant {
-            Contestant::Planner { spec, .. } => Some(spec.player(task.chance().child(spec.name(), 0))),
+            Contestant::Planner { spec, budget } => {
+                let seed = task.chance().child(spec.name(), 0);
+                Some(OpenLoop::new(spec.player(seed), spec.budget().unwrap_or(*budget), seed))
+            }
             Contestant::Agent(_) => None,
         };
         let seen = task.subject.game.observe(&state);
-        Playing { task, contestant, player, state, steps: 0, seen, before: None }
+        Playing { task, contestant, player, state, steps: 0, seen, recent: Recent::default() }
     }
 
     fn game(&self) -> &'a Game {
@@ -162,9 +174,14 @@ impl<'a> Playing<'a> {
         self.state.is_over() || self.steps >= self.task.max_steps
     }
 
+    /// Returns the number of actions that the next decision covers.
+    fn due(&self) -> u64 {
+        self.task.commit.due(self.task.max_steps - self.steps)
+    }
+
     /// Returns the first line of the log.
     fn start_event(&self) -> Event {
-        let Task { subject, level, run, max_steps, .. } = *self.task;
+        let Task { subject, level, run, max_steps, commit, .. } = *self.task;
         let (game, game_digest) = (subject.id.clone(), subject.game.digest());
         Event::Start {
             schema: SCHEMA,
@@ -176,100 +193,159 @@ impl<'a> Playing<'a> {
             run,
             seed: self.task.chance(),
             max_steps,
+            commit,
             hash: self.state.state_hash(),
             avatar: place(&self.seen),
         }
     }
 
-    /// Replays the steps in the log, and shows them to the agent.
+    /// Replays the decisions in the log, and shows them to the agent. If the last one was interrupted, its remaining actions
+    /// are played now.
     fn replay_log(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
         journal.set_step(1, None);
         let mut from = 1;
-        while let Some((at, action, validity)) = step_after(journal.events(), from) {
+        while let Some((at, choice)) = decision_after(journal.events(), from, self.task.commit) {
             journal.set_step(from, Some(at));
-            let recorded = journal.events()[at].clone();
-            let choice = Choice { action, validity };
-            let (actions, before) = (choices(self.game(), &self.state), self.before.take());
-            let turn = Turn::of(self.task, self.steps, &self.seen, &before, &actions);
+            let (actions, recent) = (choices(self.game(), &self.state), std::mem::take(&mut self.recent));
+            let turn = Turn::of(self.task, self.steps, &self.seen, &recent, &actions);
             if let Contestant::Agent(agent) = &mut *self.contestant
                 && let Err(halt) = agent.recall(&turn, journal, &choice)
             {
                 return Ok(Some(halt));
             }
-            let Event::Step { calls, took_ms, .. } = recorded else { unreachable!("it was found as a step") };
-            if self.step(choice, calls, took_ms) != recorded {
-                let step = self.steps - 1;
-                return Err(journal.malformed(&format!(
-                    "step {step} differs from the log when it is replayed; the log is damaged or was written by another version of arcade"
-                )));
-            }
-            from = at + 1;
+            from = self.carry_out(&choice, None, 0.0, journal, at)?;
+            journal.set_step(from, None);
         }
-        journal.set_step(from, None);
         Ok(None)
     }
 
-    /// Makes the contestant decide, plays the action and records it.
+    /// Makes the contestant decide, plays the actions and records them.
     fn decide(&mut self, journal: &mut Journal) -> Result<Result<Validity, Halt>, EvaluationError> {
         let (game, started) = (self.game(), Stopwatch::start());
+        let recent = std::mem::take(&mut self.recent);
         let decided = match (&mut *self.contestant, &mut self.player) {
-            (Contestant::Planner { spec, budget }, Some(player)) => {
-                let budget = spec.budget().unwrap_or(*budget);
-                let (action, calls) = player.plan(game, &self.state, budget);
-                Ok((Choice { action, validity: Validity::Valid }, Some(calls)))
+            (Contestant::Planner { .. }, Some(player)) => {
+                let due = self.task.commit.due(self.task.max_steps - self.steps);
+                let (actions, calls) = player.plan(game, &self.state, due);
+                Ok((Choice::plan(actions), Some(calls)))
             }
             (Contestant::Agent(agent), _) => {
                 let actions = choices(game, &self.state);
-                let turn = Turn::of(self.task, self.steps, &self.seen, &self.before, &actions);
+                let turn = Turn::of(self.task, self.steps, &self.seen, &recent, &actions);
                 agent.act(&turn, journal).map(|choice| (choice, None))
             }
             (Contestant::Planner { .. }, None) => unreachable!("planners are made at the start"),
         };
         match decided {
             Ok((choice, calls)) => {
-                let event = self.step(choice, calls, started.milliseconds());
-                journal.push(event)?;
-                let played = journal.events().len();
-                journal.set_step(played, None);
+                let at = journal.events().len();
+                let next = self.carry_out(&choice, calls, started.milliseconds(), journal, at)?;
+                journal.set_step(next, None);
                 Ok(Ok(choice.validity))
             }
-            Err(halt) => Ok(Err(halt)),
+            Err(halt) => {
+                self.recent = recent;
+                Ok(Err(halt))
+            }
         }
+    }
+
+    /// Plays the actions of a decision and records them from the event at `at` on. Events that are there already have to be
+    /// the same. Returns the index of the event after the decision.
+    fn carry_out(
+        &mut self,
+        choice: &Choice,
+        calls: Option<u64>,
+        took_ms: f64,
+        journal: &mut Journal,
+        mut at: usize,
+    ) -> Result<usize, EvaluationError> {
+        let due = self.due();
+        if !self.task.commit.is_one() {
+            let actions = choice.actions.iter().take(due as usize).copied().collect();
+            let plan = Event::Plan { step: self.steps, actions, validity: choice.validity };
+            self.record(plan, journal, &mut at)?;
+        }
+        for tick in 0..due as usize {
+            if self.is_over() {
+                break;
+            }
+            // The first action stands for the whole decision.
+            let (calls, took_ms) = if tick == 0 { (calls, took_ms) } else { (None, 0.0) };
+            let (calls, took_ms) = match journal.events().get(at) {
+                Some(Event::Step { calls, took_ms, .. }) => (*calls, *took_ms),
+                _ => (calls, took_ms),
+            };
+            let event = self.step(choice.action(tick), choice.validity, calls, took_ms);
+            self.record(event, journal, &mut at)?;
+        }
+        Ok(at)
+    }
+
+    /// Appends an event to the log, or compares it with the one at `at`.
+    fn record(&self, event: Event, journal: &mut Journal, at: &mut usize) -> Result<(), EvaluationError> {
+        match journal.events().get(*at) {
+            None => journal.push(event)?,
+            Some(recorded) if *recorded == event => {}
+            Some(_) => {
+                let step = self.steps.saturating_sub(1);
+                return Err(journal.malformed(&format!(
+                    "step {step} differs from the log when it is replayed; the log is damaged or was written by another version of arcade"
+                )));
+            }
+        }
+        *at += 1;
+        Ok(())
     }
 
     /// Shows the agent the final state.
     fn finish(&mut self) {
         if let Contestant::Agent(agent) = &mut *self.contestant {
-            agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.before, &[]));
+            agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.recent, &[]));
         }
     }
 
-    /// Plays an action and returns the event that records it.
-    fn step(&mut self, choice: Choice, calls: Option<u64>, took_ms: f64) -> Event {
-        let score = self.state.score();
-        self.game().step(&mut self.state, choice.action);
-        let seen = std::mem::replace(&mut self.seen, self.task.subject.game.observe(&self.state));
-        self.before = Some((seen, choice.action, self.state.score() - score));
+    /// Plays an action, or nothing if it is not available, and returns the event that records it.
+    fn step(&mut self, asked: Action, validity: Validity, calls: Option<u64>, took_ms: f64) -> Event {
+        let (game, score) = (self.game(), self.state.score());
+        let action = available(game, &self.state, asked);
+        game.step(&mut self.state, action);
+        let seen = std::mem::replace(&mut self.seen, game.observe(&self.state));
+        let reward = self.state.score() - score;
+        self.recent.last = Some((seen, action, reward));
+        let avatar = place(&self.seen);
+        self.recent.played.push(Played { asked, is_unavailable: action != asked, avatar, reward });
         let step = self.steps;
         self.steps += 1;
         Event::Step {
             step,
-            action: choice.action,
-            validity: choice.validity,
+            action,
+            validity,
             score: self.state.score(),
             hash: self.state.state_hash(),
             outcome: self.state.outcome(),
-            avatar: place(&self.seen),
+            avatar,
             calls,
             took_ms,
         }
     }
 }
 
-/// Returns the first step at or after `from`, with its action and validity.
-fn step_after(events: &[Event], from: usize) -> Option<(usize, Action, Validity)> {
+/// Returns the action that is played where a player asks for `asked`: nothing, if it is not available.
+pub(crate) fn available(game: &Game, state: &State, asked: Action) -> Action {
+    if game.actions(state).contains(&asked) { asked } else { Action::Nil }
+}
+
+/// Returns the first decision at or after `from`.
+fn decision_after(events: &[Event], from: usize, commit: Commitment) -> Option<(usize, Choice)> {
     events.iter().enumerate().skip(from).find_map(|(at, event)| match event {
-        Event::Step { action, validity, .. } => Some((at, *action, *validity)),
+        Event::Step { action, validity: Validity::Valid, .. } if commit.is_one() => {
+            Some((at, Choice::of(*action)))
+        }
+        Event::Step { validity, .. } if commit.is_one() => Some((at, Choice::nothing(*validity))),
+        Event::Plan { actions, validity, .. } => {
+            Some((at, Choice { actions: actions.clone(), validity: *validity }))
+        }
         _ => None,
     })
 }

@@ -1,7 +1,7 @@
 //! The episodes of an evaluation, played in parallel, each with its own log.
 
 use crate::error::EvaluationError;
-use crate::log::{Event, Journal, NEXT_STEP};
+use crate::log::{Event, Journal, NEXT_STEP, decisions};
 use crate::metrics::replay;
 use crate::player::{Contestant, Halt};
 use crate::run::episode::{PlayResult, Task, play_watched};
@@ -299,10 +299,8 @@ impl Evaluation {
                     first.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
                 }
             }
-            for event in journal.events() {
-                if let Event::Step { validity, .. } = event {
-                    answers.lock().expect("no holder panics").add(*validity);
-                }
+            for validity in decisions(journal.events()) {
+                answers.lock().expect("no holder panics").add(validity);
             }
             progress.episode(task, &result);
             Ok(Some(result))
@@ -343,6 +341,7 @@ pub fn tasks<'a>(settings: &Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> 
             run,
             seed,
             max_steps,
+            commit: settings.commit,
         })
     };
     (0..settings.runs).flat_map(on).collect()
@@ -393,7 +392,7 @@ fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
         "entrant" => "player, model, prompt or decoding".to_owned(),
         "games" => "choice of games or levels".to_owned(),
         "max_steps" => "--max-steps".to_owned(),
-        "runs" | "seed" => format!("--{name}"),
+        "runs" | "seed" | "commit" => format!("--{name}"),
         "suite" | "semantics" => "version of arcade".to_owned(),
         other => other.to_owned(),
     })

@@ -7,6 +7,8 @@ mod settings;
 pub(crate) mod text;
 mod unusable;
 
+pub(crate) use episode::available;
+
 pub use episode::{PlayResult, Task, play};
 pub use evaluation::{Evaluation, Progress, Tally, tasks};
 pub use settings::{

@@ -1,5 +1,6 @@
 //! The settings file `evaluation.json`, written before the first episode.
 
+use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
 use crate::subject::{Subject, SubjectFacts, Unreadable};
@@ -40,6 +41,9 @@ pub struct Settings {
     pub runs: u64,
     /// The maximum number of decisions per episode.
     pub max_steps: u64,
+    /// The number of actions that the player commits to at each look.
+    #[serde(default, skip_serializing_if = "Commitment::is_one")]
+    pub commit: Commitment,
     /// The games played.
     pub games: Vec<SubjectEntry>,
 }

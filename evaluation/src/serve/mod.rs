@@ -50,12 +50,15 @@ impl PromptPlayer {
     pub fn answer(&self, messages: &[ChatMessage]) -> Result<String, Unanswerable> {
         let shown = Shown::of(messages)?;
         let seed = seed(messages);
-        let action = match self {
-            PromptPlayer::Random => *seed.sampler().choose(&actions_except_nil(&shown.actions)),
-            PromptPlayer::Reflex => reflex::choose(&shown, seed)?,
+        let actions = match self {
+            PromptPlayer::Random => {
+                let (keys, mut draws) = (actions_except_nil(&shown.actions), seed.sampler());
+                (0..shown.due).map(|_| *draws.choose(&keys)).collect()
+            }
+            PromptPlayer::Reflex => reflex::choose(shown.clone(), seed)?,
             PromptPlayer::Planner(spec) => replan::choose(&shown, spec, seed)?,
         };
-        Ok(shown.answer(action))
+        Ok(shown.answer(&actions))
     }
 }
 

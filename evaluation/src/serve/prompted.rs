@@ -1,12 +1,10 @@
 //! A served player without a server: the same prompts, and the same answers, read in the same way.
 
 use super::PromptPlayer;
-use crate::answer::Reading;
 use crate::log::Journal;
 use crate::player::{Agent, Choice, Halt, Validity};
 use crate::prompt::{Attempt, Past, Prompter};
 use crate::turn::Turn;
-use engine::Action;
 use std::sync::Arc;
 
 /// An agent that plays the answers of a [`PromptPlayer`] to the prompts of a game. Its log holds no prompts, because the
@@ -29,13 +27,9 @@ impl Agent for Prompted {
     fn act(&mut self, turn: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
         let prompt = self.prompter.prompt(turn, &self.past, &[]);
         let answer = self.player.answer(&prompt.messages).map_err(|why| Halt::Rejected(why.to_string()))?;
-        let choice = match self.prompter.read(&answer, turn) {
-            Reading::Strict(action) | Reading::Tolerant { action, .. } => {
-                Choice { action, validity: Validity::Valid }
-            }
-            Reading::Invalid { .. } => Choice { action: Action::Nil, validity: Validity::Invalid },
-        };
-        self.past.push(Past::new(prompt.shown, &[Attempt { answer, complaint: None }], choice.action));
+        let actions = self.prompter.read(&answer, turn).choice();
+        let choice = actions.map_or_else(|| Choice::nothing(Validity::Invalid), Choice::plan);
+        self.past.push(Past::new(prompt.shown, &[Attempt { answer, complaint: None }], choice.action(0)));
         Ok(choice)
     }
 

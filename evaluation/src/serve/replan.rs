@@ -5,7 +5,7 @@
 
 use super::Unanswerable;
 use super::shown::Shown;
-use agents::{Budget, Planner, PlannerSpec};
+use agents::{Budget, OpenLoop, PlannerSpec};
 use engine::analysis::Time;
 use engine::syntax::{Description, MappingLine, parse};
 use engine::{Action, Analysis, Direction, Game, Level, Seed, State};
@@ -41,16 +41,20 @@ const SHOWN_EFFECTS: &[&str] = &[
 /// The terminations that depend only on sprite positions or the clock.
 const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpriteCounter", "Timeout"];
 
-/// Plans an action on the position that a prompt shows.
+/// Plans the actions due on the position that a prompt shows.
 ///
 /// # Errors
 /// The prompt does not show a position of a game that can be planned on. The message names the missing part.
-pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Action, Unanswerable> {
+pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Vec<Action>, Unanswerable> {
     let (game, state) = position(shown, seed.child("unused", 0))
         .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))?;
-    let (action, _) =
-        spec.player(seed.child("planner", 0)).plan(&game, &state, spec.budget().unwrap_or(BUDGET));
-    if shown.actions.contains(&action) { Ok(action) } else { Ok(Action::Nil) }
+    let seed = seed.child("planner", 0);
+    let mut player = OpenLoop::new(spec.player(seed), spec.budget().unwrap_or(BUDGET), seed);
+    let (mut actions, _) = player.plan(&game, &state, shown.due);
+    if let Some(first) = actions.first_mut().filter(|first| !shown.actions.contains(first)) {
+        *first = Action::Nil;
+    }
+    Ok(actions)
 }
 
 /// Reconstructs the position that a prompt shows, in an equivalent game, or returns the reason why it cannot. The result
@@ -178,6 +182,7 @@ fn direction(facing: Action) -> Option<Direction> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::commitment::Commitment;
     use crate::encoding;
     use crate::legend::Legend;
     use crate::prompt::{PromptSettings, Prompter, Rules};
@@ -217,8 +222,17 @@ mod tests {
                 }
                 let (observation, actions) = (own.observe(&state), choices(own, &state));
                 let (subject, observation, actions) = (&subject, &observation, &actions);
-                let turn =
-                    Turn { subject, level: 0, number: 0, limit: 9, observation, before: None, actions };
+                let turn = Turn {
+                    subject,
+                    level: 0,
+                    number: 0,
+                    limit: 9,
+                    commit: Commitment::ONE,
+                    observation,
+                    before: None,
+                    played: &[],
+                    actions,
+                };
                 let messages = prompter.prompt(&turn, &[], &[]).messages;
                 let shown = Shown::of(&messages).unwrap();
                 let (game, mut copy) = position(&shown, Seed::from_text("copy")).unwrap();

@@ -5,11 +5,14 @@ use crate::client::ChatMessage;
 use engine::Action;
 use std::collections::BTreeMap;
 
+/// The maximum number of actions of a plan: a served player does not know how long the game lasts.
+const MAX_PLAN: u64 = 1000;
+
 /// The character of the avatar, unless the legend defines others.
 const AVATAR: char = '@';
 
 /// A prompt as a player reads it.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Shown<'a> {
     /// The sentences of the rules in order, including those about the keys.
     pub(super) rules: Vec<&'a str>,
@@ -27,6 +30,10 @@ pub(super) struct Shown<'a> {
     pub(super) you: Option<You<'a>>,
     /// The player's resources, or `None` if the prompt does not list them.
     pub(super) held: Option<BTreeMap<&'a str, i32>>,
+    /// The number of actions to answer with.
+    pub(super) due: u64,
+    /// `true` if a plan is asked for, not an action.
+    is_plan: bool,
     /// The numbered actions, if answers are numbers as in the reference's style.
     numbered: Option<Vec<Action>>,
 }
@@ -89,15 +96,30 @@ impl<'a> Shown<'a> {
             shown.floors = symbols.floors;
             shown.read_stacks(turn("Cells with several").unwrap_or_default());
         }
-        let tick = told.strip_prefix("Tick ").and_then(|rest| rest.split_once(' '));
-        shown.tick = tick.and_then(|(tick, _)| tick.parse().ok()).unwrap_or(0);
+        let number = |text: Option<&str>| text.and_then(leading_number);
+        shown.tick = number(told.strip_prefix("Tick ")).unwrap_or(0) as u32;
+        let last = told.split_once(" of at most ").map(|(_, rest)| rest);
+        let left = number(last).map_or(MAX_PLAN, |last| last.saturating_sub(u64::from(shown.tick)));
+        let asked = fixed("Answer").and_then(|answer| answer.split_once("PLAN: followed by "));
+        shown.is_plan = asked.is_some();
+        shown.due = asked.map_or(1, |(_, rest)| leading_number(rest).unwrap_or(left).min(left));
+        shown.due = shown.due.clamp(1, MAX_PLAN);
         shown.held = told.lines().find_map(|line| line.strip_prefix("You hold ")).map(holdings);
         Ok(shown)
     }
 
-    /// Formats an action as the conversation asks.
-    pub(super) fn answer(&self, action: Action) -> String {
+    /// Formats actions as the conversation asks: one, or the runs of a plan.
+    pub(super) fn answer(&self, actions: &[Action]) -> String {
+        let action = actions.first().copied().unwrap_or(Action::Nil);
         match &self.numbered {
+            _ if self.is_plan => {
+                let run = |run: &[Action]| match run.len() {
+                    1 => run[0].to_string(),
+                    times => format!("{} x{times}", run[0]),
+                };
+                let runs: Vec<String> = actions.chunk_by(|a, b| a == b).map(run).collect();
+                format!("PLAN: {}", runs.join(", "))
+            }
             None => format!("ACTION: {action}"),
             Some(listed) => {
                 let number = listed.iter().position(|listed| *listed == action).unwrap_or_default();
@@ -205,6 +227,12 @@ fn holdings(text: &str) -> BTreeMap<&str, i32> {
     let list = text.split_once('.').map_or(text, |(list, _)| list);
     let items = list.split(", ").filter_map(|item| item.split_once(' '));
     items.filter_map(|(amount, name)| Some((name, amount.parse().ok()?))).collect()
+}
+
+/// Reads the number at the start of a text.
+fn leading_number(text: &str) -> Option<u64> {
+    let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    text[..end].parse().ok()
 }
 
 /// Reads `nil, up, left`.

@@ -16,6 +16,7 @@ mod correlations;
 mod difficulty;
 mod endings;
 mod failures;
+mod horizon;
 mod leaderboard;
 mod matrix;
 mod person;
@@ -33,6 +34,7 @@ pub use correlations::{CORRELATED, Correlation, Correlations, Test};
 pub use difficulty::{DifficultyLabel, DifficultyRow};
 pub use endings::{EndingRow, EndingSummary};
 pub use failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
+pub use horizon::{CommitmentRate, Foresight, HorizonRow};
 pub use leaderboard::LeaderRow;
 pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
 pub use player::{CONTEXTUAL, Player, ZERO_SHOT};
@@ -96,6 +98,8 @@ pub struct Study {
     pub kinds: Vec<TaxonomyRow>,
     /// The results by the taxonomy of the rules.
     pub taxonomy: Vec<TaxonomyRow>,
+    /// How far players can commit and still win half; empty without commitments.
+    pub horizons: Vec<HorizonRow>,
     /// The statistical power of the episodes.
     pub power: Vec<PowerRow>,
 }
@@ -112,6 +116,9 @@ pub struct StudyGame {
     pub kind: String,
     /// The kind of game by its rules, a sentence for each side.
     pub taxonomy: Vec<String>,
+    /// `true` for a game of chance; `None` if it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub is_stochastic: Option<bool>,
     /// Its levels.
     pub levels: Vec<StudyLevel>,
 }
@@ -133,6 +140,7 @@ impl From<&Subject> for StudyGame {
             title: subject.facts.title.clone(),
             kind: subject.facts.kind.clone(),
             taxonomy: subject.facts.taxonomy.clone(),
+            is_stochastic: Some(subject.analysis.is_stochastic()),
             levels: levels
                 .map(|level| StudyLevel { number: level.number, optimal_ticks: level.optimal_ticks })
                 .collect(),
@@ -176,6 +184,7 @@ impl Study {
         study.ending_summaries = endings::summaries(&study);
         study.kinds = taxonomy::kinds(&study);
         study.taxonomy = taxonomy::taxonomy(&study);
+        study.horizons = horizon::horizons(&study);
         study.power = power::of_study(&study);
         study
     }
@@ -253,6 +262,7 @@ impl Study {
     /// Returns all tables of a report in order.
     pub fn tables(&self) -> Vec<Table> {
         let mut tables = leaderboard::tables(self);
+        tables.extend(horizon::table(self));
         tables.extend(endings::tables(self));
         for (matrices, grain) in [(&self.by_game, "game"), (&self.by_level, "level")] {
             for measure in Measure::ALL {

@@ -29,7 +29,7 @@ impl Estimate {
     /// ([`rate_over_games`]); on one game it is Wilson's, for exactly its levels.
     ///
     /// Identical episodes of a player on a level are one observation: the rate counts them all, the interval does not.
-    fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
+    pub(super) fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
         let mut games: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
         for episode in ended {
             let game = games.entry(episode.game).or_default();

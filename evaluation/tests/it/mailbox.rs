@@ -7,7 +7,7 @@ use evaluation::player::Contestant;
 use evaluation::player::mailbox::{Delivery, Desk, MAX_ANSWER, Mailbox, MailboxPlayer, OpenPrompt};
 use evaluation::prompt::{PromptSettings, Prompter};
 use evaluation::run::{FORMAT, PlayResult, Progress, Tally, Task};
-use evaluation::{Entrant, Evaluation, Event, Halt, Journal, Settings, Subject, Validity};
+use evaluation::{Commitment, Entrant, Evaluation, Event, Halt, Journal, Settings, Subject, Validity};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -36,6 +36,7 @@ fn settings(subjects: &[Subject], seed: &str) -> Settings {
         seed: seed.into(),
         runs: 1,
         max_steps: 3,
+        commit: Commitment::ONE,
         games: Evaluation::entries(subjects),
     }
 }
@@ -292,7 +293,14 @@ fn waiting_episodes_give_up_when_the_evaluation_stops() {
     thread::scope(|scope| {
         let waiting = scope.spawn(|| {
             let seed = Seed::from_text("test");
-            let task = Task { subject: &subject, level: &subject.levels[1], run: 0, seed, max_steps: 3 };
+            let task = Task {
+                subject: &subject,
+                level: &subject.levels[1],
+                run: 0,
+                seed,
+                max_steps: 3,
+                commit: Commitment::ONE,
+            };
             let player = MailboxPlayer::new(mailbox.clone(), &task, prompter, 1);
             let mut journal = Journal::in_memory();
             evaluation::run::play(&task, &mut Contestant::Agent(Box::new(player)), &mut journal).unwrap()

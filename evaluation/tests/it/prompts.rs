@@ -5,11 +5,11 @@
 
 use crate::walk::{Walk, corpus, game};
 use engine::{Action, Digest, Game, Outcome};
-use evaluation::Subject;
 use evaluation::client::{ChatMessage, Role};
 use evaluation::prompt::{
     Attempt, Encodings, Mode, Past, PromptSettings, PromptStyle, Prompter, Rules, sections,
 };
+use evaluation::{Commitment, Subject};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
@@ -59,6 +59,12 @@ fn first_turns_of_all_games() {
 /// the other kinds.
 #[test]
 fn prompts_to_read() {
+    let plans = ["10", "all"].map(|commit| {
+        let (subject, commit) = (game("first-ice"), commit.parse().unwrap());
+        let prompter = Prompter::within(&subject, PromptSettings::default(), 1000, commit).unwrap();
+        text(&prompter.prompt(&Walk::new(&subject, 0).turn(), &[], &[]).messages)
+    });
+    golden("plans.txt", &plans.join("\n"));
     let show = |name: &str, subject: &str, settings: &PromptSettings, steps: usize| {
         let subject = game(subject);
         let prompter = prompter(&subject, settings);
@@ -112,7 +118,7 @@ fn the_last_tick_matches_the_rules() {
 fn the_rules_know_the_limit_of_decisions() {
     let subject = game("first-ice");
     let rules = |limit: u64| {
-        let prompter = Prompter::within(&subject, PromptSettings::default(), limit).unwrap();
+        let prompter = Prompter::within(&subject, PromptSettings::default(), limit, Commitment::ONE).unwrap();
         prompter.static_part().to_owned()
     };
     assert_eq!(rules(1000), prompter(&subject, &PromptSettings::default()).static_part());
@@ -384,13 +390,13 @@ fn answers_use_the_action_names_of_the_prompt() {
     let subject = game("first-ice");
     let walk = Walk::new(&subject, 0);
     let standard = prompter(&subject, &PromptSettings::default());
-    assert_eq!(standard.read("ACTION: left", &walk.turn()).action(), Some(Action::Left));
-    assert_eq!(standard.read("ACTION: use", &walk.turn()).action(), None);
+    assert_eq!(standard.read("ACTION: left", &walk.turn()).choice(), Some(vec![Action::Left]));
+    assert_eq!(standard.read("ACTION: use", &walk.turn()).choice(), None);
     let reference = PromptSettings { style: PromptStyle::Reference, ..PromptSettings::default() };
     let reference = prompter(&subject, &reference);
     let number = reference.actions().iter().position(|action| *action == Action::Down).unwrap();
     let answer = format!("```\nAction:{number}\n```\nDown it is.");
-    assert_eq!(reference.read(&answer, &walk.turn()).action(), Some(Action::Down));
+    assert_eq!(reference.read(&answer, &walk.turn()).choice(), Some(vec![Action::Down]));
     let why = "`fly` is not an action of the list";
     assert!(standard.complaint(why).contains(why) && reference.complaint(why).contains("from 0 to"));
 }

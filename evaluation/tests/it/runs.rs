@@ -7,7 +7,7 @@ use evaluation::log::{Status, read, without_times};
 use evaluation::player::{Agent, Choice, Contestant, Replay};
 use evaluation::run::{Answers, FORMAT, PlayResult, Progress, Tally, Task};
 use evaluation::{
-    Entrant, Evaluation, EvaluationError, Event, Halt, Journal, Settings, Subject, Turn, Validity,
+    Commitment, Entrant, Evaluation, EvaluationError, Event, Halt, Journal, Settings, Subject, Turn, Validity,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,7 @@ fn settings(subjects: &[Subject]) -> Settings {
         seed: "test".into(),
         runs: 2,
         max_steps: 25,
+        commit: Commitment::ONE,
         games: Evaluation::entries(subjects),
     }
 }
@@ -232,7 +233,7 @@ struct Mute;
 
 impl Agent for Mute {
     fn act(&mut self, _: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
-        Ok(Choice { action: Action::Nil, validity: Validity::Invalid })
+        Ok(Choice::nothing(Validity::Invalid))
     }
 
     fn recall(&mut self, _: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {

@@ -6,7 +6,7 @@ use evaluation::answer::Reading;
 use evaluation::client::{ChatMessage, ChatRequest, Decoding, Model, ModelOptions, Role, connect};
 use evaluation::prompt::{Attempt, Mode, Past, PromptSettings, Prompter, Rules};
 use evaluation::serve::{Bounds, PromptPlayer, Running, Server};
-use evaluation::{Before, Subject, SubjectFacts, Turn};
+use evaluation::{Before, Commitment, Subject, SubjectFacts, Turn};
 use serde_json::{Value, json};
 use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -57,6 +57,8 @@ fn episode(
             level: 0,
             number: actions.len() as u64,
             limit: LIMIT,
+            commit: Commitment::ONE,
+            played: &[],
             observation: &observation,
             before: before.as_ref().map(|(observation, action, reward)| Before {
                 observation,
@@ -68,7 +70,7 @@ fn episode(
         let prompt = prompter.prompt(&turn, &past, &[]);
         let answer = answer(&prompt.messages);
         let action = match prompter.read(&answer, &turn) {
-            Reading::Strict(action) => action,
+            Reading::Strict(actions) => actions[0],
             other => panic!("{}: {other:?}: {answer}", subject.id),
         };
         game.step(&mut state, action);
@@ -213,7 +215,17 @@ fn planners_refuse_games_with_hidden_state() {
         let observation = subject.game.observe(&state);
         let actions = &offered(&subject.game, &state);
         let (subject, observation) = (&subject, &observation);
-        let turn = Turn { subject, level: 0, number: 0, limit: 9, observation, before: None, actions };
+        let turn = Turn {
+            subject,
+            level: 0,
+            number: 0,
+            limit: 9,
+            commit: Commitment::ONE,
+            observation,
+            before: None,
+            played: &[],
+            actions,
+        };
         player.answer(&prompter.prompt(&turn, &[], &[]).messages).unwrap_err().to_string()
     };
     let vgdl = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };

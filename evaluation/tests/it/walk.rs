@@ -1,7 +1,7 @@
 //! Games of the corpus, and episodes of random actions.
 
 use engine::{Action, Game, Observation, Seed, State};
-use evaluation::{Before, Subject, SubjectFacts, Turn};
+use evaluation::{Before, Commitment, Subject, SubjectFacts, Turn};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -85,6 +85,8 @@ impl<'a> Walk<'a> {
             level: self.level,
             number: self.number,
             limit: 1000,
+            commit: Commitment::ONE,
+            played: &[],
             observation: &self.now,
             before: before.map(|(seen, action, reward)| Before {
                 observation: seen,

@@ -6,12 +6,14 @@
 //! too. Missing values are grey and hatched, never a colour of the scale.
 
 mod canvas;
+mod curves;
 mod forest;
 mod heat_map;
 mod matrix;
 mod range;
 mod violin;
 
+pub(crate) use curves::{CurvePoint, curve};
 pub(crate) use forest::{ForestRow, forest};
 pub(crate) use heat_map::{HeatMap, group_width, heat_map};
 pub(crate) use matrix::matrix;

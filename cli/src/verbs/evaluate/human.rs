@@ -1,7 +1,7 @@
 //! A person as a player: sees the prompt of a language model, and types actions.
 
 use evaluation::prompt::{Past, Prompter};
-use evaluation::{Agent, Choice, Halt, Journal, Turn, Validity};
+use evaluation::{Agent, Choice, Halt, Journal, Turn};
 use std::io::{BufRead, Write};
 use std::sync::Arc;
 
@@ -38,19 +38,28 @@ impl Agent for Human {
                 return Err(Halt::Interrupted);
             }
             let typed = line.trim().to_lowercase();
-            let Some(&action) = turn.actions.iter().find(|action| action.to_string() == typed) else {
+            let actions = match turn.commit.is_one() {
+                true => {
+                    turn.actions.iter().find(|action| action.to_string() == typed).map(|&action| vec![action])
+                }
+                false => self.prompter.read(&format!("PLAN: {typed}"), turn).choice(),
+            };
+            let Some(actions) = actions else {
                 let words: Vec<String> = turn.actions.iter().map(ToString::to_string).collect();
-                show(&format!("`{typed}` is none of {}", words.join(", ")));
+                let (is, words) =
+                    (if turn.commit.is_one() { "is none of" } else { "is no list of" }, words.join(", "));
+                show(&format!("`{typed}` {is} {words}"));
                 continue;
             };
-            self.past.push(Past::new(shown, &[], action));
-            return Ok(Choice { action, validity: Validity::Valid });
+            let choice = Choice::plan(actions);
+            self.past.push(Past::new(shown, &[], choice.action(0)));
+            return Ok(choice);
         }
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, choice: &Choice) -> Result<(), Halt> {
         let shown = self.shown(turn);
-        self.past.push(Past::new(shown, &[], choice.action));
+        self.past.push(Past::new(shown, &[], choice.action(0)));
         Ok(())
     }
 

@@ -33,7 +33,9 @@ impl RequestedMailbox {
     /// Returns the player as results name it: by `--name`, or else by the last part of the folder.
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest = match subjects.first() {
-            Some(subject) => Some(Prompter::new(subject, self.prompts.clone())?.digest()),
+            Some(subject) => {
+                Some(Prompter::within(subject, self.prompts.clone(), u64::MAX, args.commit)?.digest())
+            }
             None => None,
         };
         let folder = self.folder.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy();
@@ -58,7 +60,7 @@ impl RequestedMailbox {
         subjects: &[Subject],
         console: &Console,
     ) -> Result<(PlayerOf, Arc<Mailbox>), Failure> {
-        let prompters = prompters(subjects, &self.prompts, args.max_steps)?;
+        let prompters = prompters(subjects, &self.prompts, args.max_steps, args.commit)?;
         let mailbox = Arc::new(Mailbox::open(&self.folder, settings, args.resume, console.remarks())?);
         console.remark(format_args!(
             "prompts appear in {}; answer them with `{}`, or as `arcade docs mailbox` says",

@@ -20,7 +20,7 @@ use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
 use evaluation::run::{self, Answers, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
-use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
+use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use human::Human;
 use indicatif::ProgressBar;
 use itertools::Itertools;
@@ -70,9 +70,12 @@ pub(crate) struct Args {
     /// Episodes on each level
     #[arg(long, value_name = "N", default_value_t = 1)]
     runs: u64,
-    /// The most decisions of an episode
+    /// The most actions of an episode
     #[arg(long, value_name = "N", default_value_t = 1000)]
     max_steps: u64,
+    /// Actions that the player commits to at each look: a number, or `all` for the whole episode
+    #[arg(long, value_name = "K", default_value_t = Commitment::ONE)]
+    commit: Commitment,
     /// Text to derive the games' randomness from: the same for every player, so that runs are paired
     #[arg(long, value_name = "TEXT", default_value = "evaluate")]
     seed: String,
@@ -139,10 +142,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
         snapshot: subjects.snapshot,
-        entrant: requested.entrant(args, &subjects.games)?,
+        entrant: with_commitment(requested.entrant(args, &subjects.games)?, args.commit),
         seed: args.seed.clone(),
         runs: args.runs,
         max_steps: args.max_steps,
+        commit: args.commit,
         games: Evaluation::entries(&subjects.games),
     };
     settings
@@ -245,7 +249,7 @@ impl RequestedPlayer {
     /// Returns the player as results name it.
     fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let (name, details) = match self {
-            RequestedPlayer::Model(model) => return model.entrant(subjects),
+            RequestedPlayer::Model(model) => return model.entrant(subjects, args.commit),
             RequestedPlayer::Planner(spec) => {
                 let budget = spec.budget().unwrap_or(Budget(args.budget));
                 let looks_ahead = !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil");
@@ -291,13 +295,13 @@ impl RequestedPlayer {
                 Box::new(move |_| Contestant::Agent(Box::new(replay.clone())))
             }
             RequestedPlayer::Human(prompts) => {
-                let prompters = model::prompters(subjects, prompts, args.max_steps)?;
+                let prompters = model::prompters(subjects, prompts, args.max_steps, args.commit)?;
                 let player = move |task: &Task<'_>| Human::new(prompters[&task.subject.id].clone());
                 Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Prompted(player, prompts) => {
                 let (player, prompters) =
-                    (player.clone(), model::prompters(subjects, prompts, args.max_steps)?);
+                    (player.clone(), model::prompters(subjects, prompts, args.max_steps, args.commit)?);
                 let prompter = move |task: &Task<'_>| prompters[&task.subject.id].clone();
                 Box::new(move |task| {
                     Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter(task))))
@@ -316,7 +320,7 @@ impl RequestedPlayer {
                 return Ok(Connected { mailbox: Some(mailbox), ..contestant.into() });
             }
             RequestedPlayer::Model(model) => {
-                let model = Arc::new(model.connect(subjects, args.max_steps)?);
+                let model = Arc::new(model.connect(subjects, args.max_steps, args.commit)?);
                 let connected = model.clone();
                 let contestant: PlayerOf = Box::new(move |task| connected.contestant(task));
                 return Ok(Connected { model: Some(model), ..contestant.into() });
@@ -343,6 +347,13 @@ impl RequestedPlayer {
         }
         requested.min(episodes)
     }
+}
+
+/// Adds the commitment to what distinguishes the player from others.
+fn with_commitment(mut entrant: Entrant, commit: Commitment) -> Entrant {
+    entrant.aids.extend(commit.aid());
+    entrant.aids.sort();
+    entrant
 }
 
 fn end_players() {

@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
 use evaluation::run::Task;
-use evaluation::{Entrant, Observed, Subject};
+use evaluation::{Commitment, Entrant, Observed, Subject};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::json;
@@ -281,14 +281,15 @@ pub(super) fn mode_name(mode: Mode) -> &'static str {
 /// The prompters of the games, by game id.
 type Prompters = BTreeMap<String, Arc<Prompter>>;
 
-/// Makes the prompters of episodes of at most `max_steps` decisions.
+/// Makes the prompters of episodes of at most `max_steps` actions.
 pub(super) fn prompters(
     subjects: &[Subject],
     settings: &PromptSettings,
     max_steps: u64,
+    commit: Commitment,
 ) -> Result<Prompters, Failure> {
     let prompter = |subject: &Subject| {
-        let prompter = Prompter::within(subject, settings.clone(), max_steps)?;
+        let prompter = Prompter::within(subject, settings.clone(), max_steps, commit)?;
         Ok((subject.id.clone(), Arc::new(prompter)))
     };
     subjects.iter().map(prompter).collect()
@@ -345,10 +346,10 @@ impl RequestedModel {
     }
 
     /// Returns the player as results name it.
-    pub(crate) fn entrant(&self, subjects: &[Subject]) -> Result<Entrant, Failure> {
+    pub(crate) fn entrant(&self, subjects: &[Subject], commit: Commitment) -> Result<Entrant, Failure> {
         let digest = subjects
             .first()
-            .map(|subject| self.prompter(subject, u64::MAX).map(|own| own.digest()))
+            .map(|subject| self.prompter(subject, u64::MAX, commit).map(|own| own.digest()))
             .transpose()?;
         Ok(Entrant {
             name: self.settings.model.clone(),
@@ -363,16 +364,21 @@ impl RequestedModel {
         })
     }
 
-    fn prompter(&self, subject: &Subject, max_steps: u64) -> Result<Prompter, Failure> {
-        Prompter::within(subject, self.prompts.clone(), max_steps).map_err(Failure::from)
+    fn prompter(&self, subject: &Subject, max_steps: u64, commit: Commitment) -> Result<Prompter, Failure> {
+        Prompter::within(subject, self.prompts.clone(), max_steps, commit).map_err(Failure::from)
     }
 
     /// Connects without sending a request: a missing key is reported before anything is written.
-    pub(crate) fn connect(&self, subjects: &[Subject], max_steps: u64) -> Result<ConnectedModel, Failure> {
+    pub(crate) fn connect(
+        &self,
+        subjects: &[Subject],
+        max_steps: u64,
+        commit: Commitment,
+    ) -> Result<ConnectedModel, Failure> {
         let connection = client::connect(&self.options)?;
         Ok(ConnectedModel {
             model: Arc::from(connection.model),
-            prompters: prompters(subjects, &self.prompts, max_steps)?,
+            prompters: prompters(subjects, &self.prompts, max_steps, commit)?,
             decoding: connection.settings.decoding,
             reasks: self.reasks,
             is_priced: connection.price.is_some(),
@@ -387,19 +393,20 @@ impl RequestedModel {
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
         let mut batches = Vec::new();
         for task in tasks {
-            let (prompter, steps) = (self.prompter(task.subject, task.max_steps)?, task.most_steps());
+            let prompter = self.prompter(task.subject, task.max_steps, task.commit)?;
+            let decisions = task.most_decisions();
             let first = Observed::first(task);
             let prompt = prompter.prompt(&first.turn(task), &[], &[]);
             let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());
             let room = self.prompts.history_tokens.saturating_sub(fixed + turn);
             let past = match self.prompts.mode {
                 Mode::ZeroShot => 0,
-                Mode::Contextual => history(steps, turn + answer, room),
+                Mode::Contextual => history(decisions, turn + answer, room),
             };
             batches.push(Batch {
-                requests: steps,
+                requests: decisions,
                 stable_tokens: fixed,
-                changing_tokens: turn + past / steps,
+                changing_tokens: turn + past / decisions,
                 output_tokens: answer,
             });
         }

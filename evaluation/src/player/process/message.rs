@@ -1,6 +1,8 @@
 //! The messages to a process, one line of JSON each (`docs/agents.md`).
 
+use crate::commitment::Commitment;
 use crate::encoding::direction_name;
+use crate::turn::Played;
 use engine::{Action, MoverView, Observation, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -21,16 +23,23 @@ pub(super) enum Message<'a> {
         actions: &'a [Action],
         columns: usize,
         rows: usize,
-        /// The maximum number of decisions.
+        /// The maximum number of actions.
         step_limit: u64,
+        /// The number of actions in an answer, or `all`; one, if it is missing.
+        #[serde(skip_serializing_if = "Commitment::is_one")]
+        commit: Commitment,
     },
-    /// The current observation. The answer `{"action": …}` is expected, unless the turn is past.
+    /// The current observation. The answer `{"action": …}` is expected, or `{"actions": […]}` where the player commits to
+    /// several, unless the turn is past.
     Turn {
-        /// The number of decisions before this one.
+        /// The number of actions before this decision.
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
         actions: &'a [Action],
+        /// What came of each action since the last look, where the player commits to several.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        played: Option<Vec<Tick>>,
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         past: Option<Past>,
     },
@@ -38,7 +47,7 @@ pub(super) enum Message<'a> {
     Invalid { turn: u64, message: String },
     /// The last message, with the result. No answer is expected.
     End {
-        /// The number of decisions made.
+        /// The number of actions played.
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
@@ -52,7 +61,27 @@ pub(super) enum Message<'a> {
 pub(super) struct Past {
     /// Always `true`: no answer is expected.
     pub(super) past: bool,
-    pub(super) action: Action,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) action: Option<Action>,
+    #[serde(rename = "committed", skip_serializing_if = "Option::is_none")]
+    pub(super) actions: Option<Vec<Action>>,
+}
+
+/// An action since the last look.
+#[derive(Debug, Serialize)]
+pub(super) struct Tick {
+    action: Action,
+    /// `true` if it was available; nothing was done otherwise.
+    available: bool,
+    cell: Option<(i32, i32)>,
+    reward: f64,
+}
+
+impl Tick {
+    pub(super) fn of(played: &Played) -> Tick {
+        let Played { asked, is_unavailable, avatar, reward } = *played;
+        Tick { action: asked, available: !is_unavailable, cell: avatar, reward }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -66,7 +95,7 @@ pub(super) struct Seen<'a> {
     movers: Vec<Mover<'a>>,
     resources: BTreeMap<&'a str, i32>,
     score: f64,
-    /// The change of the score by the last action.
+    /// The change of the score since the last decision.
     reward: f64,
     tick: u32,
 }
@@ -97,7 +126,7 @@ struct Mover<'a> {
 }
 
 impl<'a> Seen<'a> {
-    /// Combines an observation with its grid and the reward of the last action.
+    /// Combines an observation with its grid and the change of the score since the last decision.
     pub(super) fn of(observation: &'a Observation, grid: Vec<String>, reward: f64) -> Seen<'a> {
         let mut cells: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
         for (at, names) in observation.cells.iter().enumerate() {

@@ -30,7 +30,7 @@ use child::{LineProcess, NoLine};
 use engine::Action;
 use engine::describe::Guide;
 use itertools::Itertools;
-use message::{Message, Past, Seen};
+use message::{Message, Past, Seen, Tick};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -216,7 +216,7 @@ impl Agent for Process {
                 Err(no_line) => return Err(self.failed(no_line, turn, attempt)),
             };
             match read(&answer, turn) {
-                Ok(action) => return Ok(Choice { action, validity: Validity::Valid }),
+                Ok(actions) => return Ok(Choice::plan(actions)),
                 Err(message) => {
                     record(journal, turn, attempt, &answer)?;
                     if attempt < MAX_REASKS {
@@ -226,12 +226,15 @@ impl Agent for Process {
                 }
             }
         }
-        Ok(Choice { action: Action::Nil, validity: Validity::Invalid })
+        Ok(Choice::nothing(Validity::Invalid))
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, choice: &Choice) -> Result<(), Halt> {
         let running = self.running(turn)?;
-        let past = Past { past: true, action: choice.action };
+        let past = match turn.commit.is_one() {
+            true => Past { past: true, action: Some(choice.action(0)), actions: None },
+            false => Past { past: true, action: None, actions: Some(choice.actions.clone()) },
+        };
         running.process.send_line(line(&running.shown.turn(turn, Some(past))));
         Ok(())
     }
@@ -274,23 +277,27 @@ impl Shown {
             columns: turn.observation.columns,
             rows: turn.observation.rows,
             step_limit: turn.limit,
+            commit: turn.commit,
         }
     }
 
     fn turn<'a>(&self, turn: &'a Turn<'_>, past: Option<Past>) -> Message<'a> {
-        Message::Turn { turn: turn.number, seen: self.seen(turn), actions: turn.actions, past }
+        let played = (!turn.commit.is_one()).then(|| turn.played.iter().map(Tick::of).collect());
+        Message::Turn { turn: turn.number, seen: self.seen(turn), actions: turn.actions, played, past }
     }
 
     fn seen<'a>(&self, turn: &'a Turn<'_>) -> Seen<'a> {
         let grid = encoding::grid(turn.observation, &self.legend);
-        let reward = turn.before.map_or(0.0, |before| before.reward);
+        let reward = turn.played.iter().map(|played| played.reward).sum();
         Seen::of(turn.observation, grid.lines().map(str::to_owned).collect(), reward)
     }
 }
 
+/// An action, or the actions of a plan.
 #[derive(Deserialize)]
 struct Answer {
-    action: String,
+    action: Option<String>,
+    actions: Option<Vec<String>>,
 }
 
 /// The turn that an answer names, if it names one.
@@ -330,22 +337,41 @@ fn receive(
     }
 }
 
-/// Returns the action in an answer, or the problem with it.
-fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Action, String> {
-    let actions = turn.actions;
+/// Returns the actions in an answer, at most those that are due, or the problem with it.
+fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
         && addressed > turn.number
     {
         let number = turn.number;
         return Err(format!("this answers turn {addressed}, but the current turn is {number}"));
     }
-    let names = || actions.iter().map(ToString::to_string).join(", ");
-    let Answer { action } = serde_json::from_slice(answer)
-        .map_err(|error| format!("{error}; answer {{\"action\": …}} with one of {}", names()))?;
-    let known = actions.iter().find(|known| known.to_string() == action);
-    known
-        .copied()
-        .ok_or_else(|| format!("the action `{action}` is not available now; available: {}", names()))
+    let names = |actions: &[Action]| actions.iter().map(ToString::to_string).join(", ");
+    let expected = |problem: &str| match turn.commit.is_one() {
+        true => format!("{problem}; answer {{\"action\": …}} with one of {}", names(turn.actions)),
+        false => format!("{problem}; answer {{\"actions\": […]}} with up to {} actions", turn.due()),
+    };
+    let Answer { action, actions } =
+        serde_json::from_slice(answer).map_err(|error| expected(&error.to_string()))?;
+    match (turn.commit.is_one(), action, actions) {
+        (true, Some(action), _) => {
+            let known = turn.actions.iter().find(|known| known.to_string() == action);
+            let unavailable =
+                || format!("the action `{action}` is not available now; available: {}", names(turn.actions));
+            Ok(vec![*known.ok_or_else(unavailable)?])
+        }
+        (true, None, _) => Err(expected("missing field `action`")),
+        // Which actions are available later is not known now.
+        (false, _, Some(actions)) => {
+            let known = |action: String| {
+                let found = Action::ALL.into_iter().find(|known| known.to_string() == action);
+                found.ok_or_else(|| {
+                    format!("`{action}` is no action; the actions are {}", names(&Action::ALL))
+                })
+            };
+            actions.into_iter().take(turn.due() as usize).map(known).collect()
+        }
+        (false, _, None) => Err(expected("missing field `actions`")),
+    }
 }
 
 /// Records a wrong answer, unless an interrupted run has already done so.

@@ -1,6 +1,7 @@
 use super::*;
+use crate::commitment::Commitment;
 use crate::subject::{Subject, SubjectFacts};
-use crate::turn::Before;
+use crate::turn::{Before, Played};
 use engine::{Observation, Outcome, Seed, State};
 use rustix::process::{Pid, test_kill_process};
 use serde_json::Value;
@@ -14,6 +15,7 @@ struct Board {
     state: State,
     before: Option<(Observation, Action, f64)>,
     number: u64,
+    commit: Commitment,
     agent: Process,
     journal: Journal,
 }
@@ -27,7 +29,8 @@ impl Board {
         let config = ProcessConfig { timeout, ..ProcessConfig::default() };
         let command = shlex::try_join(["sh", "-c", script]).unwrap();
         let agent = Process::new(&command, config).unwrap();
-        Board { subject, state, before: None, number: 0, agent, journal: Journal::in_memory() }
+        let commit = Commitment::ONE;
+        Board { subject, state, before: None, number: 0, commit, agent, journal: Journal::in_memory() }
     }
 
     fn of(script: &str) -> Board {
@@ -39,11 +42,19 @@ impl Board {
         let actions: Vec<Action> =
             [Action::Nil].iter().chain(self.subject.game.actions(&self.state)).copied().collect();
         let before = self.before.as_ref();
+        let played = before.map(|(_, action, reward)| Played {
+            asked: *action,
+            is_unavailable: false,
+            avatar: None,
+            reward: *reward,
+        });
         let turn = Turn {
             subject: &self.subject,
             level: 0,
             number: self.number,
             limit: 30,
+            commit: self.commit,
+            played: played.as_slice(),
             observation: &observation,
             before: before.map(|(observation, action, reward)| Before {
                 observation,
@@ -65,13 +76,13 @@ impl Board {
     /// Makes one decision and plays it.
     fn decide(&mut self) -> Result<Choice, Halt> {
         let choice = self.turn(|agent, journal, turn| agent.act(turn, journal))?;
-        self.play(choice.action);
+        self.play(choice.action(0));
         Ok(choice)
     }
 
     /// Recalls one decision that was played before.
     fn recall(&mut self, action: Action) {
-        let choice = Choice { action, validity: Validity::Valid };
+        let choice = Choice::of(action);
         self.turn(|agent, journal, turn| agent.recall(turn, journal, &choice)).unwrap();
         self.play(action);
     }
@@ -103,7 +114,7 @@ fn an_episode_is_played_in_lines() {
         log.display()
     ));
     for _ in 0..2 {
-        assert_eq!(board.decide(), Ok(Choice { action: Action::Right, validity: Validity::Valid }));
+        assert_eq!(board.decide(), Ok(Choice::of(Action::Right)));
     }
     board.end();
     assert_eq!(board.journal.events(), []);
@@ -161,7 +172,7 @@ fn past_turns_are_sent_without_a_question() {
     ));
     board.recall(Action::Right);
     board.recall(Action::Nil);
-    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Down));
+    assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Down));
     board.end();
     let heard = heard(&log);
     let told =
@@ -178,8 +189,8 @@ fn a_wrong_answer_is_asked_again_once() {
         "read hello; read turn; echo '{\"action\":\"jump\"}'; read invalid; echo \"$invalid\" >&2; echo '{\"action\":\"left\"}'; \
          read turn; echo hm; read invalid; echo '{\"act\":\"left\"}'; read turn; exit 3",
     );
-    assert_eq!(board.decide(), Ok(Choice { action: Action::Left, validity: Validity::Valid }));
-    assert_eq!(board.decide(), Ok(Choice { action: Action::Nil, validity: Validity::Invalid }));
+    assert_eq!(board.decide(), Ok(Choice::of(Action::Left)));
+    assert_eq!(board.decide(), Ok(Choice::nothing(Validity::Invalid)));
     let wrong = |event: &Event| match event {
         Event::Reply(reply) => (reply.step, reply.attempt, reply.class, reply.text.clone()),
         other => panic!("{other:?}"),
@@ -204,8 +215,8 @@ fn late_answers_are_skipped() {
         "read hello; read turn; echo '{\"turn\":0,\"action\":\"up\"}'; echo '{\"turn\":0,\"action\":\"up\"}'; read turn; \
          echo '{\"turn\":1,\"action\":\"right\"}'; read end",
     );
-    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Up));
-    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Right));
+    assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Up));
+    assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Right));
 }
 
 /// An answer to a later turn is wrong: otherwise all further answers would be out of step.
@@ -215,7 +226,7 @@ fn answers_to_future_turns_are_invalid() {
         "read hello; read turn; echo '{\"turn\":5,\"action\":\"up\"}'; read invalid; echo \"$invalid\" >&2; \
          echo '{\"turn\":0,\"action\":\"left\"}'; read turn; exit 3",
     );
-    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Left));
+    assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Left));
     let message = board.failure();
     assert!(message.contains("this answers turn 5, but the current turn is 0"), "{message}");
 }
@@ -261,7 +272,7 @@ fn silence_after_an_invalid_answer_is_reported() {
     );
     let agent = std::mem::replace(&mut prompt.agent, Process::new("x", ProcessConfig::default()).unwrap());
     prompt.agent = agent.with_notices(Arc::new(|words| panic!("{words}")));
-    assert_eq!(prompt.decide().map(|choice| choice.action), Ok(Action::Up));
+    assert_eq!(prompt.decide().map(|choice| choice.action(0)), Ok(Action::Up));
 }
 
 #[test]
@@ -344,4 +355,20 @@ fn outcomes_are_sent() {
     path.into_iter().for_each(|action| board.play(action));
     assert_eq!(board.state.outcome(), Outcome::Won);
     board.end();
+}
+
+#[test]
+fn programs_commit_to_plans() {
+    let mut board = Board::of(
+        r#"read hello; case "$hello" in *'"commit":"3"'*) ;; *) exit 1;; esac
+        read turn; echo '{"actions": ["right", "right", "jump"]}'
+        read again; echo '{"actions": ["right", "right", "down", "down"]}'
+        read turn; case "$turn" in *'"played":[{"action":"right"'*) echo '{"action": "up"}';; esac
+        read again; echo '{"actions": []}'"#,
+    );
+    board.commit = "3".parse().unwrap();
+    assert_eq!(board.decide(), Ok(Choice::plan(vec![Action::Right, Action::Right, Action::Down])));
+    assert_eq!(board.decide(), Ok(Choice::plan(Vec::new())));
+    let wrong = |event: &Event| matches!(event, Event::Reply(reply) if reply.class == ReplyClass::Invalid);
+    assert_eq!(board.journal.events().iter().filter(|event| wrong(event)).count(), 2);
 }

@@ -1,6 +1,6 @@
 //! A player that takes the shortest way on the board to a good target according to the rules, both read from the prompt.
 //!
-//! It does not look ahead. It avoids deadly things, and goes to a thing whose removal wins, else to one that can be
+//! It does not look ahead: a plan is the way to one target after the other, as if nothing else moved. It avoids deadly things, and goes to a thing whose removal wins, else to one that can be
 //! collected or changes something, else to one with no known harm. It shoots at things that its shots remove.
 
 mod beliefs;
@@ -23,11 +23,11 @@ const PUSH_COST: u32 = 20;
 /// One in this many decisions is a random step. Without a memory, the player would otherwise follow a useless way forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
-/// Chooses the next step.
+/// Chooses the next steps, as many as are due.
 ///
 /// # Errors
 /// The prompt shows no board, or no rules in words.
-pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Result<Action, Unanswerable> {
+pub(super) fn choose(mut shown: Shown<'_>, seed: Seed) -> Result<Vec<Action>, Unanswerable> {
     // Rules in VGDL are put into words first.
     let game = shown.vgdl.and_then(|vgdl| Game::from_source(vgdl).ok());
     let guide = game.map(|game| sentences(Guide::of(&game))).unwrap_or_default();
@@ -37,14 +37,29 @@ pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Result<Action, Unanswerab
         return Err(Unanswerable(what.to_owned()));
     }
     let mut choices = seed.sampler();
-    let Some(you) = shown.you else { return Ok(*choices.choose(&actions_except_nil(&shown.actions))) };
+    let Some(mut you) = shown.you else {
+        let keys = actions_except_nil(&shown.actions);
+        return Ok((0..shown.due).map(|_| *choices.choose(&keys)).collect());
+    };
     let board = Board { columns: shown.columns, rows: shown.cells.len() / shown.columns };
-    let none = BTreeMap::new();
-    let held = shown.held.as_ref().unwrap_or(&none);
+    let held = shown.held.take().unwrap_or_default();
     let beliefs = Beliefs::of(&rules, you.name);
-    let player = Reflex { shown, you, board, held, beliefs };
-    let fire = player.fire();
-    Ok(fire.or_else(|| player.go(&mut choices)).unwrap_or_else(|| player.random_step(&mut choices)))
+    let mut actions = Vec::new();
+    for _ in 0..shown.due {
+        let player = Reflex { shown: &shown, you, board, held: &held, beliefs: &beliefs };
+        let fire = player.fire();
+        let action =
+            fire.or_else(|| player.go(&mut choices)).unwrap_or_else(|| player.random_step(&mut choices));
+        let entered = player.imagine(action);
+        actions.push(action);
+        you.facing = if action == Action::Use { you.facing } else { Some(action) };
+        if let Some((cell, is_taken)) = entered {
+            you.cell = cell;
+            let mut is_taken = is_taken.into_iter();
+            shown.cells[cell].retain(|_| !is_taken.next().unwrap_or(false));
+        }
+    }
+    Ok(actions)
 }
 
 /// Collects all sentences of a guide about the rules.
@@ -58,10 +73,18 @@ struct Reflex<'a> {
     you: You<'a>,
     board: Board,
     held: &'a BTreeMap<&'a str, i32>,
-    beliefs: Beliefs<'a>,
+    beliefs: &'a Beliefs<'a>,
 }
 
 impl Reflex<'_> {
+    /// Returns the cell that a step enters, and which of the things in it are taken, as if nothing else moved and nothing was
+    /// pushed.
+    fn imagine(&self, action: Action) -> Option<(usize, Vec<bool>)> {
+        let (_, way) = DIRECTIONS.into_iter().find(|(known, _)| *known == action)?;
+        let cell = self.board.beside(self.you.cell, way).filter(|&cell| !self.is_blocked(cell))?;
+        Some((cell, self.shown.cells[cell].iter().map(|name| self.is_taken(name)).collect()))
+    }
+
     fn others(&self, cell: usize) -> impl Iterator<Item = &str> {
         self.shown.cells[cell].iter().copied().filter(|name| *name != self.you.name)
     }
@@ -90,7 +113,7 @@ impl Reflex<'_> {
     /// Returns the rank of a cell as a target: 0 is best.
     fn rank(&self, cell: usize) -> Option<u32> {
         let rank = |name: &str| {
-            let (beliefs, taken) = (&self.beliefs, self.is_taken(name));
+            let (beliefs, taken) = (self.beliefs, self.is_taken(name));
             if beliefs.is_wanted(name) && taken {
                 return Some(0);
             }

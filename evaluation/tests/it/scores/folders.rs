@@ -7,7 +7,7 @@ use evaluation::metrics::{EpisodeMetrics, replay};
 use evaluation::player::Contestant;
 use evaluation::run::{FORMAT, PlayResult, Progress, Task, play};
 use evaluation::study::{Player, Study};
-use evaluation::{Entrant, Evaluation, Journal, Settings, Subject, SubjectFacts};
+use evaluation::{Commitment, Entrant, Evaluation, Journal, Settings, Subject, SubjectFacts};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -42,6 +42,7 @@ pub(super) fn with_details(
         seed: "test".to_owned(),
         runs: 2,
         max_steps: 30,
+        commit: Commitment::ONE,
         games: Evaluation::entries(&subjects),
     };
     let evaluation = Evaluation::create(folder, settings, subjects).expect("the folder is new");
@@ -128,7 +129,14 @@ fn invariants_of_any_episode() {
         let level = fs::read_to_string(folder.join("lvl0.txt")).unwrap();
         let subject = Subject::read(&name, &source, &[(0, level, None)], SubjectFacts::default()).unwrap();
         let seed = Seed::from_text("any episode");
-        let task = Task { subject: &subject, level: &subject.levels[0], run: 0, seed, max_steps: 60 };
+        let task = Task {
+            subject: &subject,
+            level: &subject.levels[0],
+            run: 0,
+            seed,
+            max_steps: 60,
+            commit: Commitment::ONE,
+        };
         let mut journal = Journal::in_memory();
         play(&task, &mut planner("random"), &mut journal).unwrap();
         let metrics = EpisodeMetrics::of(&subject, journal.events()).unwrap();

@@ -7,7 +7,7 @@ use evaluation::log::{Reply, ReplyClass};
 use evaluation::metrics::{Choices, EpisodeMetrics, EpisodeStatus, Movement, replay};
 use evaluation::player::{Agent, Choice, Halt};
 use evaluation::run::{Task, play};
-use evaluation::{Contestant, Event, Journal, Subject, SubjectFacts, Turn, Validity};
+use evaluation::{Commitment, Contestant, Event, Journal, Subject, SubjectFacts, Turn, Validity};
 
 /// Gems to take and a door to reach; a guard moves by itself, regardless of the player.
 const GAME: &str = "
@@ -49,8 +49,7 @@ struct Script(Vec<Action>);
 impl Agent for Script {
     fn act(&mut self, turn: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
         let action = self.0.get(turn.number as usize).copied();
-        let choice = |action| Choice { action, validity: Validity::Valid };
-        action.map(choice).ok_or_else(|| Halt::Infrastructure("the wire was cut".to_owned()))
+        action.map(Choice::of).ok_or_else(|| Halt::Infrastructure("the wire was cut".to_owned()))
     }
 
     fn recall(&mut self, _: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
@@ -60,7 +59,8 @@ impl Agent for Script {
 
 pub(super) fn log(subject: &Subject, level: usize, actions: &[Action], max_steps: u64) -> Vec<Event> {
     let level = subject.levels.iter().find(|found| found.number == level).expect("a level of the game");
-    let task = Task { subject, level, run: 2, seed: Seed::from_text("by hand"), max_steps };
+    let task =
+        Task { subject, level, run: 2, seed: Seed::from_text("by hand"), max_steps, commit: Commitment::ONE };
     let mut journal = Journal::in_memory();
     play(&task, &mut Contestant::Agent(Box::new(Script(actions.to_vec()))), &mut journal)
         .expect("it can be played");
@@ -203,6 +203,7 @@ fn answers() {
             text: String::new(),
             reasoning: None,
             action: None,
+            plan: None,
             stage: None,
             finish: Finish::Stop,
             usage: Usage { input_tokens: Some(100), output_tokens, ..Usage::default() },

@@ -1,8 +1,12 @@
 //! Reading actions from what players say.
 //!
-//! One strict format is asked for. An answer that misses it is read with a named tolerance, which the log records and which
+//! One strict format is asked for: of an action here, of several in `plan.rs`. An answer that misses it is read with a named tolerance, which the log records and which
 //! never guesses: a number is an action only directly after the word "action", and the last decision counts, not the first.
 //! The test vectors are those of `spec/06` §1.5.
+
+mod plan;
+
+pub use plan::read_plan;
 
 use engine::Action;
 use regex::Regex;
@@ -48,31 +52,40 @@ engine::named_enum! {
     }
 }
 
-/// The interpretation of an answer.
+/// The interpretation of an answer: an action, or the actions of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Reading {
-    /// An action in the requested format.
-    Strict(Action),
-    /// An action in another format.
+pub enum Reading<T = Action> {
+    /// A choice in the requested format.
+    Strict(T),
+    /// A choice in another format.
     Tolerant {
-        /// The action.
-        action: Action,
+        /// The choice.
+        choice: T,
         /// The rule that found it.
         stage: Stage,
     },
-    /// No action, or none that can be chosen.
+    /// No choice, or none that can be made.
     Invalid {
         /// The reason, as a clause about the answer: `it names no action`.
         why: String,
     },
 }
 
-impl Reading {
-    /// Returns the action, if there is one.
-    pub fn action(&self) -> Option<Action> {
+impl<T> Reading<T> {
+    /// Returns the choice, if there is one.
+    pub fn choice(self) -> Option<T> {
         match self {
-            Reading::Strict(action) | Reading::Tolerant { action, .. } => Some(*action),
+            Reading::Strict(choice) | Reading::Tolerant { choice, .. } => Some(choice),
             Reading::Invalid { .. } => None,
+        }
+    }
+
+    /// Converts the choice.
+    pub fn map<U>(self, convert: impl FnOnce(T) -> U) -> Reading<U> {
+        match self {
+            Reading::Strict(choice) => Reading::Strict(convert(choice)),
+            Reading::Tolerant { choice, stage } => Reading::Tolerant { choice: convert(choice), stage },
+            Reading::Invalid { why } => Reading::Invalid { why },
         }
     }
 }
@@ -111,7 +124,7 @@ pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -
             Reading::Invalid { why: format!("`{action}` cannot be chosen now") }
         }
         Some((Chosen::Action(action), None)) => Reading::Strict(action),
-        Some((Chosen::Action(action), Some(stage))) => Reading::Tolerant { action, stage },
+        Some((Chosen::Action(action), Some(stage))) => Reading::Tolerant { choice: action, stage },
     }
 }
 
@@ -303,7 +316,7 @@ mod tests {
     fn check(text: &str, expect: &str) {
         let got = match read(text, Format::Word, &LISTED, &LISTED) {
             Reading::Strict(action) => format!("{action} strict"),
-            Reading::Tolerant { action, stage } => format!("{action} {}", stage.name()),
+            Reading::Tolerant { choice, stage } => format!("{choice} {}", stage.name()),
             Reading::Invalid { why } => why,
         };
         assert_eq!(got, expect, "{text:?}");
@@ -370,8 +383,8 @@ mod tests {
         let number = |text: &str| read(text, Format::Number, &LISTED, &LISTED);
         assert_eq!(number("```\nAction:3\n```\nIt moved."), Reading::Strict(Right));
         assert_eq!(number("Action: 0\nAction: 5"), Reading::Strict(Up));
-        assert_eq!(number("Action: up"), Reading::Tolerant { action: Up, stage: Stage::Marker });
-        assert!(number("Action: 7").action().is_none());
+        assert_eq!(number("Action: up"), Reading::Tolerant { choice: Up, stage: Stage::Marker });
+        assert!(number("Action: 7").choice().is_none());
     }
 
     #[test]
@@ -415,7 +428,7 @@ mod tests {
         for format in [Format::Word, Format::Number] {
             match read(text, format, &LISTED, offered) {
                 Reading::Invalid { why } => prop_assert!(why.chars().count() < 80),
-                reading => prop_assert!(reading.action().is_some_and(|action| offered.contains(&action))),
+                reading => prop_assert!(reading.choice().is_some_and(|action| offered.contains(&action))),
             }
         }
         Ok(())

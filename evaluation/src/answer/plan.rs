@@ -1,0 +1,201 @@
+//! Reading plans, that is several actions, from what players say.
+
+use super::{Chosen, Reading, Stage, action_of, named, pattern, quoted, without_reasoning};
+use engine::Action;
+use regex::Regex;
+use std::sync::LazyLock;
+
+/// The number of markers to examine, from the end.
+const MARKERS: usize = 100;
+
+/// A line in the requested format.
+static PLAN_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^PLAN:[ \t]*(\S.*)$"));
+
+/// An item of a plan in the requested format: an action, and how often it is played.
+static ITEM: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^([a-z]+)(?:[ \t]+x[ \t]?([0-9]{1,9}))?$"));
+
+/// The word "plan" or "actions", and a sign.
+static MARKER: LazyLock<Regex> = LazyLock::new(|| {
+    pattern(r#"(?i)(?-u:\b)(?:plan|actions?|moves?)(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}[:=][ \t]*[*`]{0,3}"#)
+});
+
+/// A part of a list: a count, the number of an item, a word, the end of a line, or any other sign.
+static PART: LazyLock<Regex> = LazyLock::new(|| {
+    pattern(
+        r"(?i)(?P<count>[ \t]*(?:(?-u:\b)x|[×*])[ \t]?(?P<times>[0-9]{1,9})(?-u:\b))|(?P<number>[0-9]+[.)][ \t])|(?P<word>[a-z0-9_]+)|(?P<line>\n)|(?P<sign>[,;>\[\](){}|/\\`*\x22' \t\r.\-→⇒+&]|(?P<other>[^\n]))",
+    )
+});
+
+/// Reads a plan of at most `due` actions; what goes beyond is left out. `listed` holds the actions of the game. The last
+/// plan counts; a word in it that is no action makes it unusable, and no earlier one replaces it. Cost: O(bytes + due).
+pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>> {
+    let said = without_reasoning(text).trim();
+    if said.is_empty() {
+        let why = if text.trim().is_empty() { "it is empty" } else { "it ends before it comes to a plan" };
+        return Reading::Invalid { why: why.to_owned() };
+    }
+    if let Some(plan) = strict(said, due, listed) {
+        return Reading::Strict(plan);
+    }
+    let markers: Vec<_> = MARKER.captures_iter(said).collect();
+    for marker in markers.iter().rev().take(MARKERS) {
+        let end = marker.get(0).map_or(0, |whole| whole.end());
+        let stage = if marker["quote"].is_empty() { Stage::Marker } else { Stage::Json };
+        match list(&said[end..], due, listed) {
+            List::Plan(choice) => return Reading::Tolerant { choice, stage },
+            List::Unknown(word) => {
+                return Reading::Invalid { why: format!("`{}` is not an action of the list", quoted(word)) };
+            }
+            List::None => {}
+        }
+    }
+    // Without a marker, only a last line that consists of actions.
+    let last = said.lines().next_back().unwrap_or_default();
+    match list(last, due, listed) {
+        List::Plan(choice) => Reading::Tolerant { choice, stage: Stage::Line },
+        List::Unknown(_) | List::None => Reading::Invalid { why: "it has no plan".to_owned() },
+    }
+}
+
+fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
+    let line = PLAN_LINE.captures(said.lines().next_back()?.trim())?;
+    let mut plan = Vec::new();
+    for item in line[1].split(',') {
+        let item = ITEM.captures(item.trim())?;
+        let action = *listed.iter().find(|action| item[1].eq_ignore_ascii_case(&action.to_string()))?;
+        let times = item.get(2).map_or(Some(1), |times| times.as_str().parse().ok())?;
+        extend(&mut plan, action, times, due);
+    }
+    Some(plan)
+}
+
+/// The beginning of a text, read as a list of actions.
+enum List<'a> {
+    Plan(Vec<Action>),
+    /// A word of the first line, or after an action in the same line, that is no action.
+    Unknown(&'a str),
+    None,
+}
+
+/// Reads a list up to the first line that is no part of it.
+fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
+    let (mut plan, mut last, mut is_line_begun, mut is_known) = (Vec::new(), None, false, false);
+    for part in PART.captures_iter(text) {
+        if part.name("line").is_some() {
+            (is_line_begun, last) = (false, None);
+        } else if let (Some(times), Some(action)) = (part.name("times"), last) {
+            let times: u64 = times.as_str().parse().unwrap_or(u64::MAX);
+            extend(&mut plan, action, times.saturating_sub(1), due);
+            last = None;
+        } else if let Some(word) = part.name("word").or(part.name("times")).or(part.name("other")) {
+            let action = match named(word.as_str(), listed) {
+                Chosen::Action(action) if action_of(word.as_str()).is_some() => action,
+                // Prose after the list, or a text that is no list at all.
+                _ if is_known && !is_line_begun => break,
+                _ if is_known => return List::Unknown(word.as_str()),
+                _ => return List::None,
+            };
+            extend(&mut plan, action, 1, due);
+            (last, is_line_begun, is_known) = (Some(action), true, true);
+        }
+    }
+    if is_known { List::Plan(plan) } else { List::None }
+}
+
+/// Adds an action several times, up to `due` actions in all.
+fn extend(plan: &mut Vec<Action>, action: Action, times: u64, due: u64) {
+    let room = due.saturating_sub(plan.len() as u64);
+    plan.extend(std::iter::repeat_n(action, times.min(room) as usize));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Action::{Down, Left, Nil, Right, Up, Use};
+    use proptest::prelude::*;
+
+    const LISTED: [Action; 6] = [Nil, Up, Left, Down, Right, Use];
+
+    /// Checks the reading of an answer when 6 actions are due: the initials of the actions, and the rule that read them.
+    #[track_caller]
+    fn check(text: &str, expect: &str) {
+        let initials = |plan: &[Action]| {
+            plan.iter().filter_map(|action| action.to_string().chars().next()).collect::<String>()
+        };
+        let got = match read_plan(text, 6, &LISTED) {
+            Reading::Strict(plan) => format!("{} strict", initials(&plan)),
+            Reading::Tolerant { choice, stage } => format!("{} {}", initials(&choice), stage.name()),
+            Reading::Invalid { why } => why,
+        };
+        assert_eq!(got, expect, "{text:?}");
+    }
+
+    #[test]
+    fn strict_plans_are_read() {
+        check("PLAN: right, right, up", "rru strict");
+        check("I go round the wall.\n\nPLAN: right x3, up, nil x 2\n", "rrrunn strict");
+        check("plan: USE,left", "ul strict");
+        check("<think>PLAN: left</think>\nPLAN: down", "d strict");
+        check("PLAN: right x0, up", "u strict");
+    }
+
+    #[test]
+    fn what_is_beyond_the_commitment_is_left_out() {
+        check("PLAN: right x9", "rrrrrr strict");
+        check("PLAN: right x999999999, up", "rrrrrr strict");
+        check("PLAN: right right right right right right right up", "rrrrrr marker");
+        check("PLAN: right x99999999999", "`x99999999999` is not an action of the list");
+    }
+
+    #[test]
+    fn other_formats_are_read() {
+        check("PLAN: right right up", "rru marker");
+        check("**PLAN:** right, up.", "ru marker");
+        check("PLAN: right → right → up", "rru marker");
+        check("PLAN: right*2, up×2", "rruu marker");
+        check("PLAN:\n1. right\n2. up\n3. use\n", "ruu marker");
+        check("PLAN:\n- right\n- up x2\n\nThis leads to the exit.", "ruu marker");
+        check("PLAN: right, up\nI hope this helps.", "ru marker");
+        check(r#"{"plan": ["right", "up", "wait"]}"#, "run json");
+        check("```json\n{\"actions\": [\"up\", \"up\"]}\n```", "uu json");
+        check("Actions: ACTION_RIGHT, ACTION_UP", "ru marker");
+        check("ACTION: left", "l marker");
+        check("Through the door:\nright, right, up", "rru line");
+    }
+
+    #[test]
+    fn tolerance_does_not_guess() {
+        check("PLAN: right, jump, up", "`jump` is not an action of the list");
+        check("PLAN: right 3, up", "`3` is not an action of the list");
+        check("PLAN: right, left.\nPLAN: up, fly", "`fly` is not an action of the list");
+        check("PLAN: first to the key, then right", "it has no plan");
+        check("My plan: I go right and then up.", "it has no plan");
+        check("I go right, then up", "it has no plan");
+        check("0 4 4 1", "it has no plan");
+        check("", "it is empty");
+        check("<think>right, right", "it ends before it comes to a plan");
+        check("PLAN:", "it has no plan");
+    }
+
+    proptest! {
+        /// No text is read as more than is due, and none panics.
+        #[test]
+        fn plans_are_no_longer_than_due(text in "(PLAN|plan|:|,| |\n|x|[0-9]{1,10}|right|up|left|jump|\\PC){0,40}", due in 1..9_u64) {
+            if let Reading::Strict(plan) | Reading::Tolerant { choice: plan, .. } = read_plan(&text, due, &LISTED) {
+                prop_assert!(plan.len() as u64 <= due);
+            }
+        }
+
+        /// A plan in the requested format is read as it was meant.
+        #[test]
+        fn requested_plans_are_read_whole(plan in prop::collection::vec((0..6_usize, 1..5_u64), 1..20)) {
+            let items: Vec<String> = plan.iter().map(|&(at, times)| match times {
+                1 => LISTED[at].to_string(),
+                _ => format!("{} x{times}", LISTED[at]),
+            }).collect();
+            let meant: Vec<Action> =
+                plan.iter().flat_map(|&(at, times)| std::iter::repeat_n(LISTED[at], times as usize)).collect();
+            prop_assert_eq!(read_plan(&format!("PLAN: {}", items.join(", ")), 1000, &LISTED), Reading::Strict(meant));
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! The number of actions that a player commits to at each look at the board.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::num::NonZeroU64;
+use std::str::FromStr;
+
+/// The number of actions that a player commits to at each decision. They are played one a tick, without another look; what
+/// came of them is shown at the next decision. How far a player can commit and still win measures how far it foresees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Commitment {
+    /// This number of actions; one is a look before every action.
+    Actions(NonZeroU64),
+    /// All actions to the end of the episode: one decision an episode.
+    All,
+}
+
+impl Commitment {
+    /// A look before every action.
+    pub const ONE: Commitment = Commitment::Actions(NonZeroU64::MIN);
+
+    /// Returns `true` if there is a look before every action.
+    pub fn is_one(&self) -> bool {
+        *self == Commitment::ONE
+    }
+
+    /// Returns the number of actions that a decision covers if the episode has `left` more.
+    pub fn due(self, left: u64) -> u64 {
+        match self {
+            Commitment::Actions(actions) => left.min(actions.get()),
+            Commitment::All => left,
+        }
+    }
+
+    /// Returns the difference from the default as results list it, such as `commit=10`.
+    pub fn aid(self) -> Option<String> {
+        (!self.is_one()).then(|| format!("commit={self}"))
+    }
+}
+
+impl Default for Commitment {
+    fn default() -> Commitment {
+        Commitment::ONE
+    }
+}
+
+impl fmt::Display for Commitment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Commitment::Actions(actions) => actions.fmt(f),
+            Commitment::All => f.write_str("all"),
+        }
+    }
+}
+
+impl FromStr for Commitment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Commitment, String> {
+        match text {
+            "all" => Ok(Commitment::All),
+            _ => text.parse().map(Commitment::Actions).map_err(|_| {
+                format!("`{text}` is no number of actions to commit to: give 1 or more, or `all` for the whole episode")
+            }),
+        }
+    }
+}
+
+impl TryFrom<String> for Commitment {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Commitment, String> {
+        text.parse()
+    }
+}
+
+impl From<Commitment> for String {
+    fn from(commitment: Commitment) -> String {
+        commitment.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, left: u64, due: u64) {
+        let commitment: Commitment = text.parse().unwrap();
+        assert_eq!((commitment.due(left), commitment.to_string()), (due, text.to_owned()));
+        let json = serde_json::to_string(&commitment).unwrap();
+        assert_eq!(serde_json::from_str::<Commitment>(&json).unwrap(), commitment);
+    }
+
+    #[test]
+    fn commitments_end_with_the_episode() {
+        check("1", 200, 1);
+        check("10", 200, 10);
+        check("10", 7, 7);
+        check("all", 200, 200);
+        assert!("1".parse::<Commitment>().unwrap().is_one());
+        for wrong in ["0", "-1", "ten", "", "ALL", "1.5"] {
+            assert!(wrong.parse::<Commitment>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! How far players see ahead: the commitment at which they still win half.
+
+use crate::study::scores::Estimate;
+use crate::study::{Player, Study, StudyEpisode};
+use itertools::Itertools;
+use report::{Table, TableCell};
+use serde::Serialize;
+use statistics::{DoseTrials, half_point};
+use std::collections::BTreeMap;
+
+/// The resamples of an interval.
+const RESAMPLES: usize = 1000;
+
+engine::named_enum! {
+    /// The games of a horizon: what has to be foreseen.
+    pub enum Foresight {
+        /// Games without chance: what will happen follows from the rules.
+        Exact = "without chance",
+        /// Games of chance: a plan has to stand whatever happens.
+        Robust = "of chance",
+        /// Both, and games of which it is not known.
+        All = "all",
+    }
+}
+
+/// How far a player can commit and still win half of its episodes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HorizonRow {
+    /// The player, without its commitment.
+    pub player: Player,
+    /// The games.
+    pub games: Foresight,
+    /// The win rates by commitment, in ascending order.
+    pub rates: Vec<CommitmentRate>,
+    /// The horizon, in ticks, with its interval over games.
+    pub horizon: Option<Estimate>,
+    /// The bounds within which a horizon can be told: a quarter of the least, and four times the largest effective commitment.
+    pub range: [f64; 2],
+}
+
+/// The win rate of a player at one commitment.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CommitmentRate {
+    /// The commitment, as results name it: a number, or `all`.
+    pub commit: String,
+    /// The mean of the effective commitments, in ticks: at most the shortest known win of the level.
+    pub ticks: f64,
+    /// The win rate.
+    pub rate: Option<Estimate>,
+    /// The ended episodes.
+    pub episodes: u64,
+}
+
+impl HorizonRow {
+    /// Returns the horizon in words: `12`, or `≥ 80` where only a bound is known; `–` if it is not known.
+    pub fn told_value(&self) -> String {
+        self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
+    }
+
+    /// Returns its interval in words.
+    pub fn told_interval(&self) -> String {
+        let ends = |found: Estimate| format!("{} to {}", self.bounded(found.low), self.bounded(found.high));
+        self.horizon.map_or(String::new(), ends)
+    }
+
+    /// Returns the horizon with its interval: `12 ticks, 7.4 to 31`.
+    pub fn told(&self) -> String {
+        format!("{} ticks, {}", self.told_value(), self.told_interval())
+    }
+
+    /// Formats ticks; the ends of what can be told have a sign of their own.
+    fn bounded(&self, ticks: f64) -> String {
+        let [least, most] = self.range;
+        let sign = if ticks <= least {
+            "≤ "
+        } else if ticks >= most {
+            "≥ "
+        } else {
+            ""
+        };
+        if ticks < 10.0 { format!("{sign}{ticks:.1}") } else { format!("{sign}{ticks:.0}") }
+    }
+}
+
+/// Returns a row for each player with several commitments and each kind of game that it played, the furthest first.
+pub(super) fn horizons(study: &Study) -> Vec<HorizonRow> {
+    let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
+    for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
+        let mut player = study.players[episode.player].clone();
+        let commit = episode.metrics.commit.aid();
+        player.aids.retain(|aid| Some(aid) != commit.as_ref());
+        players.entry(player).or_default().push(episode);
+    }
+    let shortest = shortest_wins(study);
+    let is_of = |episode: &StudyEpisode, games: Foresight| match games {
+        Foresight::Exact => study.games[episode.game].is_stochastic == Some(false),
+        Foresight::Robust => study.games[episode.game].is_stochastic == Some(true),
+        Foresight::All => true,
+    };
+    let mut rows = Vec::new();
+    for (player, episodes) in players {
+        for games in Foresight::ALL {
+            let chosen: Vec<&StudyEpisode> =
+                episodes.iter().copied().filter(|episode| is_of(episode, games)).collect();
+            let is_all_alike = games == Foresight::All
+                && episodes.iter().map(|episode| study.games[episode.game].is_stochastic).all_equal();
+            if chosen.iter().map(|episode| episode.metrics.commit).unique().count() > 1 && !is_all_alike {
+                rows.push(row(player.clone(), games, &chosen, &shortest));
+            }
+        }
+    }
+    rows.sort_by(|a, b| {
+        let far = |row: &HorizonRow| row.horizon.map_or(-1.0, |horizon| horizon.value);
+        a.games.cmp(&b.games).then(far(b).total_cmp(&far(a)))
+    });
+    rows
+}
+
+/// Returns the ticks of the shortest known win of each level, by game and level: proved, or of any player of the study.
+fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
+    let mut shortest = BTreeMap::new();
+    let wins = study.episodes.iter().filter(|episode| episode.metrics.won());
+    let proved =
+        study.episodes.iter().filter_map(|episode| Some((episode, episode.metrics.optimal_ticks? as u64)));
+    for (episode, ticks) in wins.map(|episode| (episode, episode.metrics.steps)).chain(proved) {
+        let known = shortest.entry((episode.game, episode.metrics.level)).or_insert(ticks);
+        *known = ticks.min(*known);
+    }
+    shortest
+}
+
+fn row(
+    player: Player,
+    games: Foresight,
+    episodes: &[&StudyEpisode],
+    shortest: &BTreeMap<(usize, usize), u64>,
+) -> HorizonRow {
+    // Who commits to more than a win takes commits to the win.
+    let ticks = |episode: &StudyEpisode| {
+        let metrics = &episode.metrics;
+        let known = shortest.get(&(episode.game, metrics.level)).copied().unwrap_or(u64::MAX);
+        metrics.commit.due(metrics.max_steps.min(known)).max(1) as f64
+    };
+    let mut trials: BTreeMap<usize, BTreeMap<usize, Vec<DoseTrials>>> = BTreeMap::new();
+    for episode in episodes {
+        let level = trials.entry(episode.game).or_default().entry(episode.metrics.level).or_default();
+        level.push(DoseTrials {
+            dose: ticks(episode),
+            won: f64::from(u8::from(episode.metrics.won())),
+            of: 1.0,
+        });
+    }
+    let groups: Vec<Vec<Vec<DoseTrials>>> =
+        trials.into_values().map(|levels| levels.into_values().collect()).collect();
+    let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
+    let found = half_point(&groups, RESAMPLES, super::LEVEL, *seed.as_bytes());
+    let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
+    let range = [doses().fold(f64::INFINITY, f64::min) / 4.0, doses().fold(0.0, f64::max) * 4.0];
+    let by_commitment = episodes.iter().copied().into_group_map_by(|episode| episode.metrics.commit);
+    let rates = by_commitment.into_iter().sorted_by_key(|(commit, _)| *commit).map(|(commit, episodes)| {
+        CommitmentRate {
+            commit: commit.to_string(),
+            ticks: episodes.iter().map(|episode| ticks(episode)).sum::<f64>() / episodes.len() as f64,
+            rate: Estimate::rate(&episodes),
+            episodes: episodes.len() as u64,
+        }
+    });
+    let horizon = found.map(|found| Estimate::new(found.dose, found.interval));
+    HorizonRow { player, games, rates: rates.collect(), horizon, range }
+}
+
+/// Returns the table of horizons; none without commitments.
+pub(super) fn table(study: &Study) -> Option<Table> {
+    if study.horizons.is_empty() {
+        return None;
+    }
+    let table = Table::of(
+        "horizons",
+        "How far players see ahead",
+        "Horizon: the number of ticks that a player can commit to without another look and still win half, on an average level, with a \
+         95 % interval over games (logistic in the logarithm of the commitment, with effects of levels). Who commits to more than the \
+         shortest known win of a level takes counts as committing to that. Nothing is told beyond a quarter of the least and four \
+         times the largest commitment: ≤ and ≥ mark these bounds. Games without chance ask for exact foresight, games of chance \
+         for plans that stand whatever happens.",
+        &study.horizons,
+        &[
+            ("player", &|row| TableCell::text(row.player.label())),
+            ("games", &|row| TableCell::text(row.games.name())),
+            ("horizon", &|row| TableCell::figure(row.horizon.map(|_| row.told_value()))),
+            ("interval", &|row| TableCell::figure(row.horizon.map(|_| row.told_interval()))),
+            ("won by commitment", &|row| {
+                let one = |found: &CommitmentRate| {
+                    let rate =
+                        found.rate.map_or("–".to_owned(), |rate| format!("{:.0} %", 100.0 * rate.value));
+                    format!("{}: {rate}", found.commit)
+                };
+                TableCell::text(row.rates.iter().map(one).join(", "))
+            }),
+            ("episodes", &|row| TableCell::Count(row.rates.iter().map(|rate| rate.episodes).sum())),
+        ],
+    );
+    Some(table)
+}
