@@ -31,7 +31,7 @@ pub struct HalfPoint {
 const ITEM_SD: f64 = 1.64;
 /// The prior of the slope and of the intercept: weak, but proper where all trials succeed or all fail.
 const SLOPE: (f64, f64) = (1.0, 1.0);
-const INTERCEPT_SD: f64 = 5.0;
+const INTERCEPT_SD: f64 = 20.0;
 /// The most Newton steps; six are usual.
 const STEPS: usize = 60;
 /// Doses are reported within this range around those tried: nothing is known beyond.
