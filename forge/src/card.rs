@@ -38,6 +38,12 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("form/"))
     }
 
+    /// The scene of a generated game.
+    pub fn scene(&self) -> Option<&str> {
+        let Origin::Generated { patterns, .. } = self else { return None };
+        patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
+    }
+
     /// The kernel, variants and grafts of a generated game, without duplicates; of earlier generations its patterns, excluding its theme or
     /// scene, and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {

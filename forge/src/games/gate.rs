@@ -39,14 +39,14 @@ impl<'a> GameGate<'a> {
     }
 
     /// Finds a course of levels for a game, sets its time limit by the wins found, and judges it; `None`, with the reason in
-    /// the tally, if anything stands in its way. `number` is told in the card. A game near to one of `peers` is refused before
-    /// it costs a level.
+    /// the tally, if anything stands in its way. `number` is told in the card. A game that meets with an objection is refused
+    /// before it costs a level.
     pub(super) fn judge(
         &self,
         genome: &KernelGenome,
         number: u32,
         seed: Seed,
-        peers: &[GameForm],
+        objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
         let generator = self.order.method.name();
@@ -58,8 +58,9 @@ impl<'a> GameGate<'a> {
             tally.game_rejected("the rules do not compile");
             return None;
         };
-        if self.is_known(&first, peers) {
-            tally.game_rejected(NEAR_KNOWN);
+        let known = self.is_known(&first).then_some(NEAR_KNOWN);
+        if let Some(why) = known.or_else(|| objection(&first)) {
+            tally.game_rejected(why);
             return None;
         }
         if interactions(&first.game) < self.order.least_interactions {
@@ -116,9 +117,9 @@ impl<'a> GameGate<'a> {
         made
     }
 
-    fn is_known(&self, candidate: &Candidate, peers: &[GameForm]) -> bool {
+    fn is_known(&self, candidate: &Candidate) -> bool {
         let form = GameForm::of(&candidate.game);
-        form.nearest(self.known.iter().chain(peers)).is_some_and(|(_, apart)| apart < NEAR)
+        form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
     }
 }
 
@@ -170,7 +171,7 @@ mod tests {
     fn judge(order: &GameOrder, known: &[GameForm], genome: &KernelGenome) -> (Option<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let seed = Seed::from_text("gate");
-        let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &[], &mut tally);
+        let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &|_| None, &mut tally);
         (made, tally)
     }
 
@@ -196,10 +197,11 @@ mod tests {
         let same = |_: &mut GameOrder| {};
         check(&same, &[GameForm::of(&genome_game(&genome))], NEAR_KNOWN);
         check(&same, &[GameForm::of(&made.game)], NEAR_KNOWN);
-        let (order, peers, mut tally) = (order(), [GameForm::of(&made.game)], Tally::default());
+        let (order, mut tally) = (order(), Tally::default());
         let gate = GameGate::new(&order, &[], "canary");
-        assert!(gate.judge(&genome, 0, Seed::from_text("gate"), &peers, &mut tally).is_none());
-        assert_eq!((tally.rejections.get(NEAR_KNOWN), tally.levels_tried), (Some(&1), 0));
+        let objection = |_: &Candidate| Some("a cast twice");
+        assert!(gate.judge(&genome, 0, Seed::from_text("gate"), &objection, &mut tally).is_none());
+        assert_eq!((tally.rejections.get("a cast twice"), tally.levels_tried), (Some(&1), 0));
         check(&|order| order.least_interactions = 100, &[], MEAGRE);
         check(&|order| order.least_mechanics = 100, &[], MEAGRE);
         let long =

@@ -6,11 +6,13 @@
 
 mod candidate;
 mod cast;
+mod company;
 mod gate;
 mod levels;
 mod look;
 mod make;
 mod order;
+mod rounds;
 
 pub mod report;
 

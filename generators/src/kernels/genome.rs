@@ -8,6 +8,7 @@ use super::turns::Turns;
 use crate::GenerateError;
 use crate::games::{GeneratedGame, Kind};
 use engine::{Description, Digest, Game, Sampler, Seed, syntax};
+use std::collections::BTreeSet;
 
 /// The ticks of a game whose levels nobody has played yet.
 const LONG: u32 = 400;
@@ -61,12 +62,26 @@ impl KernelGenome {
         Some(KernelGenome { scene, ..drawn })
     }
 
+    /// Draws a game of a kernel, in one of the forms that are open, and in none of the scenes that are taken, if it fits
+    /// another one; `None` if there is no such kernel or no form is open.
+    pub fn of_kernel(
+        name: &str,
+        is_open: impl Fn(Option<&str>) -> bool,
+        taken: &BTreeSet<String>,
+        seed: Seed,
+    ) -> Option<KernelGenome> {
+        let kernel = Kernel::all().iter().find(|kernel| kernel.name == name)?;
+        let sampler = &mut seed.child("genome", 0).sampler();
+        let open = kernel.in_all_forms().filter(|form| is_open(form.form.as_deref())).collect();
+        let drawn = KernelGenome::in_form(drawn(open, sampler)?, sampler);
+        let free: Vec<_> = Scene::of(drawn.kernel).filter(|scene| !taken.contains(&scene.name)).collect();
+        let scene = if free.is_empty() { drawn.scene } else { free[sampler.below(free.len())] };
+        Some(KernelGenome { scene, ..drawn })
+    }
+
     /// Draws a game of a kernel that has scenes, in one of its forms.
     pub(crate) fn of(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
-        let forms: Vec<&'static Kernel> = kernel.in_all_forms().collect();
-        let weights: Vec<u32> =
-            forms.iter().map(|form| if form.form.is_some() { OTHER_FORM } else { 1 }).collect();
-        let form = forms[sampler.weighted(&weights).unwrap_or(0)];
+        let form = drawn(kernel.in_all_forms().collect(), sampler).unwrap_or(kernel);
         KernelGenome::in_form(form, sampler)
     }
 
@@ -105,16 +120,23 @@ impl KernelGenome {
         self.kernel.form.as_deref()
     }
 
+    /// The name of its scene.
+    pub fn scene(&self) -> &'static str {
+        &self.scene.name
+    }
+
     /// The kernel that stands for a kernel and all that are hardly different from it.
     pub fn family(kernel: &str) -> &str {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)
     }
 
-    /// The number of forms of a kernel, the kernel as such included.
-    pub fn forms(kernel: &str) -> usize {
+    /// The forms of a kernel, the kernel as such first.
+    pub fn forms(kernel: &str) -> Vec<Option<&'static str>> {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
-        named.map_or(1, |kernel| kernel.in_all_forms().count())
+        let forms =
+            |kernel: &'static Kernel| kernel.in_all_forms().map(|form| form.form.as_deref()).collect();
+        named.map_or_else(Vec::new, forms)
     }
 
     /// The names of all kernels, those of a kind together: an axis of an archive.
@@ -182,6 +204,13 @@ impl KernelGenome {
             time: self.time,
         }
     }
+}
+
+/// One of these forms of a kernel; `None` if there are none.
+fn drawn(forms: Vec<&'static Kernel>, sampler: &mut Sampler) -> Option<&'static Kernel> {
+    let weight = |form: &&Kernel| if form.form.is_some() { OTHER_FORM } else { 1 };
+    let weights: Vec<u32> = forms.iter().map(weight).collect();
+    Some(forms[sampler.weighted(&weights)?])
 }
 
 /// Builds the game of a kernel file in a scene, or under the names of its types, for authors of kernels, in one of its

@@ -56,6 +56,11 @@ impl Turns {
         Turns { order, scenes, seed }
     }
 
+    /// The kernels and their kinds, in the order of their turns.
+    pub fn kernels(&self) -> impl Iterator<Item = (&'static str, Kind)> + '_ {
+        self.order.iter().map(|kernel| (kernel.name.as_str(), kernel.kind))
+    }
+
     /// The scene of a place in the set, of those that a kernel can be set in: one that no place shortly before it has, if
     /// there is one.
     pub(crate) fn scene(&self, kernel: &Kernel, place: u32) -> Option<&'static Scene> {

@@ -1,0 +1,163 @@
+//! Sets whose games are made one by one, in short rounds: each round knows the games of those before it.
+
+use super::company::{Company, Room};
+use super::make::{Attempted, GameSet, Maker};
+use generators::games::Kind;
+use generators::kernels::KernelGenome;
+use rayon::prelude::*;
+
+/// The attempts of a round, at least and at most. Part of what decides the bytes.
+const ROUND: (usize, usize) = (8, 24);
+
+/// A kernel with a game is as late as one without that was tried so often since. Kernels differ in how often they pass, so
+/// none can be waited for without end.
+const TRIES_PER_GAME: u32 = 16;
+
+/// A kernel, and how it fared so far.
+struct Fared {
+    kernel: &'static str,
+    kind: Kind,
+    /// Attempts since its last game that was taken in.
+    tries: u32,
+    /// All attempts.
+    attempts: u32,
+}
+
+/// An attempt of a round.
+pub(super) struct Turn {
+    /// The number of the attempt in the set.
+    pub(super) number: u32,
+    /// The number of the attempt among those of its kernel.
+    pub(super) of_kernel: u32,
+    /// The game to begin with.
+    pub(super) drawn: KernelGenome,
+}
+
+/// The kernels in the order of their turns.
+struct Ledger(Vec<Fared>);
+
+impl Ledger {
+    /// Plans a round: kernels with the fewest games and attempts first, none of them twice as long as there are others, each
+    /// in another scene as far as it fits one.
+    fn plan(&mut self, maker: &Maker<'_>, company: &Company, size: usize, first: u32) -> Vec<Turn> {
+        let mut room = company.room.clone();
+        let mut scenes = company.scenes.clone();
+        let mut turns = Vec::new();
+        for number in (first..).take(size) {
+            // Of a short round, kernels get a second turn.
+            let again = || self.next(&company.room).filter(|_| turns.len() < ROUND.0);
+            let Some(at) = self.next(&room).or_else(again) else { break };
+            let fared = &mut self.0[at];
+            let seed = maker.seed_of(number);
+            let is_open = |form: Option<&str>| company.room.is_open(fared.kernel, form);
+            let drawn = KernelGenome::of_kernel(fared.kernel, is_open, &scenes, seed.child("rules", 0));
+            let of_kernel = fared.attempts;
+            (fared.tries, fared.attempts) = (fared.tries + 1, fared.attempts + 1);
+            let Some(drawn) = drawn else { continue };
+            scenes.insert(drawn.scene().to_owned());
+            room.take(fared.kernel, drawn.form(), fared.kind.name());
+            turns.push(Turn { number, of_kernel, drawn });
+        }
+        turns
+    }
+
+    /// The kernel that is to be tried next, of those that there is room for.
+    fn next(&self, room: &Room) -> Option<usize> {
+        let fared = self.0.iter().enumerate();
+        let open = fared.filter(|(_, fared)| room.has_room(fared.kernel, fared.kind.name()));
+        let late = |fared: &Fared| fared.tries + TRIES_PER_GAME * room.games_of(fared.kernel) as u32;
+        open.min_by_key(|(_, fared)| late(fared)).map(|(at, _)| at)
+    }
+
+    fn note_game(&mut self, kernel: &str) {
+        for fared in self.0.iter_mut().filter(|fared| fared.kernel == kernel) {
+            fared.tries = 0;
+        }
+    }
+}
+
+impl Maker<'_> {
+    /// Short rounds of attempts on all threads, until there are enough games, no room for more, or no attempt left.
+    pub(super) fn in_rounds(&self) -> GameSet {
+        let (order, wanted) = (self.order, self.order.count as usize);
+        let mut company = Company::of(order);
+        let mut set = GameSet::default();
+        let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0, attempts: 0 };
+        let mut ledger = Ledger(self.turns.kernels().map(fared).collect());
+        let (mut number, most) = (0, order.count.saturating_mul(order.effort.attempts));
+        while set.games.len() < wanted && number < most {
+            let size = (wanted - set.games.len()).clamp(ROUND.0, ROUND.1).min((most - number) as usize);
+            let turns = ledger.plan(self, &company, size, number);
+            if turns.is_empty() {
+                break;
+            }
+            number += size as u32;
+            let attempted: Vec<Attempted> =
+                turns.par_iter().map(|turn| self.in_turn(turn, &company)).collect();
+            for (turn, mut attempted) in turns.iter().zip(attempted) {
+                if let Some(game) = attempted.made.take() {
+                    match company.welcome(&game) {
+                        _ if set.games.len() == wanted => attempted.tally.taken_back("more than asked for"),
+                        Err(why) => attempted.tally.taken_back(why),
+                        Ok(()) => {
+                            self.progress.made(&game.card.title);
+                            ledger.note_game(turn.drawn.kernel());
+                            set.games.push(game);
+                        }
+                    }
+                }
+                set.tally.add(&attempted.tally);
+                set.looks += attempted.looks;
+            }
+        }
+        set.thin(&company, wanted);
+        set
+    }
+
+    /// One attempt. Every third of a kernel is judged in any case, since some games are beyond the players of a look.
+    fn in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
+        let mut attempted = Attempted::default();
+        let patience = self.order.effort.patience.max(1);
+        let is_judged = (turn.of_kernel + 1).is_multiple_of(patience);
+        let seed = self.seed_of(turn.number);
+        let proposed = self.proposed(turn.drawn.clone(), is_judged, seed, &mut attempted);
+        for (at, genome) in (0..).zip(&proposed) {
+            let objection = |candidate: &_| company.objection(candidate);
+            let judges = seed.child("judges", at);
+            let made = self.gate.judge(genome, turn.number, judges, &objection, &mut attempted.tally);
+            self.progress.looked();
+            if let Some(made) = made {
+                attempted.made = Some(made);
+                break;
+            }
+        }
+        attempted
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    fn ledger(kernels: &[(&'static str, Kind)]) -> Ledger {
+        let fared = |&(kernel, kind)| Fared { kernel, kind, tries: 0, attempts: 0 };
+        Ledger(kernels.iter().map(fared).collect())
+    }
+
+    #[test]
+    fn kernels_without_a_game_come_first_but_not_for_ever() {
+        let kernels = [("one-pull", Kind::Lure), ("one-spark", Kind::Demolition)];
+        let mut ledger = ledger(&kernels);
+        let mut room = Room::default();
+        room.take("one-pull", None, "lure");
+        let mut tried = BTreeMap::new();
+        for _ in 0..40 {
+            let at = ledger.next(&room).unwrap();
+            let fared = &mut ledger.0[at];
+            fared.tries += 1;
+            *tried.entry(fared.kernel).or_insert(0) += 1;
+        }
+        assert_eq!(tried, BTreeMap::from([("one-pull", 12), ("one-spark", 28)]));
+    }
+}
