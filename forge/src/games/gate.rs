@@ -29,6 +29,11 @@ const TIME_PER_WIN: f64 = 2.5;
 const MEAGRE: &str = "meagre";
 /// The reason for turning down a game that owes its first judges' verdict to luck.
 const SECOND_JUDGES: &str = "second judges";
+/// The reason for turning down a game that passes the gates with some dice, and with others does not.
+const FURTHER_JUDGES: &str = "further judges";
+/// The number of further judges, each with dice of its own, who put a game through the gates. A game that passes them with
+/// nine dice of ten passes six more in half of all cases.
+const FURTHER: u64 = 6;
 /// The reason for turning down a game that is too much like another.
 pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
@@ -107,6 +112,10 @@ impl<'a> GameGate<'a> {
             levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
         if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {
             tally.game_rejected(SECOND_JUDGES);
+            return None;
+        }
+        if !levels.hold_again(&candidate.game, &found, (seed.child("further judges", 0), FURTHER), tally) {
+            tally.game_rejected(FURTHER_JUDGES);
             return None;
         }
         let found = levels.told(&candidate.game, found, together, tally);

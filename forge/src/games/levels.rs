@@ -6,7 +6,8 @@ use engine::{Digest, Episode, Game, Level, Seed};
 use generators::kernels::{Course, CourseLevel, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
-use validators::{Criteria, Finding, Judgement, Panel, Rate, Report, SkillOverall, mcts_rate};
+use std::slice;
+use validators::{Criteria, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, mcts_rate};
 
 /// A level that its judges let in.
 #[derive(Clone, Debug)]
@@ -131,6 +132,12 @@ impl Levels<'_> {
             match self.level(game, number, &levels, tally) {
                 Some(level) => {
                     levels.push((number, level));
+                    if levels.len() == OUTLINE
+                        && let Some(obstacle) = self.objection_to_outline(game, &levels, tally)
+                    {
+                        tally.game_rejected(obstacle);
+                        return None;
+                    }
                     if self.is_hopeless(game, &levels) {
                         tally.game_rejected("skill-overall");
                         return None;
@@ -151,6 +158,37 @@ impl Levels<'_> {
         Some(levels)
     }
 
+    /// Returns the gate that the first two levels and the last of a course cannot be hoped to pass together with the others:
+    /// the last is easier or does without what the first need, or there is not half the drama.
+    fn objection_to_outline(
+        &self,
+        game: &Game,
+        levels: &[(u32, FoundLevel)],
+        tally: &mut Tally,
+    ) -> Option<&'static str> {
+        if matches!(self.source, LevelSource::Rules(_)) || self.count as usize == OUTLINE {
+            return None;
+        }
+        let gates = &self.criteria.gates;
+        let lax = Gates { growth: 0, drama: gates.drama / 2.0, ..gates.clone() };
+        let panel = self.panel_of(&["progression", "drama"], lax);
+        let mut levels: Vec<&(u32, FoundLevel)> = levels.iter().collect();
+        levels.sort_by_key(|(number, _)| *number);
+        let (boards, reports): (Vec<Level>, Vec<Report>) =
+            levels.iter().map(|(_, found)| (found.level.clone(), found.report.clone())).unzip();
+        let seed = self.seed.child("outline", 0);
+        let together = panel.screen_together(game, &boards, &reports, seed);
+        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        let obstacle = together.iter().find(|judgement| !judgement.finding.verdict.is_pass());
+        obstacle.map(|judgement| judgement.criterion)
+    }
+
+    /// The judges of those criteria that are asked of all and named here.
+    fn panel_of(&self, names: &[&str], gates: Gates) -> Panel {
+        let ask = self.criteria.ask.iter().filter(|name| names.contains(&name.as_str())).cloned().collect();
+        Panel::new(&Criteria { ask, gates, ..self.criteria.clone() }).expect("the criteria were checked")
+    }
+
     /// Tests whether skill cannot be hoped to pay over all levels, after some of them: before the others cost as much again. After
     /// all of them, whether it does not pay.
     fn is_hopeless(&self, game: &Game, levels: &[(u32, FoundLevel)]) -> bool {
@@ -160,7 +198,7 @@ impl Levels<'_> {
             && skill.is_hopeless(&ladders, game.is_deterministic(), self.count as usize)
     }
 
-    /// Returns the findings of the judges of the game; `None` if one of them says no.
+    /// Returns the findings of the judges of the game; `None`, with the reason in the tally, if one of them says no.
     pub(crate) fn together(
         &self,
         game: &Game,
@@ -203,6 +241,27 @@ impl Levels<'_> {
         let together = panel.screen_together(game, &boards, &reports, seed.child("game", 0));
         tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
+    }
+
+    /// Tests whether the gates let the game in, whatever the dice: `times` judges in turn, each of whom knows one win of a
+    /// level, the witness. Cost: some seconds for each.
+    pub(crate) fn hold_again(
+        &self,
+        game: &Game,
+        levels: &[FoundLevel],
+        (seed, times): (Seed, u64),
+        tally: &mut Tally,
+    ) -> bool {
+        let panel = self.panel_of(GATES, self.criteria.gates.clone());
+        let boards: Vec<Level> = levels.iter().map(|found| found.level.clone()).collect();
+        let report =
+            |found: &FoundLevel| Report { judgements: Vec::new(), witness: found.report.witness.clone() };
+        let reports: Vec<Report> = levels.iter().map(report).collect();
+        (0..times).all(|number| {
+            let together = panel.screen_together(game, &boards, &reports, seed.child("judges", number));
+            tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+            together.iter().all(|judgement| judgement.finding.verdict.is_pass())
+        })
     }
 
     /// A level that was found for another game, in which all that was played ends as in this one: judged again, but for the
@@ -254,7 +313,12 @@ impl Levels<'_> {
                 return None;
             }
         };
+        let mut left = self.tries;
         for candidate in 0..self.tries {
+            if left == 0 {
+                break;
+            }
+            left -= 1;
             let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
             let (level, asks) = match generator.generate(game, seed.child("layout", 0)) {
                 Ok((level, _)) if taken.contains(&level.digest()) => {
@@ -267,20 +331,41 @@ impl Levels<'_> {
                     continue;
                 }
             };
+            let calls = tally.calls;
             let Some(found) = self.judged(self.panel, game, level, (difficulty, candidate), seed, tally)
             else {
+                // A search in vain for a win is dear: it counts as several candidates.
+                if tally.calls - calls > self.criteria.budget / 2 {
+                    left = left.saturating_sub(DEAR);
+                }
                 continue;
             };
             let in_order = |(place, other): &(u32, FoundLevel)| match *place < number {
                 true => found.asks_as_much_as(other),
                 false => other.asks_as_much_as(&found),
             };
-            if matches!(self.source, LevelSource::Rules(_)) || others.iter().all(in_order) {
+            if matches!(self.source, LevelSource::Rules(_)) {
+                return Some(found);
+            }
+            if !others.iter().all(in_order) {
+                tally.level_taken_back("less than an earlier level");
+            } else if self.is_tedious(game, &found, tally) {
+                tally.level_taken_back("no-dead-time");
+            } else {
                 return Some(FoundLevel { asks, ..found });
             }
-            tally.level_taken_back("less than an earlier level");
         }
         None
+    }
+
+    /// Tests whether the win of a level has dead time: the gate looks at each level alone.
+    fn is_tedious(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> bool {
+        let panel = self.panel_of(&["no-dead-time"], self.criteria.gates.clone());
+        let (board, report) = (&found.level, &found.report);
+        let seed = found.seed.child("dead time", 0);
+        let judged = panel.screen_together(game, slice::from_ref(board), slice::from_ref(report), seed);
+        tally.calls(judged.iter().map(|judgement| judgement.finding.calls()).sum());
+        judged.iter().any(|judgement| !judgement.finding.verdict.is_pass())
     }
 
     /// A level that meets all criteria.
@@ -310,6 +395,12 @@ impl Levels<'_> {
 
 /// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
 const LATER_SHARE: f64 = 0.6;
+
+/// The levels of a course that are found first: two to begin with and the exam.
+const OUTLINE: usize = 3;
+
+/// Further candidates that a level costs whose win was searched for in vain.
+const DEAR: u32 = 1;
 
 /// The criteria whose answer does not depend on dice once there is a witness.
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
