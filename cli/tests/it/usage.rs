@@ -257,6 +257,8 @@ fn only_leftovers_are_removed() {
         put(&work.join(format!("{name}.partial/.lock")), lock);
         put(&work.join(format!("{name}.partial/tree/games/a/game.vgdl")), "half");
     }
+    // Killed as it began.
+    put(&work.join("begun.partial/.lock"), "");
     put(&work.join("mint.partial/.lock"), lock);
     put(&work.join("mint.partial/lots/game-1.json"), "{}");
     put(&work.join(".arcade-a1B2c3.partial"), "GIF8");
@@ -300,9 +302,9 @@ fn only_leftovers_are_removed() {
     };
     let before = files(home.path());
     let scratch = usize::from(cfg!(target_os = "linux"));
-    assert_eq!(clean(&["--dry-run"]), ([2, 1, 1, scratch, 0], 0));
+    assert_eq!(clean(&["--dry-run"]), ([3, 1, 1, scratch, 0], 0));
     assert!(files(home.path()) == before);
-    assert_eq!(clean(&[]), ([2, 1, 1, scratch, 0], 3 + scratch));
+    assert_eq!(clean(&[]), ([3, 1, 1, scratch, 0], 4 + scratch));
     let after = files(home.path());
     assert!(after.keys().any(|name| name.starts_with("work/mint.partial")));
     assert_eq!(clean(&["--interrupted"]), ([0, 1, 0, 0, 0], 1));

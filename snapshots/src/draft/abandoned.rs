@@ -20,7 +20,7 @@ pub struct Abandoned {
 
 impl Abandoned {
     /// Returns the abandoned draft whose `.partial` folder this is; `None` if the folder is not a draft's, or if a
-    /// process works on it. A folder counts as a draft's only if it holds a lock, work, and nothing else. Links are
+    /// process works on it. A folder counts as a draft's only if it holds a lock and nothing but work. Links are
     /// not followed.
     ///
     /// # Errors
@@ -35,7 +35,7 @@ impl Abandoned {
             Err(source) if source.kind() == ErrorKind::NotFound => return Ok(None),
             Err(source) => return Err(SnapshotError::io("examine", partial)(source)),
         }
-        let lock = match lock::acquire(partial) {
+        let lock = match lock::take(partial) {
             Ok(lock) => lock,
             Err(SnapshotError::Busy(_) | SnapshotError::Foreign(_)) => return Ok(None),
             Err(error) => return Err(error),
@@ -59,13 +59,13 @@ impl Abandoned {
     }
 }
 
-/// Tests whether the folder, itself no link, holds what a draft holds: its lock, and work.
+/// Tests whether the folder, itself no link, holds what a draft holds: its lock, and nothing but work. A lock alone is left
+/// by runs that were killed as they began or ended.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
         return Ok(false);
     }
-    let is_folder = |name| fs::symlink_metadata(partial.join(name)).is_ok_and(|found| found.is_dir());
-    Ok((is_folder(TREE) || is_folder(JOBS)) && lock::is_ours(partial)?)
+    lock::is_ours(partial)
 }
 
 /// Counts the files of finished jobs in a folder.
@@ -108,6 +108,19 @@ mod tests {
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy(_))));
         abandoned.remove().expect("removed");
         assert!(names(home.path()).is_empty());
+    }
+
+    #[test]
+    fn a_lock_alone_is_left_by_a_killed_run() {
+        let (home, _) = home();
+        let partial = home.path().join("new.partial");
+        for lock in ["", lock::MARK] {
+            fs::create_dir(&partial).expect("created");
+            assert!(Abandoned::at(&partial).expect("examined").is_none(), "a folder without a lock");
+            fs::write(partial.join(LOCK), lock).expect("written");
+            Abandoned::at(&partial).expect("examined").expect("abandoned").remove().expect("removed");
+            assert!(names(home.path()).is_empty());
+        }
     }
 
     #[test]

@@ -17,8 +17,15 @@ pub(super) const TREE: &str = "tree";
 /// The folder whose content is kept if the work is interrupted.
 pub(super) const JOBS: &str = "lots";
 
-/// Creates `partial` or takes it over, and locks it.
+/// Creates `partial` or takes it over, locks it, and marks it as ours.
 pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
+    let mut lock = take(partial)?;
+    mark(&mut lock).map_err(SnapshotError::io("lock", &partial.join(LOCK)))?;
+    Ok(lock)
+}
+
+/// Creates `partial` or takes it over, and locks it. A lock that is there stays as it is.
+pub(super) fn take(partial: &Path) -> Result<File, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
     // A holder that finishes meanwhile removes the folder; then we start again.
@@ -36,7 +43,7 @@ pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
             Err(source) => return Err(SnapshotError::io("examine", partial)(source)),
         }
         let options = || File::options().read(true).write(true).create(true).truncate(false).open(&lock_path);
-        let mut lock = match options() {
+        let lock = match options() {
             Ok(lock) => lock,
             Err(source) if source.kind() == ErrorKind::NotFound => continue,
             Err(source) => return Err(SnapshotError::io("lock", &lock_path)(source)),
@@ -50,7 +57,6 @@ pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
         // The lock counts only if the file is still the one at that path.
         let held = lock.metadata().map_err(SnapshotError::io("lock", &lock_path))?;
         if fs::symlink_metadata(&lock_path).is_ok_and(|found| folder::same_file(&held, &found)) {
-            mark(&mut lock).map_err(SnapshotError::io("lock", &lock_path))?;
             return Ok(lock);
         }
     }
