@@ -51,6 +51,12 @@ pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
     Draft::create(out).map_err(Failure::from)
 }
 
+/// Starts a draft like [`draft`], with what an interrupted one has finished.
+pub(crate) fn resumed(out: &Path) -> Result<Draft, Failure> {
+    check(out)?;
+    Draft::resume(out).map_err(Failure::from)
+}
+
 /// Returns the absolute path, with links followed as far as it exists.
 fn resolved(place: &Path) -> PathBuf {
     for above in place.ancestors() {

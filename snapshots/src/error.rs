@@ -30,12 +30,12 @@ pub enum SnapshotError {
     /// A folder that ends with `.partial` was not left by a killed run.
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.display())]
     Foreign(PathBuf),
-    /// The output path holds the work of an interrupted mint.
-    #[error("`{}` holds the work of an interrupted mint: continue with --resume, or remove it to start over", .0.display())]
+    /// The output path holds the work of an interrupted run.
+    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.display())]
     Interrupted(PathBuf),
     /// The finished jobs are those of another mint.
     #[error(
-        "`{}` holds the work of another recipe or another arcade version: continue with that one, or choose another --out",
+        "`{}` holds the work of another recipe, other flags or another arcade version: continue with that one, or choose another --out",
         .0.display()
     )]
     OtherPlan(PathBuf),

@@ -62,20 +62,34 @@ fn evolved_games_are_the_same_on_any_number_of_threads() {
 
 #[cfg(unix)]
 #[test]
-fn an_interruption_is_told() {
+fn an_interrupted_run_goes_on_with_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
+    let more = ["--kind", "demolition", "--kind", "rescue", "--count", "2", "--levels", "2", "--seed", "i"];
+    let told = generate(home.path(), "whole", &more, 0);
+    let args = [&["generate", "games", "--jobs", "1", "--out", "new"], &more[..]].concat();
     let mut command = arcade(home.path());
-    command.args(["generate", "games", "--count", "500", "--jobs", "1", "--out", "new"]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    // Signals are caught once there is a folder to write to.
-    while !home.path().join("new.partial").exists() {
-        thread::sleep(Duration::from_millis(10));
+    let child = command.args(&args).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let finished = || {
+        let jobs = fs::read_dir(home.path().join("new.partial/lots")).into_iter().flatten().flatten();
+        jobs.filter(|job| job.path().extension().is_some_and(|kind| kind == "json")).count()
+    };
+    while finished() < 2 {
+        thread::sleep(Duration::from_millis(5));
     }
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
-    assert_eq!(text(&output.stderr), "interrupted; nothing is kept: the same command starts over\n");
+    let hint = "interrupted; what is finished is kept: continue with the same command and --resume\n";
+    assert!(text(&output.stderr).ends_with(hint), "{}", text(&output.stderr));
     assert!(!home.path().join("new").exists());
+    let message = text(&run(home.path(), &args, 2).stderr);
+    assert!(message.contains("--resume"), "{message}");
+    let other = [&args[..], &["--resume", "--seed", "another"]].concat();
+    run(home.path(), &other, 2);
+    assert!(finished() >= 2);
+    assert!(told == generate(home.path(), "new", &[&more[..], &["--resume"]].concat(), 0));
+    assert!(files(&home.path().join("whole")) == files(&home.path().join("new")));
+    assert!(!home.path().join("new.partial").exists());
 }
 
 #[test]

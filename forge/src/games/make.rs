@@ -3,6 +3,7 @@
 use super::candidate::{Candidate, MadeGame, Step};
 use super::company::{CROWDED, Company};
 use super::gate::GameGate;
+use super::kept::Kept;
 use super::look::{Looker, axes};
 use super::order::GameOrder;
 use crate::levels::Method;
@@ -25,6 +26,17 @@ pub struct GameSet {
     pub tally: Tally,
     /// Games that a search looked at.
     pub looks: u64,
+    /// The reason why there are fewer games than asked for.
+    pub shortfall: Option<Shortfall>,
+}
+
+/// A reason why there are fewer games than asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shortfall {
+    /// All attempts were made.
+    Attempts,
+    /// Every kernel has as many games as one may have, or is of a kind that has: more games would be alike.
+    Room,
 }
 
 /// The reasons why no game was made.
@@ -45,12 +57,18 @@ pub enum GamesError {
     },
 }
 
-/// Told how the making goes; from several threads.
+/// Told how the making goes, and asked for what an interrupted one has done; from several threads.
 pub trait Progress: Sync {
     /// A game was looked at, or judged.
     fn looked(&self) {}
     /// A game is accepted.
     fn made(&self, _title: &str) {}
+    /// Returns the result of an attempt of an interrupted making of the same games.
+    fn kept(&self, _attempt: &str) -> Option<Kept> {
+        None
+    }
+    /// Keeps the result of an attempt.
+    fn keep(&self, _attempt: &str, _result: &Kept) {}
 }
 
 impl Progress for () {}
@@ -118,9 +136,10 @@ pub(super) struct Attempted {
 }
 
 impl GameSet {
-    /// Removes games of crowded kinds, if there are fewer games than wanted.
-    pub(super) fn thin(&mut self, company: &Company, wanted: usize) {
+    /// Ends the set: if there are fewer games than wanted, those of crowded kinds go.
+    pub(super) fn end(&mut self, company: &Company, wanted: usize, shortfall: Shortfall) {
         if self.games.len() < wanted {
+            self.shortfall = Some(shortfall);
             for _ in 0..company.thin(&mut self.games) {
                 self.tally.taken_back(CROWDED);
             }
@@ -136,6 +155,16 @@ impl<'a> Maker<'a> {
     /// The seed of an attempt of a set.
     pub(super) fn seed_of(&self, number: u32) -> Seed {
         self.seed.child("game", u64::from(number))
+    }
+
+    /// The result of an attempt: kept by an interrupted making, or else made now, and kept.
+    pub(super) fn once(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
+        if let Some(attempted) = self.progress.kept(attempt).and_then(Kept::restored) {
+            return attempted;
+        }
+        let attempted = make();
+        self.progress.keep(attempt, &Kept::of(&attempted));
+        attempted
     }
 
     /// Attempts at the game of a place, until one is accepted.
@@ -249,15 +278,18 @@ impl<'a> Maker<'a> {
             let picked = spread(search.archive(), wanted_now, &[], is_near, is_welcome, &mut shown, key);
             let objection = |candidate: &Candidate| company.objection(candidate);
             let judge = |(cell, genome): &(usize, KernelGenome)| {
-                let mut tally = Tally::default();
                 let key = genome.key().to_string();
                 let seed = self.seed.child("judges", 0).child(&key, 0);
-                let mut made = self.gate.judge(genome, round, seed, &objection, &mut tally);
+                let judged = self.once(&format!("{round}-{key}"), || {
+                    let mut tally = Tally::default();
+                    let mut made = self.gate.judge(genome, round, seed, &objection, &mut tally);
+                    if let Some(made) = &mut made {
+                        made.path = path([("judges", 0), (&key, 0)]);
+                    }
+                    Attempted { made, tally, looks: 0 }
+                });
                 self.progress.looked();
-                if let Some(made) = &mut made {
-                    made.path = path([("judges", 0), (&key, 0)]);
-                }
-                (*cell, made, tally)
+                (*cell, judged.made, judged.tally)
             };
             let judged: Vec<_> = picked.par_iter().map(judge).collect();
             for (cell, made, mut tally) in judged {
@@ -276,7 +308,7 @@ impl<'a> Maker<'a> {
                 break;
             }
         }
-        set.thin(&company, wanted);
+        set.end(&company, wanted, Shortfall::Attempts);
         set
     }
 }

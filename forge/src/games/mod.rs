@@ -8,6 +8,7 @@ mod candidate;
 mod cast;
 mod company;
 mod gate;
+mod kept;
 mod levels;
 mod look;
 mod make;
@@ -18,6 +19,7 @@ pub mod report;
 
 pub use candidate::{Candidate, MadeGame, Step, marked};
 pub use cast::Cast;
+pub use kept::{Kept, KeptGame};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
-pub use make::{GameSet, GamesError, Progress, make_games, make_one};
+pub use make::{GameSet, GamesError, Progress, Shortfall, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};

@@ -1,7 +1,7 @@
 //! Sets whose games are made one by one, in short rounds: each round knows the games of those before it.
 
 use super::company::{Company, Room};
-use super::make::{Attempted, GameSet, Maker};
+use super::make::{Attempted, GameSet, Maker, Shortfall};
 use generators::games::Kind;
 use generators::kernels::KernelGenome;
 use rayon::prelude::*;
@@ -82,6 +82,7 @@ impl Maker<'_> {
         let (order, wanted) = (self.order, self.order.count as usize);
         let mut company = Company::of(order);
         let mut set = GameSet::default();
+        let mut shortfall = Shortfall::Attempts;
         let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0, attempts: 0 };
         let mut ledger = Ledger(self.turns.kernels().map(fared).collect());
         let (mut number, most) = (0, order.count.saturating_mul(order.effort.attempts));
@@ -89,11 +90,14 @@ impl Maker<'_> {
             let size = (wanted - set.games.len()).clamp(ROUND.0, ROUND.1).min((most - number) as usize);
             let turns = ledger.plan(self, &company, size, number);
             if turns.is_empty() {
+                shortfall = Shortfall::Room;
                 break;
             }
             number += size as u32;
-            let attempted: Vec<Attempted> =
-                turns.par_iter().map(|turn| self.in_turn(turn, &company)).collect();
+            let attempted: Vec<Attempted> = turns
+                .par_iter()
+                .map(|turn| self.once(&turn.number.to_string(), || self.in_turn(turn, &company)))
+                .collect();
             for (turn, mut attempted) in turns.iter().zip(attempted) {
                 if let Some(game) = attempted.made.take() {
                     match company.welcome(&game) {
@@ -110,7 +114,7 @@ impl Maker<'_> {
                 set.looks += attempted.looks;
             }
         }
-        set.thin(&company, wanted);
+        set.end(&company, wanted, shortfall);
         set
     }
 

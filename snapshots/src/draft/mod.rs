@@ -141,6 +141,15 @@ impl Draft {
         Ok(())
     }
 
+    /// Ends the work without a result: not even its [`jobs`](Draft::jobs) are kept.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn discard(self) -> Result<(), SnapshotError> {
+        let jobs = self.jobs();
+        remove_tree(&jobs).map_err(SnapshotError::io("remove", &jobs))
+    }
+
     /// Creates the file of a draft that is published as a file, and returns it with its path, for messages.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ use crate::draft::sync::{create_folder, sync_folder};
 use crate::folder;
 use crate::{Digest, SnapshotError};
 use report::canonical::to_canonical_json;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -66,11 +67,11 @@ const JOB_LIMIT: u64 = 64 << 20;
 /// The content of a result's file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct JobFile {
+struct JobFile<T> {
     plan: Digest,
     /// The digest of the result's canonical JSON: a file that was truncated or changed is ignored.
     digest: Digest,
-    result: JobResult,
+    result: T,
 }
 
 impl JobFolder {
@@ -146,15 +147,41 @@ impl JobFolder {
         sync_folder(&self.folder)
     }
 
+    /// Returns a result of any type that was stored before; `None` if there is none or it is damaged.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn stored<T: Serialize + DeserializeOwned>(&self, name: &str) -> Result<Option<T>, SnapshotError> {
+        let bytes = match folder::read(&self.folder, &JobFolder::file(name), JOB_LIMIT) {
+            Ok(bytes) => bytes,
+            Err(SnapshotError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        JobFolder::parse(self.plan, &bytes)
+    }
+
+    /// Stores a result of any type. After it returns, the result persists even after a crash.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn store<T: Serialize>(&self, name: &str, job: &T) -> Result<(), SnapshotError> {
+        self.mark()?;
+        let text = JobFolder::text(self.plan, job)?;
+        self.write(&self.folder.join(JobFolder::file(name)), &text)
+    }
+
     /// The text of a result's file.
-    pub(super) fn text(plan: Digest, job: &JobResult) -> Result<String, SnapshotError> {
+    pub(super) fn text<T: Serialize>(plan: Digest, job: &T) -> Result<String, SnapshotError> {
         let digest = Digest::of(to_canonical_json(job)?.as_bytes());
-        Ok(to_canonical_json(&JobFile { plan, digest, result: job.clone() })?)
+        Ok(to_canonical_json(&JobFile { plan, digest, result: job })?)
     }
 
     /// Reads the text of a result's file; `None` if it is truncated, changed, or of another plan.
-    pub(super) fn parse(plan: Digest, bytes: &[u8]) -> Result<Option<JobResult>, SnapshotError> {
-        let Ok(file) = serde_json::from_slice::<JobFile>(bytes) else { return Ok(None) };
+    pub(super) fn parse<T: Serialize + DeserializeOwned>(
+        plan: Digest,
+        bytes: &[u8],
+    ) -> Result<Option<T>, SnapshotError> {
+        let Ok(file) = serde_json::from_slice::<JobFile<T>>(bytes) else { return Ok(None) };
         let sound =
             file.plan == plan && Digest::of(to_canonical_json(&file.result)?.as_bytes()) == file.digest;
         Ok(sound.then_some(file.result))
@@ -167,18 +194,11 @@ impl JobFolder {
 
 impl JobStore for JobFolder {
     fn get(&self, name: &str) -> Result<Option<JobResult>, SnapshotError> {
-        let bytes = match folder::read(&self.folder, &JobFolder::file(name), JOB_LIMIT) {
-            Ok(bytes) => bytes,
-            Err(SnapshotError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(error),
-        };
-        JobFolder::parse(self.plan, &bytes)
+        self.stored(name)
     }
 
     fn put(&self, name: &str, job: &JobResult) -> Result<(), SnapshotError> {
-        self.mark()?;
-        let text = JobFolder::text(self.plan, job)?;
-        self.write(&self.folder.join(JobFolder::file(name)), &text)
+        self.store(name, job)
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Leftover {
 }
 
 pub(super) enum LeftoverKind {
-    /// The folder of a release, report or export that was not finished: with finished jobs, an interrupted mint.
+    /// The folder of a release, report or export that was not finished: with finished jobs, an interrupted run.
     Draft(Abandoned),
     /// A shard of a release, with its description.
     Shard(String),
@@ -48,7 +48,7 @@ impl Leftover {
                 ("unfinished", "unfinished work".to_owned())
             }
             LeftoverKind::Draft(draft) => {
-                ("interrupted", format!("an interrupted mint with {} finished jobs", draft.finished_jobs))
+                ("interrupted", format!("an interrupted run with {} finished jobs", draft.finished_jobs))
             }
             LeftoverKind::Shard(shard) => ("shard", shard.clone()),
             LeftoverKind::File(_) => ("file", "an unfinished file".to_owned()),

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// players.
 ///
 /// Searches the folders and all folders in them, and the system's temporary folder for scratch of players. It removes
-/// only files that arcade has certainly made and no running process uses; it never follows links. Interrupted mints
+/// only files that arcade has certainly made and no running process uses; it never follows links. Interrupted runs
 /// with finished jobs, which --resume continues, and shards, which `arcade merge` joins, are listed; a flag
 /// removes them.
 ///
@@ -29,7 +29,7 @@ pub(crate) struct Args {
     /// Print what would be removed, and remove nothing
     #[arg(long)]
     dry_run: bool,
-    /// Also remove interrupted mints that --resume could continue
+    /// Also remove interrupted runs that --resume could continue
     #[arg(long)]
     interrupted: bool,
     /// Also remove shards

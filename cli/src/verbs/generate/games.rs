@@ -11,7 +11,7 @@ use crate::verbs::release::in_pool;
 use engine::{Digest, Game, Level, Seed};
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
-use forge::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, make_games};
+use forge::games::{GameOrder, GameSet, GamesError, Kept, MadeGame, Progress, Shortfall, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
@@ -20,9 +20,11 @@ use indicatif::ProgressBar;
 use itertools::Itertools;
 use rayon::prelude::*;
 use serde_json::json;
-use snapshots::{Draft, Witness};
+use snapshots::mint::JobFolder;
+use snapshots::{Draft, SnapshotError, Witness};
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 use validators::{Criteria, GameForm, Panel};
 
 /// Makes new games: rules round a dilemma, a scene, and levels from introduction to exam. The same flags give the same
@@ -34,8 +36,10 @@ use validators::{Criteria, GameForm, Panel};
 /// so on, card.json, witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or
 /// absent.
 ///
+/// An interrupted run leaves its finished attempts in OUT.partial; --resume continues it and gives the same bytes.
+///
 /// Exit status 0: all requested games. 1: fewer, or none. 2: a flag is malformed. 128 + signal, such as 130 for Ctrl-C:
-/// interrupted; nothing is kept.
+/// interrupted.
 ///
 /// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
 #[derive(clap::Args)]
@@ -66,6 +70,19 @@ pub(crate) struct Args {
     /// The folder of the new games: absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Continue an interrupted run of the same command
+    #[arg(long)]
+    resume: bool,
+}
+
+impl Args {
+    /// Returns the digest of all that decides the bytes: attempts of other games do not count.
+    fn plan(&self, order: &GameOrder) -> Digest {
+        let versions = (engine::SEMANTICS, generators::GENERATION);
+        let kinds: Vec<&str> = order.kinds.iter().map(|kind| kind.name()).collect();
+        let plan = json!([self.method, self.seed, self.count, kinds, self.levels, versions]);
+        Digest::of(plan.to_string().as_bytes())
+    }
 }
 
 fn kind(text: &str) -> Result<Kind, String> {
@@ -84,21 +101,31 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
-    interrupt::watch(|| (), "interrupted; nothing is kept: the same command starts over".to_owned());
     // Check the place to write to before minutes of work.
-    let draft = protected::draft(&args.out)?;
+    let draft = match args.resume {
+        true => protected::resumed(&args.out)?,
+        false => protected::draft(&args.out)?,
+    };
+    let store = JobFolder::open(&draft.jobs(), args.plan(&order))?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
-    let bar = Bar(console.progress(u64::from(args.count), "games"), console);
+    let hint = "interrupted; what is finished is kept: continue with the same command and --resume";
+    interrupt::watch(|| (), hint.to_owned());
+    let bar = console.progress(u64::from(args.count), "games");
+    let bar = Bar { bar, console, store, failure: Mutex::new(None) };
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
     let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
     let made = in_pool(args.jobs, || make_games(&order, &known, &canary, seed, &bar))?;
-    bar.0.finish_and_clear();
+    bar.bar.finish_and_clear();
+    if let Some(failure) = bar.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        return Err(failure.into());
+    }
     let set = match made {
         Ok(set) => set,
         Err(error @ GamesError::NoneAccepted { .. }) => {
             console.document(&json!({ "games": [], "reason": error.to_string() }))?;
             console.remark(format_args!("{error}"));
+            draft.discard()?;
             return Ok(false);
         }
         Err(error) => return Err(Failure::malformed(error)),
@@ -171,20 +198,45 @@ fn report(
     game_report(draft, &report, &games, (&title, args.method.name(), Some(seconds)))
 }
 
-/// The progress of the making: a bar, or a line for each game where no bar can be drawn.
-struct Bar<'a>(ProgressBar, &'a Console);
+/// The progress of the making: a bar, or a line for each game where no bar can be drawn. Finished attempts are stored.
+struct Bar<'a> {
+    bar: ProgressBar,
+    console: &'a Console,
+    store: JobFolder,
+    /// The first failure of the store.
+    failure: Mutex<Option<SnapshotError>>,
+}
+
+impl Bar<'_> {
+    /// Returns the value, or notes the failure.
+    fn noted<T>(&self, result: Result<T, SnapshotError>) -> Option<T> {
+        let note = |failure| {
+            let mut first = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+            first.get_or_insert(failure);
+        };
+        result.map_err(note).ok()
+    }
+}
 
 impl Progress for Bar<'_> {
     fn looked(&self) {
-        self.0.tick();
+        self.bar.tick();
     }
 
     fn made(&self, title: &str) {
-        self.0.set_message(title.to_owned());
-        self.0.inc(1);
-        if self.0.is_hidden() {
-            self.1.remark(format_args!("made: {title}"));
+        self.bar.set_message(title.to_owned());
+        self.bar.inc(1);
+        if self.bar.is_hidden() {
+            self.console.remark(format_args!("made: {title}"));
         }
+    }
+
+    fn kept(&self, attempt: &str) -> Option<Kept> {
+        self.noted(self.store.stored(attempt)).flatten()
+    }
+
+    fn keep(&self, attempt: &str, result: &Kept) {
+        self.noted(self.store.store(attempt, result));
     }
 }
 
@@ -240,7 +292,13 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     }
     let missing = asked as usize - made;
     if missing > 0 {
-        let _ = writeln!(text, "{missing} could not be made: request less, other kinds, or use another seed");
+        let why = match set.shortfall {
+            Some(Shortfall::Room) => {
+                "no kernel is left that has not as many games as one may have: request fewer"
+            }
+            _ => "all attempts are used up: request fewer, other kinds, or use another seed",
+        };
+        let _ = writeln!(text, "{missing} could not be made: {why}");
     }
     let out = args.out.display();
     if let Some(first) = set.games.first() {

@@ -1,0 +1,79 @@
+//! Results of attempts as texts: kept on the disk, they let an interrupted making go on with the same bytes.
+
+use super::candidate::MadeGame;
+use super::levels::FoundLevel;
+use super::make::Attempted;
+use crate::card::Card;
+use crate::tally::Tally;
+use engine::{Episode, Game, Seed};
+use serde::{Deserialize, Serialize};
+use validators::Report;
+
+/// The result of an attempt: a game, or the reasons why there is none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Kept {
+    /// The game that its judges let in.
+    pub game: Option<KeptGame>,
+    /// What was tried.
+    pub tally: Tally,
+    /// Games that a search looked at.
+    pub looks: u64,
+}
+
+/// A made game as texts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptGame {
+    /// The rules, headed by title and canary.
+    pub text: String,
+    /// Its card.
+    pub card: Card,
+    /// The levels.
+    pub levels: Vec<String>,
+    /// The winning episode of each level.
+    pub witnesses: Vec<Episode>,
+}
+
+impl Kept {
+    /// The result of an attempt as texts.
+    pub(super) fn of(attempted: &Attempted) -> Kept {
+        let game = attempted.made.as_ref().map(|made| KeptGame {
+            text: made.text.clone(),
+            card: made.card.clone(),
+            levels: made.levels.iter().map(|found| found.level.to_string()).collect(),
+            witnesses: made.witnesses.clone(),
+        });
+        Kept { game, tally: attempted.tally.clone(), looks: attempted.looks }
+    }
+
+    /// The result again; `None` if the texts are of no game. What the judges wrote of a game is not kept.
+    pub(super) fn restored(self) -> Option<Attempted> {
+        let made = match self.game {
+            Some(game) => Some(game.restored()?),
+            None => None,
+        };
+        Some(Attempted { made, tally: self.tally, looks: self.looks })
+    }
+}
+
+impl KeptGame {
+    fn restored(self) -> Option<MadeGame> {
+        let KeptGame { text, card, levels, witnesses } = self;
+        let game = Game::from_source(&text).ok()?;
+        let places = levels.iter().zip(&card.levels).zip(&witnesses);
+        let found = |((text, card), witness): ((&String, &crate::card::LevelCard), &Episode)| {
+            Some(FoundLevel {
+                level: game.level(text).ok()?,
+                report: Report { judgements: Vec::new(), witness: Some(witness.clone()) },
+                generator: "course",
+                asks: card.asks.clone(),
+                difficulty: card.difficulty,
+                candidate: card.candidate,
+                seed: Seed::from_text("kept"),
+            })
+        };
+        let levels = places.map(found).collect::<Option<Vec<FoundLevel>>>()?;
+        Some(MadeGame { game, text, card, levels, together: Vec::new(), witnesses, path: Vec::new() })
+    }
+}
