@@ -404,7 +404,8 @@ mod tests {
         let mut file = shard_file(&folder).unwrap();
         let place = folder.join(&file.jobs[0].path);
         let digest = plan.digest().unwrap();
-        let mut job = JobFolder::parse(digest, &fs::read(&place).unwrap()).unwrap().unwrap();
+        let bytes = fs::read(&place).unwrap();
+        let mut job: JobResult = JobFolder::parse(digest, &bytes).unwrap().unwrap();
         alter(&mut job.games[0]);
         let text = JobFolder::text(digest, &job).unwrap();
         fs::write(&place, &text).unwrap();
