@@ -27,11 +27,12 @@ pub struct HalfPoint {
     pub interval: Interval,
 }
 
-/// The standard deviation of the items' effects, in logits: that of games (1.3) and of their levels (1.0) together.
-const ITEM_SD: f64 = 1.64;
-/// The prior of the slope and of the intercept: weak, but proper where all trials succeed or all fail.
+/// The precision of the items' effects, in logits: the variances of games (1.3²) and of their levels (1.0²) together.
+const ITEM_PRECISION: f64 = 1.0 / (1.3 * 1.3 + 1.0);
+/// The mean and the precision of the prior of the slope: weak, but proper where all trials succeed or all fail.
 const SLOPE: (f64, f64) = (1.0, 1.0);
-const INTERCEPT_SD: f64 = 20.0;
+/// The precision of the prior of the intercept, whose mean is 0.
+const INTERCEPT_PRECISION: f64 = 1.0 / (20.0 * 20.0);
 /// The most Newton steps; six are usual.
 const STEPS: usize = 60;
 /// Doses are reported within this range around those tried: nothing is known beyond.
@@ -92,12 +93,11 @@ fn fit(items: &[&[DoseTrials]]) -> (f64, f64) {
     let mut effects = vec![0.0; items.len()];
     for _ in 0..STEPS {
         // The gradient and the information of the two common parameters, after the elimination of the items.
-        let mut gradient = [-a / INTERCEPT_SD.powi(2), (SLOPE.0 - b) / SLOPE.1.powi(2)];
-        let mut information = [1.0 / INTERCEPT_SD.powi(2), 0.0, 1.0 / SLOPE.1.powi(2)];
+        let mut gradient = [-a * INTERCEPT_PRECISION, (SLOPE.0 - b) * SLOPE.1];
+        let mut information = [INTERCEPT_PRECISION, 0.0, SLOPE.1];
         let mut parts = Vec::with_capacity(items.len());
         for (trials, effect) in items.iter().zip(&effects) {
-            let (mut own, mut weight, mut cross) =
-                (-effect / ITEM_SD.powi(2), 1.0 / ITEM_SD.powi(2), [0.0; 2]);
+            let (mut own, mut weight, mut cross) = (-effect * ITEM_PRECISION, ITEM_PRECISION, [0.0; 2]);
             for &DoseTrials { dose, won, of } in trials.iter() {
                 let x = -libm::log(dose);
                 let p = 1.0 / (1.0 + libm::exp(-(a + effect + b * x)));
@@ -115,9 +115,8 @@ fn fit(items: &[&[DoseTrials]]) -> (f64, f64) {
             parts.push((own, weight, cross));
         }
         for (own, weight, cross) in &parts {
-            for at in 0..2 {
-                gradient[at] -= cross[at] * own / weight;
-            }
+            gradient[0] -= cross[0] * own / weight;
+            gradient[1] -= cross[1] * own / weight;
             information[0] -= cross[0] * cross[0] / weight;
             information[1] -= cross[0] * cross[1] / weight;
             information[2] -= cross[1] * cross[1] / weight;
