@@ -21,8 +21,6 @@ pub(crate) struct Contacts {
     pair: Vec<u16>,
     /// By pair: the passes that involve it.
     passes: Vec<Box<[u16]>>,
-    /// By pair: its two bits.
-    ends: Vec<(u8, u8)>,
     /// By type: the passes that involve it.
     of_type: Vec<Box<[u16]>>,
     /// The number of passes.
@@ -58,7 +56,6 @@ impl Contacts {
                     if *pair == NO {
                         *pair = of_pair.len() as u16;
                         of_pair.push(Vec::new());
-                        contacts.ends.push((low as u8, high as u8));
                     }
                     let pair = *pair;
                     contacts.pair[high * bits + low] = pair;
@@ -94,31 +91,23 @@ impl Schedule {
         }
     }
 
-    fn meet_more(&mut self, contacts: &Contacts, pair: usize) {
-        self.together[pair] += 1;
-        if self.together[pair] == 1 {
-            self.toggle_meets(contacts, pair);
-            for &pass in &contacts.passes[pair] {
-                self.allow(pass);
-            }
+    /// Notes that two bits share their first cell.
+    #[inline(never)]
+    fn begin_to_meet(&mut self, contacts: &Contacts, one: usize, two: usize) {
+        self.meets[one] |= 1 << two;
+        self.meets[two] |= 1 << one;
+        for &pass in &contacts.passes[contacts.pair(one, two)] {
+            self.allow(pass);
         }
     }
 
-    fn meet_less(&mut self, contacts: &Contacts, pair: usize) {
-        self.together[pair] -= 1;
-        if self.together[pair] == 0 {
-            self.toggle_meets(contacts, pair);
-            for &pass in &contacts.passes[pair] {
-                self.forbid(pass);
-            }
-        }
-    }
-
-    fn toggle_meets(&mut self, contacts: &Contacts, pair: usize) {
-        let (one, two) = contacts.ends[pair];
-        self.meets[usize::from(one)] ^= 1 << two;
-        if one != two {
-            self.meets[usize::from(two)] ^= 1 << one;
+    /// Notes that two bits share no cell any more.
+    #[inline(never)]
+    fn cease_to_meet(&mut self, contacts: &Contacts, one: usize, two: usize) {
+        self.meets[one] &= !(1 << two);
+        self.meets[two] &= !(1 << one);
+        for &pass in &contacts.passes[contacts.pair(one, two)] {
+            self.forbid(pass);
         }
     }
 
@@ -154,15 +143,27 @@ impl Schedule {
     }
 
     /// See [`Watcher`](crate::world::Watcher).
+    #[inline(always)]
     pub(crate) fn arrives(&mut self, contacts: &Contacts, own: u64, partners: u64) {
+        let own = own.trailing_zeros() as usize;
         for other in ones(partners) {
-            self.meet_more(contacts, contacts.pair(own.trailing_zeros() as usize, other));
+            let cells = &mut self.together[contacts.pair(own, other)];
+            *cells += 1;
+            if *cells == 1 {
+                self.begin_to_meet(contacts, own, other);
+            }
         }
     }
 
+    #[inline(always)]
     pub(crate) fn departs(&mut self, contacts: &Contacts, own: u64, partners: u64) {
+        let own = own.trailing_zeros() as usize;
         for other in ones(partners) {
-            self.meet_less(contacts, contacts.pair(own.trailing_zeros() as usize, other));
+            let cells = &mut self.together[contacts.pair(own, other)];
+            *cells -= 1;
+            if *cells == 0 {
+                self.cease_to_meet(contacts, own, other);
+            }
         }
     }
 

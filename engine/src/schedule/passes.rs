@@ -1,18 +1,24 @@
 //! The passes of the event phase whose two sides share a cell somewhere, visited from the side with fewer sprites.
 
 use super::Foresight;
-use crate::rules::Pass;
+use crate::rules::{Pass, SpriteType};
 use crate::tick::{Scheduler, Step, Watch};
-use crate::world::{Hit, Hits, NONE, Side};
+use crate::world::{Hit, Hits, NONE};
 use smallvec::SmallVec;
 
 impl Step<'_, Foresight<'_>> {
     /// Tests whether the second side of a pass has fewer sprites, and the same meetings happen from there.
+    #[inline(always)]
     pub(super) fn is_second_side_smaller(&self, pass: &Pass) -> bool {
-        let size = |side: Side<'_>| {
-            side.family.tree.iter().map(|&t| u32::from(self.world.group(t).count)).sum::<u32>()
+        let size = |side: SpriteType| {
+            let tree = &self.rules.types[side.index()].tree;
+            tree.iter().map(|&t| u32::from(self.world.group(t).count)).sum::<u32>()
         };
-        pass.either_side && size(self.side(pass.second)) < size(self.side(pass.first))
+        // Often the first side is the avatar alone.
+        pass.either_side && {
+            let first = size(pass.first);
+            first > 1 && size(pass.second) < first
+        }
     }
 
     /// Runs the same meetings as [`Step::visit_first_side`] in the same order, found from the second side.
@@ -35,7 +41,7 @@ impl Step<'_, Foresight<'_>> {
                     continue;
                 }
                 hits.clear();
-                let looked = self.world.overlapping(self.models, first, slot, newborn, &mut hits);
+                let looked = self.world.overlapping(self.rules.reach, first, slot, newborn, &mut hits);
                 self.work(looked);
                 let own = self.world.hit(second, slot);
                 pairs.extend(hits.iter().map(|&hit| (hit, own)));

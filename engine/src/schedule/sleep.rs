@@ -310,7 +310,7 @@ impl Step<'_, Foresight<'_>> {
         let Sprite { rect, stype, .. } = *self.world.sprite(slot);
         let partners = self.models.bits[stype.index()].partners;
         let mut found = false;
-        self.world.near_rect(self.models, rect, |other| {
+        self.world.near_rect(self.rules.reach, rect, |other| {
             let sprite = self.world.sprite(other);
             let is_partner = partners & self.models.bit(sprite.stype) != 0;
             found |= other != slot && is_partner && sprite.rect.intersects(rect);

@@ -211,7 +211,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
                 let looked = if aware {
                     self.look_down(slot, second, newborn, &mut hits)
                 } else {
-                    self.world.overlapping(self.models, second, slot, newborn, &mut hits)
+                    self.world.overlapping(self.rules.reach, second, slot, newborn, &mut hits)
                 };
                 self.work(looked);
                 if hits.len() > 1 {
@@ -309,7 +309,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
         let rect = self.world.sprite(slot).rect;
         let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
-        let looked = self.world.overlapping_rect(self.models, second, (slot, around), newborn, hits);
+        let looked = self.world.overlapping_rect(self.rules.reach, second, (slot, around), newborn, hits);
         for hit in hits.iter() {
             self.notice_ground(slot, hit.slot());
         }

@@ -163,6 +163,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     /// Starts the updates of the sprites of a type. Returns `false` if there are none, or too many.
+    #[inline(always)]
     pub(crate) fn start_type(&mut self, order: i32, stype: SpriteType) -> bool {
         let count = self.world.group(stype).count;
         if count == 0 {
@@ -219,7 +220,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     /// Removes the sprites that were killed in this tick (`spec/01` §4.10).
-    #[inline]
+    #[inline(always)]
     fn clear(&mut self) {
         if !self.world.killed().is_empty() {
             self.clear_killed();

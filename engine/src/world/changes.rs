@@ -72,6 +72,7 @@ impl World {
     }
 
     /// A sprite for modification of flags, place, age, time to live, count and heading only.
+    #[inline(always)]
     pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
         if sprite.flags & flag::DIRTY == 0 {

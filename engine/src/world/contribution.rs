@@ -208,8 +208,8 @@ impl Contribution {
 pub(crate) type Sum = [u64; 2];
 
 #[inline(always)]
-fn times(keys: Sum, word: u64) -> Sum {
-    keys.map(|key| key.wrapping_mul(word))
+fn times([low, high]: Sum, word: u64) -> Sum {
+    [low.wrapping_mul(word), high.wrapping_mul(word)]
 }
 
 #[inline(always)]

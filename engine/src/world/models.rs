@@ -39,8 +39,6 @@ pub(crate) struct Models {
     pub(crate) trees: Vec<u64>,
     /// The number of bits in use.
     pub(crate) used_bits: usize,
-    /// The largest sprite, in cells, rounded up.
-    pub(crate) reach: i32,
 }
 
 impl Models {
@@ -75,7 +73,6 @@ impl Models {
             trees: rules.types.iter().map(|info| all(&bits, &info.tree)).collect(),
             bits,
             used_bits,
-            reach: rules.reach,
         }
     }
 

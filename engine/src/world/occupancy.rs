@@ -302,7 +302,9 @@ impl World {
     /// Notes that several sprites with a bit cover a cell. Returns the bit: the sprite shares the cell with its own kind.
     #[inline(never)]
     fn crowd(&mut self, own: u64, cell: usize) -> u64 {
-        self.crowds.resize(self.masks.len(), 0);
+        if self.crowds.is_empty() {
+            self.crowds.resize(self.masks.len(), 0);
+        }
         self.crowds[cell] |= own;
         own
     }

@@ -1,7 +1,7 @@
 //! Overlap queries, answered from the cells that two sprites share (`occupancy.rs`).
 
 use super::span::Span;
-use super::{Models, NONE, Slot, Sprite, World, flag};
+use super::{NONE, Slot, Sprite, World, flag};
 use crate::geometry::Rect;
 use crate::rules::{NOT_IN_TREE, TypeInfo};
 use smallvec::SmallVec;
@@ -34,9 +34,9 @@ pub(crate) type Hits = SmallVec<[Hit; 8]>;
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
 
 impl World {
-    /// Calls `visit` with every sprite that may overlap a rectangle.
-    pub(crate) fn near_rect(&self, models: &Models, rect: Rect, mut visit: impl FnMut(Slot)) {
-        let reach = models.reach.saturating_mul(self.block) - 1;
+    /// Calls `visit` with every sprite that may overlap a rectangle. `reach`: the size of the largest sprite, in cells.
+    pub(crate) fn near_rect(&self, reach: i32, rect: Rect, mut visit: impl FnMut(Slot)) {
+        let reach = reach.saturating_mul(self.block) - 1;
         let left = self.column(rect.x.saturating_sub(reach));
         let right = self.column(rect.x.saturating_add(rect.w - 1));
         let top = self.row(rect.y.saturating_sub(reach));
@@ -120,9 +120,33 @@ impl World {
 
     /// Collects the sprites of a side that overlap a sprite, without the sprite itself, in no particular order. `above`
     /// excludes sprites created since that id was next. Returns the number of cells and sprites that it looked at.
+    #[inline(always)]
     pub(crate) fn overlapping(
         &self,
-        models: &Models,
+        reach: i32,
+        side: Side<'_>,
+        slot: Slot,
+        above: u32,
+        hits: &mut Hits,
+    ) -> usize {
+        let sprite = self.sprite(slot);
+        // In one cell, beside sprites in one cell each: the most frequent case on a grid.
+        if sprite.flags & flag::MULTI_CELL == 0 && self.multi_cell_bits & side.bits == 0 {
+            return self.overlapping_among(
+                self.cell_of(sprite),
+                side,
+                (slot, self.rect(sprite)),
+                above,
+                hits,
+            );
+        }
+        self.overlapping_around(reach, side, slot, above, hits)
+    }
+
+    /// The same for sprites in several cells.
+    fn overlapping_around(
+        &self,
+        reach: i32,
         side: Side<'_>,
         slot: Slot,
         above: u32,
@@ -131,11 +155,11 @@ impl World {
         let sprite = self.sprite(slot);
         let rect = self.rect(sprite);
         if sprite.is(flag::BIG) {
-            return self.overlapping_rect(models, side, (slot, rect), above, hits);
+            return self.overlapping_rect(reach, side, (slot, rect), above, hits);
         }
         let span = self.span(self.cell_of(sprite), sprite.flags);
         if self.span_is_covered(span, side) {
-            return self.overlapping_rect(models, side, (slot, rect), above, hits);
+            return self.overlapping_rect(reach, side, (slot, rect), above, hits);
         }
         // Sprites that lie in several cells may reach over from the cells to the left and above.
         let reached = i32::from(self.multi_cell_bits & side.bits != 0);
@@ -152,13 +176,13 @@ impl World {
     /// The sprites of a side that overlap a rectangle around a sprite, without the sprite itself.
     pub(crate) fn overlapping_rect(
         &self,
-        models: &Models,
+        reach: i32,
         side: Side<'_>,
         (slot, rect): (Slot, Rect),
         above: u32,
         hits: &mut Hits,
     ) -> usize {
-        let reach = models.reach.saturating_mul(self.block) - 1;
+        let reach = reach.saturating_mul(self.block) - 1;
         let first_column = self.column(rect.x.saturating_sub(reach));
         let last_column = self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
         let first_row = self.row(rect.y.saturating_sub(reach));
