@@ -1,12 +1,25 @@
 //! The size and the seeds of randomised tests.
 //!
 //! An ordinary run takes a tenth of the cases, from fixed seeds; `cargo xtask sweep` takes all of them, from a fresh seed, which it
-//! puts into [`VARIABLE`] and prints.
+//! puts into [`VARIABLE`] and prints. Those tests that ask for [`many_cases`] take as many times more as it says.
 
 use engine::Seed;
 
 /// The environment variable that asks for a sweep; its value is the seed.
 pub const VARIABLE: &str = "ARCADE_SWEEP";
+
+/// The environment variable with the factor of [`many_cases`].
+pub const TIMES: &str = "ARCADE_SWEEP_TIMES";
+
+/// Returns [`cases`], in a sweep as many times as [`TIMES`] says.
+///
+/// # Panics
+///
+/// If that is no number.
+pub fn many_cases(full: usize) -> usize {
+    let times = fresh().and_then(|_| std::env::var(TIMES).ok());
+    cases(full) * times.map_or(1, |times| times.parse().expect("a number of times"))
+}
 
 /// Returns the number of cases to run, of those in a full sweep.
 pub fn cases(full: usize) -> usize {

@@ -15,10 +15,14 @@ pub(crate) struct Args {
     /// Seed of the randomised tests [default: the time]
     #[arg(long, value_name = "TEXT")]
     seed: Option<String>,
+    /// How many times as many random games to compare with and without a schedule
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    times: usize,
 }
 
-/// The environment variable that the tests read, as `tests::sweep::VARIABLE`.
+/// The environment variables that the tests read, as `tests::sweep::VARIABLE` and `TIMES`.
 const VARIABLE: &str = "ARCADE_SWEEP";
+const TIMES: &str = "ARCADE_SWEEP_TIMES";
 
 #[expect(
     clippy::disallowed_methods,
@@ -31,6 +35,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let status = Command::new("cargo")
         .args(["test", "--workspace", "--locked", "--no-fail-fast"])
         .env(VARIABLE, &seed)
+        .env(TIMES, args.times.to_string())
         .env("PROPTEST_CASES", "10000")
         .status()
         .context("cargo test")?;

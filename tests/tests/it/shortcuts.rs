@@ -156,7 +156,7 @@ fn crowded_house(sampler: &mut Sampler) -> (String, String) {
 #[test]
 fn shortcuts_change_nothing_for_walks_into_walls() {
     let mut sampler = sweep::seed("walls").sampler();
-    let (mut played, cases) = (0, sweep::cases(12_000));
+    let (mut played, cases) = (0, sweep::many_cases(12_000));
     for _ in 0..cases {
         let (source, level) = crowded_house(&mut sampler);
         if let Ok(game) = Game::from_source_as_reference(&source)
