@@ -174,6 +174,19 @@ pub(super) fn changes_afar(effect: &EffectSummary, info: &TypeInfo, stype: Sprit
         EffectSummary::BecomeAll(of, to) => info.in_tree(*of) || *to == stype,
         EffectSummary::Become(to) | EffectSummary::Make(to) => *to == stype,
         EffectSummary::BecomeAny(options) => options.contains(&stype),
-        _ => false,
+        EffectSummary::Kill(_)
+        | EffectSummary::Stop
+        | EffectSummary::Undo(_)
+        | EffectSummary::Turn
+        | EffectSummary::Push
+        | EffectSummary::Carry
+        | EffectSummary::Teleport
+        | EffectSummary::Wrap
+        | EffectSummary::Clone
+        | EffectSummary::Collect
+        | EffectSummary::Change { .. }
+        | EffectSummary::Shield { .. }
+        | EffectSummary::Speed(None)
+        | EffectSummary::Health { of: None, .. } => false,
     }
 }

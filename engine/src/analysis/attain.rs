@@ -144,7 +144,17 @@ impl PopulationChanges {
                     sides[0].iter().for_each(|stype| self.appears[stype.index()] = true);
                     &[]
                 }
-                _ => &[],
+                EffectSummary::Stop
+                | EffectSummary::Undo(_)
+                | EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+                | EffectSummary::Collect
+                | EffectSummary::Change { .. }
+                | EffectSummary::Shield { .. }
+                | EffectSummary::Health { .. } => &[],
             };
             gone.iter().for_each(|stype| self.disappears[stype.index()] = true);
         }

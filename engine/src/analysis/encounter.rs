@@ -43,7 +43,22 @@ impl Encounter {
             EffectSummary::Kill(killed) => *killed == side,
             EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => side == Side::First,
             EffectSummary::Health { of: None, by, .. } => side == Side::First && *by < 0,
-            _ => false,
+            EffectSummary::KillAll(_)
+            | EffectSummary::BecomeAll(..)
+            | EffectSummary::Stop
+            | EffectSummary::Undo(_)
+            | EffectSummary::Turn
+            | EffectSummary::Push
+            | EffectSummary::Carry
+            | EffectSummary::Teleport
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Make(_)
+            | EffectSummary::Clone
+            | EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Shield { .. }
+            | EffectSummary::Health { .. } => false,
         })
     }
 }

@@ -159,17 +159,29 @@ impl<'a> PossibleFutures<'a> {
                     let rules = self.rules;
                     let tree = first.map_or(&[][..], |first| &rules.types[first.index()].tree);
                     for &stype in tree.iter().filter(|stype| self.exists[stype.index()]).collect::<Vec<_>>() {
-                        new |= match effect {
-                            EffectSummary::Clone => self.make(stype),
-                            _ => {
-                                let traits = &rules.types[stype.index()].traits;
-                                traits.is_resource && traits.value > 0 && self.hold(traits.resource, 1)
-                            }
+                        let traits = &rules.types[stype.index()].traits;
+                        new |= if *effect == EffectSummary::Clone {
+                            self.make(stype)
+                        } else {
+                            traits.is_resource && traits.value > 0 && self.hold(traits.resource, 1)
                         };
                     }
                 }
                 EffectSummary::Change { resource, by, .. } if *by > 0 => new |= self.hold(*resource, *by),
-                _ => {}
+                EffectSummary::Kill(_)
+                | EffectSummary::KillAll(_)
+                | EffectSummary::BecomeAll(..)
+                | EffectSummary::Stop
+                | EffectSummary::Undo(_)
+                | EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Teleport
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+                | EffectSummary::Change { .. }
+                | EffectSummary::Health { .. }
+                | EffectSummary::Shield { .. } => {}
             }
         }
         new

@@ -151,7 +151,22 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
             EffectSummary::Undo(spare) => !spare.contains(&stype),
             // A row of pushed sprites moves together; that is too subtle to rely on.
             EffectSummary::Push => true,
-            _ => false,
+            EffectSummary::Kill(_)
+            | EffectSummary::KillAll(_)
+            | EffectSummary::Become(_)
+            | EffectSummary::BecomeAny(_)
+            | EffectSummary::BecomeAll(..)
+            | EffectSummary::Turn
+            | EffectSummary::Carry
+            | EffectSummary::Teleport
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Make(_)
+            | EffectSummary::Clone
+            | EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Shield { .. } => false,
         });
         if stops {
             *meeting = Meeting::Blocked;
@@ -162,8 +177,27 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
             match effect {
                 EffectSummary::Become(to) if own == Side::First => sink.fate = Fate::Becomes(*to),
                 EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) => sink.opens.push(*other),
-                _ if encounter.ends(own) && sink.fate == Fate::Stays => sink.fate = Fate::Goes,
-                _ => {}
+                EffectSummary::Kill(_)
+                | EffectSummary::Become(_)
+                | EffectSummary::BecomeAny(_)
+                | EffectSummary::Stop
+                | EffectSummary::Undo(_)
+                | EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Teleport
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+                | EffectSummary::Make(_)
+                | EffectSummary::Clone
+                | EffectSummary::Collect
+                | EffectSummary::Change { .. }
+                | EffectSummary::Health { .. }
+                | EffectSummary::Shield { .. } => {
+                    if encounter.ends(own) && sink.fate == Fate::Stays {
+                        sink.fate = Fate::Goes;
+                    }
+                }
             }
         }
     });

@@ -107,7 +107,23 @@ pub(super) fn marks(
 fn spoils(encounter: &Encounter, aims: &Aims) -> bool {
     encounter.does(|effect| match effect {
         EffectSummary::Become(to) | EffectSummary::Make(to) => aims.prevent.binary_search(to).is_ok(),
-        _ => false,
+        EffectSummary::Kill(_)
+        | EffectSummary::KillAll(_)
+        | EffectSummary::BecomeAny(_)
+        | EffectSummary::BecomeAll(..)
+        | EffectSummary::Stop
+        | EffectSummary::Undo(_)
+        | EffectSummary::Turn
+        | EffectSummary::Push
+        | EffectSummary::Carry
+        | EffectSummary::Teleport
+        | EffectSummary::Wrap
+        | EffectSummary::Speed(_)
+        | EffectSummary::Clone
+        | EffectSummary::Collect
+        | EffectSummary::Change { .. }
+        | EffectSummary::Health { .. }
+        | EffectSummary::Shield { .. } => false,
     })
 }
 

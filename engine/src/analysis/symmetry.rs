@@ -130,14 +130,16 @@ fn is_by_itself(info: &TypeInfo) -> bool {
 /// matter.
 fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
-    let afar = |effect: &EffectSummary| match effect {
-        EffectSummary::KillAll(_)
-        | EffectSummary::Become(_)
-        | EffectSummary::Make(_)
-        | EffectSummary::BecomeAny(_) => false,
-        effect => changes_afar(effect, info, stype),
+    let treats_all_alike = |effect: &EffectSummary| {
+        matches!(
+            effect,
+            EffectSummary::KillAll(_)
+                | EffectSummary::Become(_)
+                | EffectSummary::Make(_)
+                | EffectSummary::BecomeAny(_)
+        )
     };
-    encounter.does(afar)
+    encounter.does(|effect| !treats_all_alike(effect) && changes_afar(effect, info, stype))
 }
 
 /// Returns `true` if executing the effect leaves the score alone and is recorded nowhere.

@@ -245,7 +245,23 @@ impl Analysis {
         let brought = |encounter: &Encounter, list: &[SpriteType]| {
             encounter.does(|effect| match effect {
                 EffectSummary::Become(to) | EffectSummary::Make(to) => list.binary_search(to).is_ok(),
-                _ => false,
+                EffectSummary::Kill(_)
+                | EffectSummary::KillAll(_)
+                | EffectSummary::BecomeAny(_)
+                | EffectSummary::BecomeAll(..)
+                | EffectSummary::Stop
+                | EffectSummary::Undo(_)
+                | EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Teleport
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+                | EffectSummary::Clone
+                | EffectSummary::Collect
+                | EffectSummary::Change { .. }
+                | EffectSummary::Health { .. }
+                | EffectSummary::Shield { .. } => false,
             })
         };
         let finish = self.encounters.iter().filter(|encounter| {

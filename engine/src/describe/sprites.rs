@@ -132,7 +132,22 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let into = |effect: &EffectSummary| match effect {
         EffectSummary::Become(into) | EffectSummary::BecomeAll(_, into) => *into == stype,
         EffectSummary::BecomeAny(into) => into.contains(&stype),
-        _ => false,
+        EffectSummary::Kill(_)
+        | EffectSummary::KillAll(_)
+        | EffectSummary::Stop
+        | EffectSummary::Undo(_)
+        | EffectSummary::Turn
+        | EffectSummary::Push
+        | EffectSummary::Carry
+        | EffectSummary::Teleport
+        | EffectSummary::Wrap
+        | EffectSummary::Speed(_)
+        | EffectSummary::Make(_)
+        | EffectSummary::Clone
+        | EffectSummary::Collect
+        | EffectSummary::Change { .. }
+        | EffectSummary::Health { .. }
+        | EffectSummary::Shield { .. } => false,
     };
     let turns = |encounter: &Encounter| {
         let is_own = analysis.applies(encounter.first, stype);
@@ -154,14 +169,7 @@ pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (boo
         |maker: SpriteType| analysis.facts(maker).motion == Motion::Steered || order(maker) > order(stype);
     let makers: Vec<bool> = analysis.game().sprite_types().filter(makes).map(at_once).collect();
     let by_rules = |encounter: &Encounter| {
-        encounter.does(|effect| match effect {
-            EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
-                *to == stype
-            }
-            EffectSummary::BecomeAny(types) => types.contains(&stype),
-            EffectSummary::Clone => true,
-            _ => false,
-        })
+        encounter.does(|effect| effect.makes().contains(&stype) || *effect == EffectSummary::Clone)
     };
     // Levels seldom place what is made in play, even where a character stands for it.
     let later = makers.is_empty() || makers.contains(&false) || analysis.encounters().iter().any(by_rules);

@@ -147,13 +147,7 @@ impl Linter<'_> {
     fn roams(&self, stype: SpriteType) -> bool {
         let facts = self.analysis.facts(stype);
         let info = &self.game.0.types[stype.index()];
-        let made = |effect: &EffectSummary| match effect {
-            EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) | EffectSummary::Make(to) => {
-                *to == stype
-            }
-            EffectSummary::BecomeAny(options) => options.contains(&stype),
-            _ => false,
-        };
+        let made = |effect: &EffectSummary| effect.makes().contains(&stype);
         let moves = |effect: &EffectSummary| {
             matches!(
                 effect,
@@ -181,7 +175,23 @@ impl Linter<'_> {
             encounter.does(|effect| match effect {
                 EffectSummary::Collect => self.analysis.applies(encounter.first, resource),
                 EffectSummary::Change { resource: other, by, .. } => *other == resource && *by > 0,
-                _ => false,
+                EffectSummary::Kill(_)
+                | EffectSummary::KillAll(_)
+                | EffectSummary::Become(_)
+                | EffectSummary::BecomeAny(_)
+                | EffectSummary::BecomeAll(..)
+                | EffectSummary::Stop
+                | EffectSummary::Undo(_)
+                | EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Teleport
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+                | EffectSummary::Make(_)
+                | EffectSummary::Clone
+                | EffectSummary::Health { .. }
+                | EffectSummary::Shield { .. } => false,
             })
         })
     }

@@ -186,13 +186,9 @@ impl<'a, 'e> Chains<'a, 'e> {
     /// Returns the rules and sprites that could make sprites of a type, with their missing requirements.
     fn unmade(&self, stype: SpriteType, reported: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
         let makes = |encounter: &Encounter| {
-            encounter.does(|effect| match effect {
-                EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
-                    *to == stype
-                }
-                EffectSummary::BecomeAny(options) => options.contains(&stype),
-                EffectSummary::Clone => self.analysis.applies(encounter.first, stype),
-                _ => false,
+            encounter.does(|effect| {
+                let clones = *effect == EffectSummary::Clone;
+                effect.makes().contains(&stype) || clones && self.analysis.applies(encounter.first, stype)
             })
         };
         let mut obstacles: Vec<Obstacle> = Vec::new();
@@ -242,7 +238,25 @@ impl<'a, 'e> Chains<'a, 'e> {
             {
                 Some(Ended::Anywhere)
             }
-            _ => None,
+            EffectSummary::Kill(_)
+            | EffectSummary::KillAll(_)
+            | EffectSummary::Become(_)
+            | EffectSummary::BecomeAny(_)
+            | EffectSummary::BecomeAll(..)
+            | EffectSummary::Stop
+            | EffectSummary::Undo(_)
+            | EffectSummary::Turn
+            | EffectSummary::Push
+            | EffectSummary::Carry
+            | EffectSummary::Teleport
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Make(_)
+            | EffectSummary::Clone
+            | EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Shield { .. } => None,
         })
     }
 
@@ -375,7 +389,24 @@ impl<'a, 'e> Chains<'a, 'e> {
             {
                 Some((second, encounter.first, Some(i64::from(*by))))
             }
-            _ => None,
+            EffectSummary::Kill(_)
+            | EffectSummary::KillAll(_)
+            | EffectSummary::Become(_)
+            | EffectSummary::BecomeAny(_)
+            | EffectSummary::BecomeAll(..)
+            | EffectSummary::Stop
+            | EffectSummary::Undo(_)
+            | EffectSummary::Turn
+            | EffectSummary::Push
+            | EffectSummary::Carry
+            | EffectSummary::Teleport
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Make(_)
+            | EffectSummary::Clone
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Shield { .. } => None,
         })
     }
 

@@ -96,7 +96,19 @@ impl Meeting<'_> {
                     let family = of.map_or(&[][..], |of| &*rules.types[of.index()].tree);
                     family.iter().for_each(|&stype| end(Some(stype), RemovalScope::All, false));
                 }
-                _ => {}
+                EffectSummary::Stop
+                | EffectSummary::Undo(_)
+                | EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+                | EffectSummary::Make(_)
+                | EffectSummary::Clone
+                | EffectSummary::Collect
+                | EffectSummary::Change { .. }
+                | EffectSummary::Shield { .. }
+                | EffectSummary::Health { .. } => {}
             }
         }
         ends

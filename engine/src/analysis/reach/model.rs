@@ -168,9 +168,9 @@ impl<'a> Model<'a> {
         if summary.displacement == Some(Displacement::Exit) {
             return meeting.two().map_or(1, |two| self.exits[two.index()].len());
         }
-        let options = summary.effects.iter().find_map(|effect| match effect {
-            EffectSummary::BecomeAny(options) => Some(options.len()),
-            _ => None,
+        let options = summary.effects.iter().find_map(|effect| {
+            let EffectSummary::BecomeAny(options) = effect else { return None };
+            Some(options.len())
         });
         options.unwrap_or(1)
     }

@@ -128,6 +128,32 @@ pub enum EffectSummary {
 }
 
 impl EffectSummary {
+    /// The types of which a sprite appears, or another sprite becomes one; without [`EffectSummary::Clone`]'s, which is the
+    /// first sprite's.
+    pub(crate) fn makes(&self) -> &[SpriteType] {
+        match self {
+            EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
+                std::slice::from_ref(to)
+            }
+            EffectSummary::BecomeAny(options) => options,
+            EffectSummary::Kill(_)
+            | EffectSummary::KillAll(_)
+            | EffectSummary::Stop
+            | EffectSummary::Undo(_)
+            | EffectSummary::Turn
+            | EffectSummary::Push
+            | EffectSummary::Carry
+            | EffectSummary::Teleport
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Clone
+            | EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Shield { .. } => &[],
+        }
+    }
+
     /// The type that has to exist for it to happen, or to be held.
     pub(crate) fn names(&self, stype: SpriteType) -> bool {
         match self {
@@ -426,39 +452,15 @@ impl Summary {
 
     /// The types of the sprites that it makes.
     pub(crate) fn makes(&self) -> Vec<SpriteType> {
-        let mut types = Vec::new();
-        for effect in &self.effects {
-            match effect {
-                EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
-                    types.push(*to);
-                }
-                EffectSummary::BecomeAny(options) => types.extend_from_slice(options),
-                EffectSummary::Kill(_)
-                | EffectSummary::KillAll(_)
-                | EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Teleport
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Clone
-                | EffectSummary::Collect
-                | EffectSummary::Change { .. }
-                | EffectSummary::Health { .. }
-                | EffectSummary::Shield { .. } => {}
-            }
-        }
-        types.retain(|&stype| stype != SpriteType::NONE);
-        types
+        let types = self.effects.iter().flat_map(EffectSummary::makes).copied();
+        types.filter(|&stype| stype != SpriteType::NONE).collect()
     }
 
     /// The types of the sprites that appear at its [`Spot`].
     pub(crate) fn spawns(&self) -> impl Iterator<Item = SpriteType> + '_ {
-        self.effects.iter().filter_map(|effect| match effect {
-            EffectSummary::Make(stype) if *stype != SpriteType::NONE => Some(*stype),
-            _ => None,
+        self.effects.iter().filter_map(|effect| {
+            let EffectSummary::Make(stype) = effect else { return None };
+            (*stype != SpriteType::NONE).then_some(*stype)
         })
     }
 
@@ -468,16 +470,32 @@ impl Summary {
         let types = self.effects.iter().rev().flat_map(|effect| match effect {
             EffectSummary::Become(to) => std::slice::from_ref(to),
             EffectSummary::BecomeAny(options) => options,
-            _ => &[],
+            EffectSummary::Kill(_)
+            | EffectSummary::KillAll(_)
+            | EffectSummary::BecomeAll(..)
+            | EffectSummary::Stop
+            | EffectSummary::Undo(_)
+            | EffectSummary::Turn
+            | EffectSummary::Push
+            | EffectSummary::Carry
+            | EffectSummary::Teleport
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Make(_)
+            | EffectSummary::Clone
+            | EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Shield { .. } => &[],
         });
         types.copied().filter(|&stype| stype != SpriteType::NONE)
     }
 
     /// The types of which every sprite turns into another type.
     pub(crate) fn becomes_all(&self) -> Option<(SpriteType, SpriteType)> {
-        self.effects.iter().find_map(|effect| match *effect {
-            EffectSummary::BecomeAll(from, to) => Some((from, to)),
-            _ => None,
+        self.effects.iter().find_map(|effect| {
+            let EffectSummary::BecomeAll(from, to) = *effect else { return None };
+            Some((from, to))
         })
     }
 
@@ -487,9 +505,9 @@ impl Summary {
             Precondition::Holds(_, resource, _) | Precondition::HoldsAtMost(_, resource, _) => Some(resource),
             Precondition::Always | Precondition::Chance(_) | Precondition::Movement => None,
         };
-        let changed = self.effects.iter().find_map(|effect| match effect {
-            EffectSummary::Change { resource, .. } => Some(*resource),
-            _ => None,
+        let changed = self.effects.iter().find_map(|effect| {
+            let EffectSummary::Change { resource, .. } = effect else { return None };
+            Some(*resource)
         });
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
@@ -506,9 +524,9 @@ impl Summary {
 
     /// The types whose sprites stay where they are when everything is moved back; `None` if it does no such thing.
     pub(crate) fn undoes(&self) -> Option<&[SpriteType]> {
-        self.effects.iter().find_map(|effect| match effect {
-            EffectSummary::Undo(spare) => Some(&**spare),
-            _ => None,
+        self.effects.iter().find_map(|effect| {
+            let EffectSummary::Undo(spare) = effect else { return None };
+            Some(&**spare)
         })
     }
 
