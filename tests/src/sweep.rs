@@ -17,7 +17,7 @@ pub const TIMES: &str = "ARCADE_SWEEP_TIMES";
 ///
 /// If that is no number.
 pub fn many_cases(full: usize) -> usize {
-    let times = fresh().and_then(|_| std::env::var(TIMES).ok());
+    let times = fresh().and_then(|_| std::env::var_os(TIMES)?.into_string().ok());
     cases(full) * times.map_or(1, |times| times.parse().expect("a number of times"))
 }
 
