@@ -113,7 +113,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     assert!(said.contains("--resume"), "{said}");
     assert!(lots() > 0 && !folder.join("out").exists());
     let said = text(&run(folder, &[mint, &["--out", "out"]].concat(), 2).stderr);
-    assert!(said.contains("continue with --resume"), "{said}");
+    assert!(said.contains("continue with the same command and --resume"), "{said}");
     if mint[0] == "release" {
         let plan = |resume: &[&str]| {
             let output = run(folder, &[mint, &["--out", "out", "--dry-run", "--json"], resume].concat(), 0);
