@@ -14,10 +14,10 @@ const RESAMPLES: usize = 1000;
 engine::named_enum! {
     /// The games of a horizon: what has to be foreseen.
     pub enum Foresight {
-        /// Games without chance: what will happen follows from the rules.
-        Exact = "without chance",
-        /// Games of chance: a plan has to stand whatever happens.
-        Robust = "of chance",
+        /// Deterministic games: what will happen follows from the rules.
+        Exact = "deterministic",
+        /// Stochastic games: a plan has to stand whatever happens.
+        Robust = "stochastic",
         /// Both, and games of which it is not known.
         All = "all",
     }
@@ -180,7 +180,7 @@ pub(super) fn table(study: &Study) -> Option<Table> {
         "Horizon: the number of ticks that a player can commit to without another look and still win half, on an average level, with a \
          95 % interval over games (logistic in the logarithm of the commitment, with effects of levels). Who commits to more than the \
          shortest known win of a level takes counts as committing to that. Nothing is told beyond a quarter of the least and four \
-         times the largest commitment: ≤ and ≥ mark these bounds. Games without chance ask for exact foresight, games of chance \
+         times the largest commitment: ≤ and ≥ mark these bounds. Deterministic games ask for exact foresight, stochastic games \
          for plans that stand whatever happens.",
         &study.horizons,
         &[

@@ -116,7 +116,7 @@ pub struct StudyGame {
     pub kind: String,
     /// The kind of game by its rules, a sentence for each side.
     pub taxonomy: Vec<String>,
-    /// `true` for a game of chance; `None` if it is not known.
+    /// `true` for a stochastic game; `None` if it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub is_stochastic: Option<bool>,
     /// Its levels.

@@ -239,7 +239,7 @@ fn the_reference_asks_for_one_action() {
     assert!(error.contains("the reference's prompts ask for one action"), "{error}");
 }
 
-/// What a player is told of a plan: the actions, the places, what was not available, and the points.
+/// The report of a plan to the player: the actions, the places, what was not available, and the points.
 #[test]
 fn plans_are_told_at_the_next_look() {
     let subject = subject();

@@ -314,7 +314,7 @@ impl<'a> Maker<'a> {
 }
 
 /// Steps from seed to seed, with words of their own.
-fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
+pub(super) fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
     steps.into_iter().map(|(purpose, index)| (purpose.to_owned(), index)).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Sets whose games are made one by one, in short rounds: each round knows the games of those before it.
 
 use super::company::{Company, Room};
-use super::make::{Attempted, GameSet, Maker, Shortfall};
+use super::make::{Attempted, GameSet, Maker, Shortfall, path};
 use generators::games::Kind;
 use generators::kernels::KernelGenome;
 use rayon::prelude::*;
@@ -130,7 +130,8 @@ impl Maker<'_> {
             let judges = seed.child("judges", at);
             let made = self.gate.judge(genome, turn.number, judges, &objection, &mut attempted.tally);
             self.progress.looked();
-            if let Some(made) = made {
+            if let Some(mut made) = made {
+                made.path = path([("game", turn.number.into()), ("judges", at)]);
                 attempted.made = Some(made);
                 break;
             }
