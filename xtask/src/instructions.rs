@@ -103,6 +103,8 @@ pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> 
     let text = String::from_utf8_lossy(&output.stderr);
     let collected =
         text.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse::<u64>().ok());
+    // An interrupted run ends in a count of 0, which is less than any expected one.
+    let collected = collected.filter(|&count| count > 0 && output.status.success());
     let collected = collected.with_context(|| format!("{name}: valgrind reported no count:\n{text}"))?;
     Ok(Some(collected / TICKS))
 }

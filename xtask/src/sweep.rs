@@ -15,7 +15,7 @@ pub(crate) struct Args {
     /// Seed of the randomised tests [default: the time]
     #[arg(long, value_name = "TEXT")]
     seed: Option<String>,
-    /// How many times as many random games to compare with and without a schedule
+    /// Factor of the number of random games compared with and without a schedule
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     times: usize,
 }

@@ -1,4 +1,4 @@
-//! How far players see ahead: the commitment at which they still win half.
+//! The horizon of players: the commitment at which they still win half.
 
 use crate::study::scores::Estimate;
 use crate::study::{Player, Study, StudyEpisode};
@@ -23,7 +23,7 @@ engine::named_enum! {
     }
 }
 
-/// How far a player can commit and still win half of its episodes.
+/// The commitment at which a player still wins half of its episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HorizonRow {
     /// The player, without its commitment.
@@ -34,7 +34,8 @@ pub struct HorizonRow {
     pub rates: Vec<CommitmentRate>,
     /// The horizon, in ticks, with its interval over games.
     pub horizon: Option<Estimate>,
-    /// The bounds within which a horizon can be told: a quarter of the least, and four times the largest effective commitment.
+    /// The bounds within which a horizon can be told: a quarter of the least effective commitment, but one tick at least, and
+    /// four times the largest.
     pub range: [f64; 2],
 }
 
@@ -155,7 +156,8 @@ fn row(
     let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
     let found = half_point(&groups, RESAMPLES, super::LEVEL, *seed.as_bytes());
     let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
-    let range = [doses().fold(f64::INFINITY, f64::min) / 4.0, doses().fold(0.0, f64::max) * 4.0];
+    // Nobody looks more often than before every action.
+    let range = [(doses().fold(f64::INFINITY, f64::min) / 4.0).max(1.0), doses().fold(0.0, f64::max) * 4.0];
     let by_commitment = episodes.iter().copied().into_group_map_by(|episode| episode.metrics.commit);
     let rates = by_commitment.into_iter().sorted_by_key(|(commit, _)| *commit).map(|(commit, episodes)| {
         CommitmentRate {
@@ -165,7 +167,12 @@ fn row(
             episodes: episodes.len() as u64,
         }
     });
-    let horizon = found.map(|found| Estimate::new(found.dose, found.interval));
+    let told = |ticks: f64| ticks.max(range[0]);
+    let horizon = found.map(|found| Estimate {
+        value: told(found.dose),
+        low: told(found.interval.low),
+        high: told(found.interval.high),
+    });
     HorizonRow { player, games, rates: rates.collect(), horizon, range }
 }
 
@@ -179,8 +186,8 @@ pub(super) fn table(study: &Study) -> Option<Table> {
         "How far players see ahead",
         "Horizon: the number of ticks that a player can commit to without another look and still win half, on an average level, with a \
          95 % interval over games (logistic in the logarithm of the commitment, with effects of levels). Who commits to more than the \
-         shortest known win of a level takes counts as committing to that. Nothing is told beyond a quarter of the least and four \
-         times the largest commitment: ≤ and ≥ mark these bounds. Deterministic games ask for exact foresight, stochastic games \
+         shortest known win of a level takes counts as committing to that. Nothing is told below one tick and \
+         beyond four times the largest commitment: ≤ and ≥ mark these bounds. Deterministic games ask for exact foresight, stochastic games \
          for plans that stand whatever happens.",
         &study.horizons,
         &[

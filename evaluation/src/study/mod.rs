@@ -98,7 +98,7 @@ pub struct Study {
     pub kinds: Vec<TaxonomyRow>,
     /// The results by the taxonomy of the rules.
     pub taxonomy: Vec<TaxonomyRow>,
-    /// How far players can commit and still win half; empty without commitments.
+    /// The horizons of the players with several commitments, by kind of game.
     pub horizons: Vec<HorizonRow>,
     /// The statistical power of the episodes.
     pub power: Vec<PowerRow>,

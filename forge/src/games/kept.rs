@@ -15,7 +15,7 @@ use validators::Report;
 pub struct Kept {
     /// The game that its judges let in.
     pub game: Option<KeptGame>,
-    /// What was tried.
+    /// The counts of all that was tried.
     pub tally: Tally,
     /// Games that a search looked at.
     pub looks: u64,

@@ -37,7 +37,7 @@ pub(super) enum Message<'a> {
         #[serde(flatten)]
         seen: Seen<'a>,
         actions: &'a [Action],
-        /// What came of each action since the last look, where the player commits to several.
+        /// The actions since the last look and their results, where the player commits to several.
         #[serde(skip_serializing_if = "Option::is_none")]
         played: Option<Vec<Tick>>,
         #[serde(flatten, skip_serializing_if = "Option::is_none")]

@@ -3,6 +3,7 @@
 mod endings;
 mod folders;
 mod honest;
+mod horizons;
 mod logs;
 mod paper;
 mod study;
