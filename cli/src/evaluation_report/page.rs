@@ -83,7 +83,7 @@ fn headlines(study: &Study) -> Vec<Fact> {
         .collect();
     let horizon = study.horizons.iter().find(|row| !row.player.is_reference()).or(study.horizons.first());
     facts.extend(horizon.map(|row| {
-        Fact::plain(format!("horizon of {}", row.player.label()), row.told_value())
+        Fact::plain(format!("horizon of {}", row.title()), row.told_value())
             .of("ticks ahead".to_owned())
             .within(row.told_interval())
     }));

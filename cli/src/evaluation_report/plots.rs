@@ -5,8 +5,7 @@ use crate::page::plots::{
 };
 use crate::page::words;
 use evaluation::study::{
-    CORRELATED, Correlation, FailureMeasure, Foresight, HorizonRow, Matrix, Measure, Scope, Scores, Study,
-    Test,
+    CORRELATED, Correlation, FailureMeasure, HorizonRow, Matrix, Measure, Scope, Scores, Study, Test,
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -233,13 +232,14 @@ pub(super) fn horizons(study: &Study) -> Vec<Plot> {
                 Some(CurvePoint { at: found.ticks, name, share: rate.value, band })
             })
             .collect();
-        let head = match row.games {
-            Foresight::All => row.player.label(),
-            games => format!("{}: games {}", row.player.label(), games.name()),
-        };
+        let head = row.title();
         let marked = row.horizon.map(|horizon| (horizon.value, [horizon.low, horizon.high]));
         let svg = curve(&format!("{head}: win rate by commitment"), &points, marked);
-        let caption = row.horizon.map_or(String::new(), |_| format!("Horizon: {}", row.told()));
+        let (value, interval) = (row.told_value(), row.told_interval());
+        let caption = match value == interval {
+            true => format!("Horizon: {value} ticks"),
+            false => format!("Horizon: {value} ticks, 95 %: {interval}"),
+        };
         Plot { head, svg, caption }
     };
     study.horizons.iter().map(plot).collect()

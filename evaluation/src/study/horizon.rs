@@ -58,15 +58,20 @@ impl HorizonRow {
         self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
     }
 
-    /// Returns its interval in words.
+    /// Returns its interval in words; a bound alone, if both ends are it.
     pub fn told_interval(&self) -> String {
-        let ends = |found: Estimate| format!("{} to {}", self.bounded(found.low), self.bounded(found.high));
-        self.horizon.map_or(String::new(), ends)
+        self.horizon.map_or(String::new(), |found| {
+            let [low, high] = [found.low, found.high].map(|end| self.bounded(end));
+            if low == high { low } else { format!("{low} to {high}") }
+        })
     }
 
-    /// Returns the horizon with its interval: `12 ticks, 7.4 to 31`.
-    pub fn told(&self) -> String {
-        format!("{} ticks, {}", self.told_value(), self.told_interval())
+    /// Returns the player, and the kind of games if it is not all.
+    pub fn title(&self) -> String {
+        match self.games {
+            Foresight::All => self.player.label(),
+            games => format!("{}, {} games", self.player.label(), games.name()),
+        }
     }
 
     /// Formats ticks; the ends of what can be told have a sign of their own.
@@ -79,7 +84,8 @@ impl HorizonRow {
         } else {
             ""
         };
-        if ticks < 10.0 { format!("{sign}{ticks:.1}") } else { format!("{sign}{ticks:.0}") }
+        let digits = usize::from(ticks < 10.0 && sign.is_empty());
+        format!("{sign}{ticks:.digits$}")
     }
 }
 

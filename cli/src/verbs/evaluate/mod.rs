@@ -74,7 +74,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 1000)]
     max_steps: u64,
     /// Actions that the player commits to at each look: a number, or `all` for the whole episode
-    #[arg(long, value_name = "K", default_value_t = Commitment::ONE)]
+    #[arg(long, value_name = "K", default_value_t = Commitment::ONE, allow_hyphen_values = true)]
     commit: Commitment,
     /// Text to derive the games' randomness from: the same for every player, so that runs are paired
     #[arg(long, value_name = "TEXT", default_value = "evaluate")]

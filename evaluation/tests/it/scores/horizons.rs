@@ -67,7 +67,9 @@ fn nobody_commits_to_more_than_a_win_takes() {
 #[test]
 fn bounds_are_told_as_bounds() {
     let never = study("p", &[("1", 0), ("20", 0)]);
-    assert_eq!(row(&never, Foresight::All).told_value(), "≤ 1.0");
+    let found = row(&never, Foresight::Exact);
+    assert_eq!((found.told_value(), found.told_interval()), ("≤ 1".to_owned(), "≤ 1".to_owned()));
+    assert_eq!(found.title(), "p (json), deterministic games");
     let always = study("p", &[("1", 10), ("20", 10)]);
     assert_eq!(row(&always, Foresight::All).told_value(), "≥ 80");
 }
