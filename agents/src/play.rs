@@ -12,19 +12,14 @@ pub struct Play {
     pub calls: u64,
 }
 
-/// The limits at which a play is broken off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// The most ticks of a play.
-    pub ticks: usize,
-    /// Forward-model calls of all decisions together: checked before each decision.
-    pub calls: u64,
-}
-
-impl Default for Limits {
-    /// No limit beyond the engine's own tick limit.
-    fn default() -> Limits {
-        Limits { ticks: usize::MAX, calls: u64::MAX }
+engine::with_defaults! {
+    /// The limits at which a play is broken off; by default none beyond the engine's own tick limit.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Limits {
+        /// The most ticks of a play.
+        pub ticks: usize = usize::MAX,
+        /// Forward-model calls of all decisions together: checked before each decision.
+        pub calls: u64 = u64::MAX,
     }
 }
 

@@ -4,34 +4,23 @@ use crate::breeding::Breeding;
 use crate::{Evaluated, Evaluation, Search, Variation};
 use engine::{Digest, Sampler, Seed};
 
-/// The parameters of [`FeasibleInfeasible`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct FeasibleInfeasibleConfig {
-    /// The maximum size of each of the two populations.
-    pub size: usize,
-    /// The number of candidates to create before the first one is bred.
-    pub initial: usize,
-    /// The tournament size: a parent is the best of this many members; 1 chooses blindly, more raises the selection
-    /// pressure.
-    pub tournament: usize,
-    /// The minimum share of each batch that the feasible population breeds, however small it is.
-    pub boost: f64,
-    /// The probability that a child has two parents.
-    pub crossing: f64,
-    /// The share of candidates that are created from nothing once breeding has started.
-    pub fresh: f64,
-}
-
-impl Default for FeasibleInfeasibleConfig {
-    fn default() -> FeasibleInfeasibleConfig {
-        FeasibleInfeasibleConfig {
-            size: 32,
-            initial: 64,
-            tournament: 3,
-            boost: 0.75,
-            crossing: 0.5,
-            fresh: 0.05,
-        }
+engine::with_defaults! {
+    /// The parameters of [`FeasibleInfeasible`].
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct FeasibleInfeasibleConfig {
+        /// The maximum size of each of the two populations.
+        pub size: usize = 32,
+        /// The number of candidates to create before the first one is bred.
+        pub initial: usize = 64,
+        /// The tournament size: a parent is the best of this many members; 1 chooses blindly, more raises the selection
+        /// pressure.
+        pub tournament: usize = 3,
+        /// The minimum share of each batch that the feasible population breeds, however small it is.
+        pub boost: f64 = 0.75,
+        /// The probability that a child has two parents.
+        pub crossing: f64 = 0.5,
+        /// The share of candidates that are created from nothing once breeding has started.
+        pub fresh: f64 = 0.05,
     }
 }
 

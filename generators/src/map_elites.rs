@@ -10,24 +10,20 @@ const TOURNAMENT: usize = 3;
 /// The number of pockets for which the tournament of infeasible parents grows by one.
 const SHARE: usize = 8;
 
-/// The parameters of [`MapElites`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct MapElitesConfig {
-    /// The number of candidates to create before the first one is bred.
-    pub initial: usize,
-    /// The probability that a child has two parents.
-    pub crossing: f64,
-    /// The share of candidates that are created from nothing once breeding has started.
-    pub fresh: f64,
-    /// The share of candidates that are bred from infeasible parents once there are elites.
-    pub infeasible: f64,
-    /// The maximum number of infeasible candidates in each cell.
-    pub pocket: usize,
-}
-
-impl Default for MapElitesConfig {
-    fn default() -> MapElitesConfig {
-        MapElitesConfig { initial: 64, crossing: 0.4, fresh: 0.05, infeasible: 0.15, pocket: 4 }
+engine::with_defaults! {
+    /// The parameters of [`MapElites`].
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct MapElitesConfig {
+        /// The number of candidates to create before the first one is bred.
+        pub initial: usize = 64,
+        /// The probability that a child has two parents.
+        pub crossing: f64 = 0.4,
+        /// The share of candidates that are created from nothing once breeding has started.
+        pub fresh: f64 = 0.05,
+        /// The share of candidates that are bred from infeasible parents once there are elites.
+        pub infeasible: f64 = 0.15,
+        /// The maximum number of infeasible candidates in each cell.
+        pub pocket: usize = 4,
     }
 }
 

@@ -54,70 +54,52 @@ pub struct Recipe {
     pub known: Known,
 }
 
-/// New levels for corpus games, under a new theme.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct CorpusPart {
-    /// The number of games.
-    pub games: u32,
-    /// The number of levels of each game, from the easiest to the hardest.
-    pub levels: u32,
-    /// The maximum number of level sets that are tried for one game.
-    pub game_tries: u32,
-    /// The maximum number of levels that are tried for one place.
-    pub level_tries: u32,
-    /// The number of candidate games per selected game.
-    pub candidates: f64,
-    /// The criteria for their levels, if they differ: there are fewer hand-made games than games that can be
-    /// generated.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub criteria: Option<Criteria>,
-}
-
-impl Default for CorpusPart {
-    fn default() -> CorpusPart {
-        CorpusPart { games: 0, levels: 3, game_tries: 8, level_tries: 12, candidates: 1.5, criteria: None }
+engine::with_defaults! {
+    /// New levels for corpus games, under a new theme.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct CorpusPart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game, from the easiest to the hardest.
+        pub levels: u32 = 3,
+        /// The maximum number of level sets that are tried for one game.
+        pub game_tries: u32 = 8,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 12,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.5,
+        /// The criteria for their levels, if they differ: there are fewer hand-made games than games that can be
+        /// generated.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub criteria: Option<Criteria> = None,
     }
 }
 
-/// New games.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct GeneratedPart {
-    /// The number of games.
-    pub games: u32,
-    /// The number of levels of each game, from the easiest to the hardest.
-    pub levels: u32,
-    /// The maximum number of games that are tried for one candidate.
-    pub game_tries: u32,
-    /// The maximum number of levels that are tried for one place.
-    pub level_tries: u32,
-    /// The number of candidate games per selected game.
-    pub candidates: f64,
-    /// The shares of the generators in the candidates.
-    pub mix: Mix,
-    /// The kinds of games; all if empty.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub kinds: Vec<Kind>,
-    /// The minimum number of interactions of a game.
-    pub least_interactions: usize,
-    /// The minimum number of different interactions that the wins of a game's levels execute together.
-    pub least_mechanics: usize,
-}
-
-impl Default for GeneratedPart {
-    fn default() -> GeneratedPart {
-        GeneratedPart {
-            games: 0,
-            levels: 3,
-            game_tries: 48,
-            level_tries: 12,
-            candidates: 1.25,
-            mix: Mix::default(),
-            kinds: Vec::new(),
-            least_interactions: 7,
-            least_mechanics: 3,
-        }
+engine::with_defaults! {
+    /// New games.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct GeneratedPart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game, from the easiest to the hardest.
+        pub levels: u32 = 3,
+        /// The maximum number of games that are tried for one candidate.
+        pub game_tries: u32 = 48,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 12,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.25,
+        /// The shares of the generators in the candidates.
+        pub mix: Mix = Mix::default(),
+        /// The kinds of games; all if empty.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub kinds: Vec<Kind> = Vec::new(),
+        /// The minimum number of interactions of a game.
+        pub least_interactions: usize = 7,
+        /// The minimum number of different interactions that the wins of a game's levels execute together.
+        pub least_mechanics: usize = 3,
     }
 }
 

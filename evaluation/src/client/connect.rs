@@ -19,59 +19,46 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The user's options for a model. They contain no key: keys are read from the environment.
-#[derive(Clone, Debug)]
-pub struct ModelOptions {
-    /// The model: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
-    pub model: String,
-    /// The base URL of the server, if it is not the provider's own.
-    pub base_url: Option<String>,
-    /// The environment variable that holds the key, if not the provider's default.
-    pub key_variable: Option<String>,
-    /// The sampling of answers.
-    pub decoding: Decoding,
-    /// The caps on spending.
-    pub limits: Limits,
-    /// A table of prices that takes precedence over the embedded one.
-    pub prices: Option<PathBuf>,
-    /// The folder of the response cache, if enabled.
-    pub cache: Option<PathBuf>,
-    /// The maximum number of concurrent requests.
-    pub concurrency: NonZeroUsize,
-    /// The maximum number of requests started per minute.
-    pub requests_per_minute: Option<NonZeroU64>,
-    /// The maximum number of tokens per minute, in requests and replies.
-    pub tokens_per_minute: Option<NonZeroU64>,
-    /// The maximum number of tries of a request.
-    pub tries: NonZeroU32,
-    /// The time limit of a try, from the first byte to the last.
-    pub timeout: Duration,
-    /// The time limit for opening a connection.
-    pub connect_timeout: Duration,
-    /// The maximum number of bytes of a reply.
-    pub reply_limit: u64,
+engine::with_defaults! {
+    /// The user's options for a model. They contain no key: keys are read from the environment.
+    #[derive(Clone, Debug)]
+    pub struct ModelOptions {
+        /// The model: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
+        pub model: String = String::new(),
+        /// The base URL of the server, if it is not the provider's own.
+        pub base_url: Option<String> = None,
+        /// The environment variable that holds the key, if not the provider's default.
+        pub key_variable: Option<String> = None,
+        /// The sampling of answers.
+        pub decoding: Decoding = Decoding::default(),
+        /// The caps on spending.
+        pub limits: Limits = Limits::default(),
+        /// A table of prices that takes precedence over the embedded one.
+        pub prices: Option<PathBuf> = None,
+        /// The folder of the response cache, if enabled.
+        pub cache: Option<PathBuf> = None,
+        /// The maximum number of concurrent requests.
+        pub concurrency: NonZeroUsize = NonZeroUsize::new(4).expect("not zero"),
+        /// The maximum number of requests started per minute.
+        pub requests_per_minute: Option<NonZeroU64> = None,
+        /// The maximum number of tokens per minute, in requests and replies.
+        pub tokens_per_minute: Option<NonZeroU64> = None,
+        /// The maximum number of tries of a request.
+        pub tries: NonZeroU32 = NonZeroU32::new(8).expect("not zero"),
+        /// The time limit of a try, from the first byte to the last.
+        pub timeout: Duration = Duration::from_secs(600),
+        /// The time limit for opening a connection.
+        pub connect_timeout: Duration = Duration::from_secs(10),
+        /// The maximum number of bytes of a reply.
+        pub reply_limit: u64 = 4 << 20,
+    }
 }
 
 impl ModelOptions {
     /// Creates the options of a model with defaults for everything else: four concurrent requests, eight tries, ten minutes
     /// for a try and ten seconds for its connection, replies of 4 MiB, no caps, no cache.
     pub fn new(model: &str) -> ModelOptions {
-        ModelOptions {
-            model: model.to_owned(),
-            base_url: None,
-            key_variable: None,
-            decoding: Decoding::default(),
-            limits: Limits::default(),
-            prices: None,
-            cache: None,
-            concurrency: NonZeroUsize::new(4).expect("not zero"),
-            requests_per_minute: None,
-            tokens_per_minute: None,
-            tries: NonZeroU32::new(8).expect("not zero"),
-            timeout: Duration::from_secs(600),
-            connect_timeout: Duration::from_secs(10),
-            reply_limit: 4 << 20,
-        }
+        ModelOptions { model: model.to_owned(), ..ModelOptions::default() }
     }
 }
 

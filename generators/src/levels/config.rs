@@ -10,37 +10,26 @@ const MIN_SIDE: usize = 4;
 /// The maximum of columns and rows: the cost of a level grows with the square of its cells.
 const MAX_SIDE: usize = 64;
 
-/// The configuration of a level generator.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct LevelConfig {
-    /// The minimum and maximum number of columns, including the border; between 4 and 64.
-    pub columns: (usize, usize),
-    /// The minimum and maximum number of rows, including the border; between 4 and 64.
-    pub rows: (usize, usize),
-    /// From 0.0, the easiest, to 1.0, the hardest: more dangers, longer ways, fewer aids.
-    pub difficulty: f64,
-    /// The minimum and maximum share of cells with more than floor, from 0.0 to 1.0: met where the rules leave room for
-    /// it.
-    pub cover: Option<(f64, f64)>,
-    /// The exact numbers of sprites of some types, where there is room for them.
-    #[serde(skip)]
-    pub counts: Vec<(SpriteType, usize)>,
-    /// The examples that new levels should resemble.
-    #[serde(skip)]
-    pub like: Option<Arc<Examples>>,
-}
-
-impl Default for LevelConfig {
-    fn default() -> LevelConfig {
-        LevelConfig {
-            columns: (10, 18),
-            rows: (8, 11),
-            difficulty: 0.5,
-            cover: None,
-            counts: Vec::new(),
-            like: None,
-        }
+engine::with_defaults! {
+    /// The configuration of a level generator.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct LevelConfig {
+        /// The minimum and maximum number of columns, including the border; between 4 and 64.
+        pub columns: (usize, usize) = (10, 18),
+        /// The minimum and maximum number of rows, including the border; between 4 and 64.
+        pub rows: (usize, usize) = (8, 11),
+        /// From 0.0, the easiest, to 1.0, the hardest: more dangers, longer ways, fewer aids.
+        pub difficulty: f64 = 0.5,
+        /// The minimum and maximum share of cells with more than floor, from 0.0 to 1.0: met where the rules leave room for
+        /// it.
+        pub cover: Option<(f64, f64)> = None,
+        /// The exact numbers of sprites of some types, where there is room for them.
+        #[serde(skip)]
+        pub counts: Vec<(SpriteType, usize)> = Vec::new(),
+        /// The examples that new levels should resemble.
+        #[serde(skip)]
+        pub like: Option<Arc<Examples>> = None,
     }
 }
 

@@ -26,22 +26,18 @@ const ATTEMPTS: u64 = 4;
 /// The number of changes of a floor plan from which a mutation keeps the best.
 const CHANGES: usize = 6;
 
-/// The configuration of puzzles.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PuzzleConfig {
-    /// The number of things to push; `None` takes it from [`LevelConfig::counts`], or else uses at least two, as
-    /// difficulty and room allow.
-    pub things: Option<usize>,
-    /// The maximum number of floor plans to examine for a level.
-    pub floor_plans: usize,
-    /// The range for the distance of a level from its solution, as a share of the longest one; the draw favours the lower
-    /// end. `None` derives it from [`LevelConfig::difficulty`].
-    pub way: Option<(f64, f64)>,
-}
-
-impl Default for PuzzleConfig {
-    fn default() -> PuzzleConfig {
-        PuzzleConfig { things: None, floor_plans: 600, way: None }
+engine::with_defaults! {
+    /// The configuration of puzzles.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct PuzzleConfig {
+        /// The number of things to push; `None` takes it from [`LevelConfig::counts`], or else uses at least two, as
+        /// difficulty and room allow.
+        pub things: Option<usize> = None,
+        /// The maximum number of floor plans to examine for a level.
+        pub floor_plans: usize = 600,
+        /// The range for the distance of a level from its solution, as a share of the longest one; the draw favours the lower
+        /// end. `None` derives it from [`LevelConfig::difficulty`].
+        pub way: Option<(f64, f64)> = None,
     }
 }
 
