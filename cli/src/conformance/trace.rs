@@ -152,36 +152,25 @@ fn double(value: &Value) -> Option<f64> {
 }
 
 /// `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`, sometimes with `{"res": …, "rot": …}` at the end.
+#[derive(Deserialize)]
+struct Record(u32, u16, i32, i32, i32, i32, Value, Value, Value, i32, u16, #[serde(default)] Extra);
+
+#[derive(Default, Deserialize)]
+struct Extra {
+    #[serde(default)]
+    res: BTreeMap<String, i32>,
+    rot: Option<Value>,
+}
+
 fn record(value: &Value) -> Option<SpriteRecord> {
-    let list = value.as_array()?;
-    let int = |at: usize| list.get(at)?.as_i64();
-    let number = |at: usize| double(list.get(at)?);
-    let mut record = SpriteRecord {
-        id: int(0)?.try_into().ok()?,
-        stype: int(1)?.try_into().ok()?,
-        rect: Rect {
-            x: int(2)?.try_into().ok()?,
-            y: int(3)?.try_into().ok()?,
-            w: int(4)?.try_into().ok()?,
-            h: int(5)?.try_into().ok()?,
-        },
-        orientation: (number(6)?, number(7)?),
-        speed: number(8)?,
-        health: int(9)?.try_into().ok()?,
-        flags: int(10)?.try_into().ok()?,
-        resources: Vec::new(),
-        rotation: 0.0,
-    };
-    if let Some(extra) = list.get(11) {
-        record.rotation = extra.get("rot").map_or(Some(0.0), double)?;
-        if let Some(resources) = extra.get("res") {
-            for (stype, amount) in resources.as_object()? {
-                // An undeclared type has the number −1.
-                let stype = if stype == "-1" { u16::MAX } else { stype.parse().ok()? };
-                record.resources.push((stype, amount.as_i64()?.try_into().ok()?));
-            }
-            record.resources.sort_unstable();
-        }
-    }
-    Some(record)
+    let Record(id, stype, x, y, w, h, ox, oy, speed, health, flags, extra) =
+        Record::deserialize(value).ok()?;
+    let (rect, orientation, speed) = (Rect { x, y, w, h }, (double(&ox)?, double(&oy)?), double(&speed)?);
+    // An undeclared type has the number −1.
+    let stype_of = |text: &str| if text == "-1" { Some(u16::MAX) } else { text.parse().ok() };
+    let resources = extra.res.iter().map(|(held, &amount)| Some((stype_of(held)?, amount)));
+    let mut resources = resources.collect::<Option<Vec<(u16, i32)>>>()?;
+    resources.sort_unstable();
+    let rotation = extra.rot.as_ref().map_or(Some(0.0), double)?;
+    Some(SpriteRecord { id, stype, rect, orientation, speed, health, flags, resources, rotation })
 }
