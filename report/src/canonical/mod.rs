@@ -25,7 +25,8 @@ pub use node::Node;
 pub const MAX_DEPTH: usize = 127;
 
 /// A value has no canonical JSON.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{} has no canonical JSON: {fault}", match at.as_str() { "" => "the value".into(), at => format!("`{}`", at.escape_debug()) })]
 pub struct CanonicalError {
     /// The place in the value, as keys and indices joined by dots; empty for the value itself.
     pub at: String,
@@ -56,17 +57,6 @@ pub enum Fault {
     #[error("{0}")]
     Other(String),
 }
-
-impl fmt::Display for CanonicalError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.at.as_str() {
-            "" => write!(f, "the value has no canonical JSON: {}", self.fault),
-            at => write!(f, "`{}` has no canonical JSON: {}", at.escape_debug(), self.fault),
-        }
-    }
-}
-
-impl std::error::Error for CanonicalError {}
 
 /// The canonical JSON of `value`, with a line feed at the end. Cost: O(n log n), and one copy of the value.
 ///
