@@ -285,11 +285,7 @@ impl Builder<'_> {
 
     /// Returns `true` if the avatar's start is ahead of `cell` in a direction, with nothing in between.
     pub(crate) fn aims_at_start(&self, cell: usize, way: (i32, i32)) -> bool {
-        let grid = self.board.grid;
-        let (dx, dy) = (
-            grid.x(self.board.start) as i32 - grid.x(cell) as i32,
-            grid.y(self.board.start) as i32 - grid.y(cell) as i32,
-        );
+        let (dx, dy) = self.board.grid.offset(cell, self.board.start);
         let ahead = if way.0 != 0 { dy == 0 && dx * way.0 > 0 } else { dx == 0 && dy * way.1 > 0 };
         ahead && self.run(cell, way) >= (dx.abs() + dy.abs()) as usize
     }

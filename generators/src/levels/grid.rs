@@ -62,6 +62,12 @@ impl Grid {
         x == 0 || y == 0 || x + 1 == self.columns || y + 1 == self.rows
     }
 
+    /// The offset from one cell to another: (columns, rows).
+    pub(crate) fn offset(self, from: usize, to: usize) -> (i32, i32) {
+        let apart = |axis: fn(Grid, usize) -> usize| axis(self, to) as i32 - axis(self, from) as i32;
+        (apart(Grid::x), apart(Grid::y))
+    }
+
     /// The number of steps between two cells, ignoring obstacles.
     pub(crate) fn manhattan(self, one: usize, two: usize) -> usize {
         self.x(one).abs_diff(self.x(two)) + self.y(one).abs_diff(self.y(two))

@@ -152,11 +152,7 @@ impl Pulls {
         while at != 0 {
             let Node { thing, before, .. } = nodes[at];
             let to = nodes[before].thing;
-            let way = (
-                self.grid.x(to) as i32 - self.grid.x(thing) as i32,
-                self.grid.y(to) as i32 - self.grid.y(thing) as i32,
-            );
-            steps.push(Push { from: thing, way });
+            steps.push(Push { from: thing, way: self.grid.offset(thing, to) });
             at = before;
         }
         self.pushes.extend(steps.into_iter().rev());
@@ -171,10 +167,7 @@ impl Pulls {
             let Some(at) = self.avatar.filter(|&at| at != to) else { return };
             let Some(way) = self.grid.way(at, to, |cell| self.stands(cell)) else { return };
             let next = way[1];
-            let step = (
-                self.grid.x(next) as i32 - self.grid.x(at) as i32,
-                self.grid.y(next) as i32 - self.grid.y(at) as i32,
-            );
+            let step = self.grid.offset(at, next);
             let behind = self.grid.shift(at, (-step.0, -step.1));
             let thing = behind.and_then(|behind| self.things[behind].map(|stype| (behind, stype)));
             if let Some((behind, stype)) = thing.filter(|_| self.lies(at) && sampler.ratio(eager, 10)) {
@@ -239,13 +232,7 @@ impl Pulls {
 /// Adds the steps of a walk.
 fn walk(now: &Pulls, from: usize, to: usize, ways: &mut Vec<(i32, i32)>) -> Option<()> {
     let way = now.grid.way(from, to, |cell| now.stands(cell))?;
-    for pair in way.windows(2) {
-        let (x, y) = (
-            now.grid.x(pair[1]) as i32 - now.grid.x(pair[0]) as i32,
-            now.grid.y(pair[1]) as i32 - now.grid.y(pair[0]) as i32,
-        );
-        ways.push((x, y));
-    }
+    ways.extend(way.windows(2).map(|pair| now.grid.offset(pair[0], pair[1])));
     now.stands(to).then_some(())
 }
 

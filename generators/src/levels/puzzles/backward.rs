@@ -1,7 +1,7 @@
 //! Breadth-first search backwards from all solved positions: computes the distance of each position from a solution.
 
 use super::floor_plan::{Position, Pushing, bit, each};
-use crate::levels::grid::{Grid, WAYS};
+use crate::levels::grid::WAYS;
 
 /// An empty slot.
 const NONE: u32 = u32::MAX;
@@ -173,11 +173,7 @@ impl Pushing<'_> {
             });
             let (from, way, after) = options.min_by_key(|(from, ..)| steps[*from])?;
             let walk = grid.way(avatar, from, |cell| stands & bit(cell) != 0)?;
-            for pair in walk.windows(2) {
-                let step =
-                    |axis: fn(Grid, usize) -> usize| axis(grid, pair[1]) as i32 - axis(grid, pair[0]) as i32;
-                ways.push((step(Grid::x), step(Grid::y)));
-            }
+            ways.extend(walk.windows(2).map(|pair| grid.offset(pair[0], pair[1])));
             ways.push(way);
             (position, left) = (after, left - 1);
         }
