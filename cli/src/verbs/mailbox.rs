@@ -83,20 +83,18 @@ enum Typed {
 }
 
 impl Session<'_> {
+    /// Shows prompts until the user leaves or no more come. The answer is yes if the evaluation is over.
     fn run(&mut self) -> Answer {
-        loop {
-            let Some(open) = self.next()? else {
-                let view = self.desk.view()?;
-                return Ok(self.conclude(&view));
-            };
+        while let Some(open) = self.next()? {
             self.is_waiting = false;
             self.show(&open);
             if self.ask(&open)? {
-                let view = self.desk.view()?;
-                self.console.say(listed(&self.desk, &view));
-                return Ok(view.finished.is_some());
+                break;
             }
         }
+        let view = self.desk.view()?;
+        self.console.say(listed(&self.desk, &view));
+        Ok(view.finished.is_some())
     }
 
     /// Waits for a prompt; `None` if none will come.
@@ -248,12 +246,6 @@ impl Session<'_> {
         }
         self.current = Some(open.prompt.episode.clone());
         Ok(Typed::Done)
-    }
-
-    /// Says why no more prompts come, and returns `true` if the evaluation is over.
-    fn conclude(&self, view: &View) -> bool {
-        self.console.say(listed(&self.desk, view));
-        view.finished.is_some()
     }
 }
 

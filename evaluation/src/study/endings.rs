@@ -124,11 +124,10 @@ impl Study {
                 (0, seen[at], numbers[at], at)
             }
         };
-        let mut nearest_first = self.on(player, None, None).iter().collect_vec();
-        nearest_first.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
-        let mut ranked = nearest_first.into_iter().map(|episode| (rank(episode), episode)).collect_vec();
-        ranked.sort_by_key(|(rank, _)| *rank);
-        ranked.into_iter().map(|(_, episode)| episode).take(count).collect()
+        let nearest_first = self.on(player, None, None).iter();
+        let nearest_first = nearest_first.sorted_by(|one, other| distance(one).total_cmp(&distance(other)));
+        let ranked = nearest_first.map(|episode| (rank(episode), episode)).sorted_by_key(|(rank, _)| *rank);
+        ranked.map(|(_, episode)| episode).take(count).collect()
     }
 }
 
