@@ -15,6 +15,7 @@ use crate::{
 };
 use agents::PortfolioConfig;
 use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use itertools::Itertools;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -321,16 +322,8 @@ impl Panel {
             let why = consequence(reports, &finding.verdict).filter(|_| *subject == Subject::Rules);
             Judgement { criterion, finding: why.map_or(finding, |why| skipped(&why)) }
         };
-        let mut judgements = Vec::new();
-        for validator in &self.of_game {
-            let judgement = judge(validator);
-            let passed = judgement.finding.verdict.is_pass();
-            judgements.push(judgement);
-            if screen && !passed {
-                break;
-            }
-        }
-        judgements
+        let goes_on = |judgement: &Judgement| !screen || judgement.finding.verdict.is_pass();
+        self.of_game.iter().map(judge).take_while_inclusive(goes_on).collect()
     }
 
     fn run(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {

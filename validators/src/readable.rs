@@ -5,6 +5,7 @@ use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
 use engine::analysis::{Analysis, Reach, Role};
 use engine::{Game, Level, SpriteType};
+use itertools::Itertools;
 
 /// Every visible type has a character of its own, and nothing decisive is hidden.
 ///
@@ -73,9 +74,7 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     let visible = |stype: &&SpriteType| !analysis.facts(**stype).hidden;
     let ground = |stype: SpriteType| analysis.role(stype) == Role::Floor;
     let mut faults = Vec::new();
-    let mut symbols: Vec<u8> = level.cells().to_vec();
-    symbols.sort_unstable();
-    symbols.dedup();
+    let symbols = level.cells().iter().copied().sorted_unstable().dedup().collect_vec();
     let shown = |stype: &SpriteType| !ground(*stype) && !analysis.facts(*stype).hidden;
     for stype in game.sprite_types().filter(|stype| shown(stype) && decides(analysis, *stype)) {
         let with = |symbol: &&u8| game.places(**symbol).contains(&stype);

@@ -65,8 +65,5 @@ impl Neighbours {
 }
 
 fn count(colours: &[Colour]) -> usize {
-    let mut sorted = colours.to_vec();
-    sorted.sort_unstable();
-    sorted.dedup();
-    sorted.len()
+    colours.iter().sorted_unstable().dedup().count()
 }

@@ -3,7 +3,6 @@
 
 use crate::game_measures::EffectFamily;
 use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
-use std::fmt::Write;
 
 /// The level of detail of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,12 +90,8 @@ impl RuleGraph {
             nodes.push(Node { labels: labels_of_interaction(clause), weight, edges });
         }
         for clause in &clauses.terminations {
-            let coarse = format!("end {} {}", clause.class, clause.win);
-            let labels = [
-                coarse.clone(),
-                format!("{coarse}{}", spell(&clause.terms, Grain::Medium)),
-                format!("{coarse}{}", spell(&clause.terms, Grain::Fine)),
-            ];
+            let label = |grain| format!("end {} {}{}", clause.class, clause.win, spell(&clause.terms, grain));
+            let labels = Grain::ALL.map(label);
             nodes.push(Node { labels, weight: ENDING, edges: edges(&clause.terms, false) });
         }
         let mut sets: Vec<Vec<usize>> = Vec::new();
@@ -114,9 +109,9 @@ impl RuleGraph {
             set.len() < other.len() && set.iter().all(|at| other.contains(at))
         };
         for set in sets.iter().filter(|set| !sets.iter().any(|other| within(set, other))) {
-            let label = || format!("places {}", set.len());
+            let labels = [(); 3].map(|()| format!("places {}", set.len()));
             let edges = set.iter().map(|&at| ("placed".to_owned(), at)).collect();
-            nodes.push(Node { labels: [label(), label(), label()], weight: FRAME, edges });
+            nodes.push(Node { labels, weight: FRAME, edges });
         }
         if !clauses.header.is_empty() {
             let spelled = |grain| format!("game{}", spell(&clauses.header, grain));
@@ -188,7 +183,7 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
 const COMPARED_PARAMETERS: [&str; 5] =
     ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
-/// Spells the parameters in the order of their keys; types are edges and are left out.
+/// Spells the parameters in the order of their keys, each after a blank; types are edges and are left out.
 fn spell(terms: &Terms, grain: Grain) -> String {
     let mut spelled: Vec<String> = Vec::new();
     for (key, term) in terms {
@@ -207,12 +202,8 @@ fn spell(terms: &Terms, grain: Grain) -> String {
             (Term::Number(number), Grain::Fine) => format!("{number:?}"),
             (Term::Numbers(numbers), Grain::Fine) => format!("{numbers:?}"),
         };
-        spelled.push(format!("{key}={value}"));
+        spelled.push(format!(" {key}={value}"));
     }
     spelled.sort_unstable();
-    let mut text = String::new();
-    for entry in spelled {
-        let _ = write!(text, " {entry}");
-    }
-    text
+    spelled.concat()
 }

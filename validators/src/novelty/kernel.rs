@@ -8,6 +8,7 @@
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
+use itertools::Itertools;
 
 /// Rounds of refinement, by grain, and the weight of a colour of each round. Early rounds weigh more: one changed
 /// rule alters the late colours of everything near it.
@@ -37,30 +38,21 @@ impl Features {
         }
         counts.retain(|(_, weight)| *weight > 0);
         counts.sort_unstable_by_key(|(colour, _)| *colour);
-        counts.dedup_by(|later, first| {
-            let same = later.0 == first.0;
-            first.1 += if same { later.1 } else { 0 };
-            same
+        let merged = counts.into_iter().coalesce(|one, next| match one.0 == next.0 {
+            true => Ok((one.0, one.1 + next.1)),
+            false => Err((one, next)),
         });
-        Features(counts)
+        Features(merged.collect())
     }
 
     /// Returns 1 − intersection / union, from 0 to 1. Cost: O(nodes).
     pub(super) fn distance(&self, other: &Features) -> f64 {
         let (mut common, mut all) = (0u64, 0u64);
-        let (mut one, mut two) = (self.0.iter().peekable(), other.0.iter().peekable());
-        loop {
-            let (mine, theirs) = match (one.peek(), two.peek()) {
-                (None, None) => break,
-                (Some((a, _)), Some((b, _))) if a == b => (one.next(), two.next()),
-                (Some((a, _)), Some((b, _))) if a > b => (None, two.next()),
-                (None, Some(_)) => (None, two.next()),
-                _ => (one.next(), None),
-            };
-            let weight =
-                |feature: Option<&(Colour, u32)>| feature.map_or(0, |(_, weight)| u64::from(*weight));
-            common += weight(mine).min(weight(theirs));
-            all += weight(mine).max(weight(theirs));
+        let weight = |(_, weight): &(Colour, u32)| u64::from(*weight);
+        for pair in self.0.iter().merge_join_by(&other.0, |(one, _), (two, _)| one.cmp(two)) {
+            let (mine, theirs) = pair.map_any(weight, weight).or_default();
+            common += mine.min(theirs);
+            all += mine.max(theirs);
         }
         if all == 0 { 0.0 } else { (all - common) as f64 / all as f64 }
     }

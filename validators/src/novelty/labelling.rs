@@ -7,6 +7,7 @@
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
+use itertools::Itertools;
 
 /// The most texts to write. Games whose types are told apart by colours, or are alike because they can be exchanged,
 /// need far fewer. Beyond the limit the first of the types with equal colours stands for all: if they are indeed
@@ -71,11 +72,9 @@ impl Labelling<'_> {
     /// one.
     fn first_cell(&self, colours: &[Colour]) -> Vec<usize> {
         let types = &colours[..self.graph.types];
-        let mut sorted = types.to_vec();
-        sorted.sort_unstable();
-        let Some(twice) = sorted.windows(2).find(|pair| pair[0] == pair[1]) else { return Vec::new() };
+        let Some(&twice) = types.iter().duplicates().min() else { return Vec::new() };
         let mut first_cell: Vec<usize> = Vec::new();
-        for at in (0..types.len()).filter(|&at| types[at] == twice[0]) {
+        for at in (0..types.len()).filter(|&at| types[at] == twice) {
             if first_cell.is_empty() || !first_cell.iter().any(|&other| self.can_be_exchanged(at, other)) {
                 first_cell.push(at);
             }
@@ -99,8 +98,7 @@ impl Labelling<'_> {
 
     fn write(&mut self, colours: &[Colour]) -> Labelled {
         self.left = self.left.saturating_sub(1);
-        let mut order: Vec<usize> = (0..self.graph.types).collect();
-        order.sort_by_key(|&at| colours[at]);
+        let order = (0..self.graph.types).sorted_by_key(|&at| colours[at]).collect_vec();
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(to, &at)| place[at] = to);
         let (mut types, rules) = self.lines(&place);
@@ -113,16 +111,14 @@ impl Labelling<'_> {
     fn lines(&self, place: &[usize]) -> (Vec<String>, Vec<String>) {
         let line = |at: usize| {
             let node = &self.graph.nodes[at];
-            let mut edges: Vec<String> =
-                node.edges.iter().map(|(role, to)| format!("{role}:{}", place[*to])).collect();
-            edges.sort_unstable();
+            let mut edges =
+                node.edges.iter().map(|(role, to)| format!("{role}:{}", place[*to])).sorted_unstable();
             format!("{} | {}", node.labels[Grain::Fine as usize], edges.join(" "))
         };
         let mut types = vec![String::new(); self.graph.types];
         (0..self.graph.types).for_each(|at| types[place[at]] = line(at));
-        let mut rules: Vec<String> = (self.graph.types..self.graph.nodes.len()).map(line).collect();
-        rules.sort_unstable();
-        (types, rules)
+        let rules = (self.graph.types..self.graph.nodes.len()).map(line).sorted_unstable();
+        (types, rules.collect())
     }
 
     /// Returns `true` if the rules stay the same when the two types are exchanged.
