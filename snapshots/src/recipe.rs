@@ -223,6 +223,11 @@ pub enum RecipeError {
     TooLarge,
 }
 
+/// The error of a value that is out of its range.
+fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
+    Err(RecipeError::Value { key, message: message.into() })
+}
+
 impl Recipe {
     /// Reads and checks a recipe.
     ///
@@ -263,32 +268,25 @@ impl Recipe {
     /// # Errors
     /// The first value that is out of its range.
     pub fn check(&self) -> Result<(), RecipeError> {
-        let wrong = |key, message: String| Err(RecipeError::Value { key, message });
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
-            return wrong("name", "takes 1 to 40 lower-case letters, digits and `-`".to_owned());
+            return wrong("name", "takes 1 to 40 lower-case letters, digits and `-`");
         }
         match (&self.seed, self.commitment) {
             (Some(seed), None) if seed.trim().is_empty() || seed.len() > 200 => {
-                return wrong("seed", "takes a text of 1 to 200 bytes".to_owned());
+                return wrong("seed", "takes a text of 1 to 200 bytes");
             }
             (Some(_), Some(_)) => {
-                return wrong(
-                    "commitment",
-                    "and `seed` exclude each other: a seed is public or sealed".to_owned(),
-                );
+                return wrong("commitment", "and `seed` exclude each other: a seed is public or sealed");
             }
             (None, None) => {
                 let help = "is missing: give a text, or a `commitment` from `arcade release RECIPE --commit`";
-                return wrong("seed", help.to_owned());
+                return wrong("seed", help);
             }
             _ => {}
         }
         if self.corpus.games + self.generated.games == 0 {
-            return wrong(
-                "generated.games",
-                "and `corpus.games` are both 0: there is nothing to mint".to_owned(),
-            );
+            return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
         }
         let (old, new) = (&self.corpus, &self.generated);
         for (key, value, least, most) in [
@@ -320,7 +318,7 @@ impl Recipe {
         }
         let weights = [new.mix.constructive, new.mix.search, new.mix.evolutionary];
         if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
-            return wrong("generated.mix", "takes weights, not all of them 0".to_owned());
+            return wrong("generated.mix", "takes weights, not all of them 0");
         }
         if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
             let known = kinds().map(Kind::name).join(", ");
@@ -357,7 +355,6 @@ impl Recipe {
 
     /// Checks the values that govern the selection of games.
     fn check_selection(&self) -> Result<(), RecipeError> {
-        let wrong = |key, message: String| Err(RecipeError::Value { key, message });
         if !self.difficulty.is_empty() {
             let total: f64 = self.difficulty.values().sum();
             if self.difficulty.values().any(|share| !(0.0..=1.0).contains(share))
@@ -368,7 +365,7 @@ impl Recipe {
             let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes("skill"));
             if !(self.criteria.includes("skill") && of_corpus) {
                 let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
-                return wrong("difficulty", help.to_owned());
+                return wrong("difficulty", help);
             }
         }
         for (key, quotas) in [
@@ -376,7 +373,7 @@ impl Recipe {
             ("taxonomy.avatars", self.taxonomy.avatars.values().collect()),
         ] {
             if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
-                return wrong(key, "takes pairs of shares from 0 to 1, the smaller first".to_owned());
+                return wrong(key, "takes pairs of shares from 0 to 1, the smaller first");
             }
             let games = i64::from(self.corpus.games + self.generated.games);
             let numbers = || quotas.iter().map(|&&share| self.quota(share));

@@ -95,6 +95,11 @@ pub struct CriteriaError {
     pub message: String,
 }
 
+/// The error of a value that is out of its range.
+fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), CriteriaError> {
+    Err(CriteriaError { key, message: message.into() })
+}
+
 impl Criteria {
     /// Returns the criteria for a single game, with those that minting leaves out; without `skill-overall`, which may
     /// fail a good game only because it is too hard.
@@ -119,7 +124,6 @@ impl Criteria {
     /// # Errors
     /// The first value that is out of range.
     pub fn check(&self) -> Result<(), CriteriaError> {
-        let wrong = |key, message: String| Err(CriteriaError { key, message });
         let known = || LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).chain(GATES).copied();
         if let Some(unknown) = self.ask.iter().find(|name| !known().any(|known| known == *name)) {
             let near = engine::nearest(unknown, known());
@@ -131,14 +135,11 @@ impl Criteria {
             );
         }
         if self.includes("skill-overall") && !self.includes("skill") {
-            return wrong(
-                "ask",
-                "names `skill-overall`, which needs the plays of `skill`: name both".to_owned(),
-            );
+            return wrong("ask", "names `skill-overall`, which needs the plays of `skill`: name both");
         }
         let depths = &self.depths;
         if depths.is_empty() || depths.len() > 20 || depths.iter().any(|depth| !(1..=1000).contains(depth)) {
-            return wrong("depths", "takes 1 to 20 numbers of ticks, each from 1 to 1000".to_owned());
+            return wrong("depths", "takes 1 to 20 numbers of ticks, each from 1 to 1000");
         }
         for (key, share) in [
             ("shortest", self.shortest),
@@ -175,8 +176,7 @@ impl Criteria {
         }
         if self.includes("skill") && self.ladder.len() < 2 {
             let message =
-                "takes at least two players: skill is the advantage of a stronger player over a weaker one"
-                    .to_owned();
+                "takes at least two players: skill is the advantage of a stronger player over a weaker one";
             return wrong("ladder", message);
         }
         if self.least_ticks > self.most_ticks {
