@@ -75,22 +75,22 @@ pub struct Ladder {
     pub difficulty: Difficulty,
 }
 
-/// The difficulty of a level (`spec/06` §2.6).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Difficulty {
-    /// Ease of 0.8 or more.
-    VeryEasy,
-    /// 0.6 or more.
-    Easy,
-    /// 0.4 or more.
-    Medium,
-    /// 0.2 or more.
-    Hard,
-    /// Less.
-    VeryHard,
-    /// No player has won.
-    Unbeaten,
+engine::named_enum! {
+    /// The difficulty of a level (`spec/06` §2.6).
+    pub enum Difficulty {
+        /// Ease of 0.8 or more.
+        VeryEasy = "very_easy",
+        /// 0.6 or more.
+        Easy = "easy",
+        /// 0.4 or more.
+        Medium = "medium",
+        /// 0.2 or more.
+        Hard = "hard",
+        /// Less.
+        VeryHard = "very_hard",
+        /// No player has won.
+        Unbeaten = "unbeaten",
+    }
 }
 
 impl Difficulty {
@@ -132,14 +132,7 @@ impl FromStr for Difficulty {
 
 impl fmt::Display for Difficulty {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Difficulty::VeryEasy => "very easy",
-            Difficulty::Easy => "easy",
-            Difficulty::Medium => "medium",
-            Difficulty::Hard => "hard",
-            Difficulty::VeryHard => "very hard",
-            Difficulty::Unbeaten => "unbeaten",
-        })
+        f.write_str(&self.name().replace('_', " "))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The `CARD.json` of a release: planned and achieved figures, the results of the ladder, novelty, and composition.
 
 use super::Plan;
-use super::select::{Bin, Contender, bins, is_new, word};
+use super::select::{Bin, Contender, bins, is_new};
 use crate::rungs::{RungRate, rates};
 use forge::Tally;
 use forge::card::{Card, Origin};
@@ -145,7 +145,9 @@ impl ReleaseCard {
             new_games: cards.iter().filter(|card| is_new(card)).count() as u64,
             planned: bins(recipe, contenders, taken),
             difficulty: counted(
-                levels().filter_map(|level| level.ladder.as_ref()).map(|ladder| word(&ladder.difficulty)),
+                levels()
+                    .filter_map(|level| level.ladder.as_ref())
+                    .map(|ladder| ladder.difficulty.name().to_owned()),
             ),
             goals: counted(games().map(|game| game.goal.name().to_owned())),
             avatars: counted(games().map(|game| game.avatar.name().to_owned())),

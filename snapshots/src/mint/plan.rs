@@ -2,7 +2,6 @@
 
 use super::MintError;
 use super::job::{FrozenGame, JobResult};
-use super::select::word;
 use crate::corpus::Corpus;
 use crate::recipe::Recipe;
 use crate::sealed::Secret;
@@ -18,7 +17,7 @@ use forge::games::{
 use forge::levels::Method;
 use generators::games::Rethemed;
 use generators::levels::{Examples, LevelConfig};
-use report::canonical::to_canonical_json;
+use report::canonical::canonical_digest;
 use std::sync::Arc;
 use validators::novelty::GameForm;
 use validators::{Criteria, GATES, Panel};
@@ -99,10 +98,8 @@ impl<'a> Plan<'a> {
 
     /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
     pub fn histogram(&self) -> Vec<(String, i64)> {
-        super::select::histogram(self.recipe)
-            .into_iter()
-            .map(|(label, levels)| (word(&label), levels))
-            .collect()
+        let histogram = super::select::histogram(self.recipe).into_iter();
+        histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
     }
 
     /// The rough total cost of jobs, in seconds of one core of the machine that docs/recipes.md describes.
@@ -149,11 +146,9 @@ impl<'a> Plan<'a> {
     pub fn canary(&self) -> String {
         match self.recipe.commitment {
             // Derived from the recipe's digest, so that two recipes have different canaries.
-            None => {
-                let text =
-                    to_canonical_json(self.recipe).expect("a checked recipe has no numbers that JSON lacks");
-                canary(&Digest::of(text.as_bytes()))
-            }
+            None => canary(
+                &canonical_digest(self.recipe).expect("a checked recipe has no numbers that JSON lacks"),
+            ),
             Some(commitment) => canary(&commitment),
         }
     }
@@ -178,7 +173,7 @@ impl<'a> Plan<'a> {
             "board": board,
             "criteria": criteria,
         });
-        Ok(Digest::of(to_canonical_json(&decisive)?.as_bytes()))
+        Ok(canonical_digest(&decisive)?)
     }
 
     /// The candidates for new games, according to the weights of the mix.

@@ -215,11 +215,11 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
     let mut bins = Vec::new();
     for (label, asked) in &counts.histogram {
         let there = counts.labels.get(label).copied().unwrap_or_default();
-        bins.push(Bin { name: word(label), least: (asked - 1).max(0), most: asked + 1, there });
+        bins.push(Bin { name: label.name().to_owned(), least: (asked - 1).max(0), most: asked + 1, there });
     }
     let others = counts.labels.iter().filter(|(label, _)| !recipe.difficulty.contains_key(label));
     for (label, &there) in others.filter(|_| !recipe.difficulty.is_empty()) {
-        bins.push(Bin { name: word(label), least: 0, most: 1, there });
+        bins.push(Bin { name: label.name().to_owned(), least: 0, most: 1, there });
     }
     for &(goal, (least, most)) in &counts.goal_quotas {
         let there = counts.goals.get(&goal).copied().unwrap_or_default();
@@ -234,11 +234,6 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
         bins.push(Bin { name: "games of one goal and avatar".to_owned(), least: 0, most, there });
     }
     bins
-}
-
-/// A difficulty as spelt in data.
-pub(super) fn word(label: &Difficulty) -> String {
-    serde_json::to_value(label).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
 /// A selection that is being improved.
@@ -305,6 +300,7 @@ impl<'a> Choice<'a> {
 }
 
 /// The figures of a selection for every requirement.
+#[derive(Default)]
 struct Counts<'a> {
     histogram: Vec<(Difficulty, i64)>,
     goal_quotas: Vec<(GoalKind, (i64, i64))>,
@@ -324,11 +320,7 @@ impl<'a> Counts<'a> {
             goal_quotas: recipe.goal_quotas(),
             avatar_quotas: recipe.avatar_quotas(),
             crowd: recipe.taxonomy.crowd.map(|crowd| recipe.quota((0.0, crowd)).1.max(1)),
-            labels: BTreeMap::new(),
-            goals: BTreeMap::new(),
-            avatars: BTreeMap::new(),
-            kinds: BTreeMap::new(),
-            titles: BTreeMap::new(),
+            ..Counts::default()
         };
         games.for_each(|game| counts.add(game, 1));
         counts
