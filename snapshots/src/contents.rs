@@ -50,12 +50,9 @@ impl Contents {
     /// # Errors
     /// See [`folder::read`].
     pub(crate) fn find(&self, path: &str) -> Result<Option<Vec<u8>>, SnapshotError> {
-        match self.read(path) {
-            Ok(bytes) => Ok(Some(bytes)),
-            Err(SnapshotError::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
-                Ok(None)
-            }
-            Err(error) => Err(error),
+        match self {
+            Contents::Folder(root) => folder::find(root, path, Limits::SNAPSHOT.file_bytes),
+            Contents::Archive(archive) => Ok(archive.file(path).map(<[u8]>::to_vec)),
         }
     }
 

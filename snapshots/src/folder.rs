@@ -126,6 +126,17 @@ pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, Snapshot
     }
 }
 
+/// The same as [`read`], but `None` if there is no such file.
+///
+/// # Errors
+/// See [`read`].
+pub(crate) fn find(root: &Path, relative: &str, limit: u64) -> Result<Option<Vec<u8>>, SnapshotError> {
+    match read(root, relative, limit) {
+        Err(SnapshotError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => Ok(None),
+        read => read.map(Some),
+    }
+}
+
 /// The size and digest of the file at `relative` below `root`, read in pieces; of its first `limit` + 1 bytes if it is
 /// longer than `limit`.
 ///

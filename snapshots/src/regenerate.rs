@@ -102,12 +102,8 @@ impl Regeneration {
             });
         }
         refuse_unfinished(root)?;
-        let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
-            SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-                SnapshotError::NotASnapshot(root.to_path_buf())
-            }
-            other => other,
-        })?;
+        let bytes = folder::find(root, MANIFEST_FILE, MANIFEST_LIMIT)?;
+        let bytes = bytes.ok_or_else(|| SnapshotError::NotASnapshot(root.to_path_buf()))?;
         let manifest =
             Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
         let minted_by = manifest.minted_by();

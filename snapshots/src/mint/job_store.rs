@@ -5,7 +5,7 @@ use super::job::JobResult;
 use crate::draft::sync::{create_folder, sync_folder};
 use crate::folder;
 use crate::{Digest, SnapshotError};
-use report::canonical::to_canonical_json;
+use report::canonical::{canonical_digest, to_canonical_json};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -152,12 +152,8 @@ impl JobFolder {
     /// # Errors
     /// The file system refuses.
     pub fn stored<T: Serialize + DeserializeOwned>(&self, name: &str) -> Result<Option<T>, SnapshotError> {
-        let bytes = match folder::read(&self.folder, &JobFolder::file(name), JOB_LIMIT) {
-            Ok(bytes) => bytes,
-            Err(SnapshotError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(error),
-        };
-        JobFolder::parse(self.plan, &bytes)
+        let bytes = folder::find(&self.folder, &JobFolder::file(name), JOB_LIMIT)?;
+        bytes.map_or(Ok(None), |bytes| JobFolder::parse(self.plan, &bytes))
     }
 
     /// Stores a result of any type. After it returns, the result persists even after a crash.
@@ -172,7 +168,7 @@ impl JobFolder {
 
     /// The text of a result's file.
     pub(super) fn text<T: Serialize>(plan: Digest, job: &T) -> Result<String, SnapshotError> {
-        let digest = Digest::of(to_canonical_json(job)?.as_bytes());
+        let digest = canonical_digest(job)?;
         Ok(to_canonical_json(&JobFile { plan, digest, result: job })?)
     }
 
@@ -182,8 +178,7 @@ impl JobFolder {
         bytes: &[u8],
     ) -> Result<Option<T>, SnapshotError> {
         let Ok(file) = serde_json::from_slice::<JobFile<T>>(bytes) else { return Ok(None) };
-        let sound =
-            file.plan == plan && Digest::of(to_canonical_json(&file.result)?.as_bytes()) == file.digest;
+        let sound = file.plan == plan && canonical_digest(&file.result)? == file.digest;
         Ok(sound.then_some(file.result))
     }
 

@@ -325,12 +325,8 @@ fn unsound(folder: &Path, what: String) -> MergeError {
 }
 
 fn shard_file(folder: &Path) -> Result<ShardFile, MergeError> {
-    let bytes = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).map_err(|error| match error {
-        SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-            MergeError::NotAShard(folder.to_path_buf())
-        }
-        other => other.into(),
-    })?;
+    let bytes = folder::find(folder, SHARD_FILE, MANIFEST_LIMIT)?;
+    let bytes = bytes.ok_or_else(|| MergeError::NotAShard(folder.to_path_buf()))?;
     let syntax = |error: serde_json::Error| unsound(folder, error.to_string());
     let Version { format } = serde_json::from_slice(&bytes).map_err(syntax)?;
     if format != SHARD_FORMAT {
