@@ -17,9 +17,36 @@ pub(crate) fn in_json(path: &Path) -> Cow<'_, str> {
 pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
     match fs::metadata(path) {
         Ok(found) => Ok(Some(found)),
-        Err(error) => match error.kind() {
-            ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::InvalidFilename => Ok(None),
-            _ => Err(Failure::read(path, error)),
-        },
+        Err(error) => absent_or_failed(path, error),
+    }
+}
+
+fn absent_or_failed<T>(path: &Path, error: std::io::Error) -> Result<Option<T>, Failure> {
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::InvalidFilename => Ok(None),
+        _ => Err(Failure::read(path, error)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unreadable_folders_are_not_absent() {
+        let metadata = |kind: ErrorKind| absent_or_failed::<()>(Path::new("a/b"), kind.into());
+        assert!(metadata(ErrorKind::NotFound).expect("absent").is_none());
+        assert!(metadata(ErrorKind::NotADirectory).expect("absent").is_none());
+        let refused = metadata(ErrorKind::PermissionDenied).expect_err("refused");
+        assert_eq!(refused.code(), crate::failure::ENVIRONMENT);
+        assert!(refused.to_string().starts_with("cannot read `a/b`: permission denied"), "{refused}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn paths_that_are_not_utf8_have_a_text() {
+        use std::os::unix::ffi::OsStrExt;
+        let path = Path::new(std::ffi::OsStr::from_bytes(b"caf\xe9.gif"));
+        assert_eq!(serde_json::json!({ "file": in_json(path) })["file"], "caf\u{fffd}.gif");
     }
 }
