@@ -167,26 +167,5 @@ fn changes_second(encounter: &Encounter) -> bool {
 
 /// Returns `true` if the effect concerns sprites of the type wherever they are.
 pub(super) fn changes_afar(effect: &EffectSummary, info: &TypeInfo, stype: SpriteType) -> bool {
-    match effect {
-        EffectSummary::KillAll(of)
-        | EffectSummary::Speed(Some(of))
-        | EffectSummary::Health { of: Some(of), .. } => info.in_tree(*of),
-        EffectSummary::BecomeAll(of, to) => info.in_tree(*of) || *to == stype,
-        EffectSummary::Become(to) | EffectSummary::Make(to) => *to == stype,
-        EffectSummary::BecomeAny(options) => options.contains(&stype),
-        EffectSummary::Kill(_)
-        | EffectSummary::Stop
-        | EffectSummary::Undo(_)
-        | EffectSummary::Turn
-        | EffectSummary::Push
-        | EffectSummary::Carry
-        | EffectSummary::Teleport
-        | EffectSummary::Wrap
-        | EffectSummary::Clone
-        | EffectSummary::Collect
-        | EffectSummary::Change { .. }
-        | EffectSummary::Shield { .. }
-        | EffectSummary::Speed(None)
-        | EffectSummary::Health { of: None, .. } => false,
-    }
+    effect.at_large().is_some_and(|of| info.in_tree(of)) || effect.makes().contains(&stype)
 }

@@ -122,13 +122,9 @@ impl PopulationChanges {
                     other.iter().for_each(|stype| self.disappears[stype.index()] = true);
                     sides[0]
                 }
-                EffectSummary::Become(to) => {
-                    sides[0].iter().for_each(|&from| turn(from, *to));
-                    &[]
-                }
-                EffectSummary::BecomeAny(options) => {
+                EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
                     for &from in sides[0] {
-                        options.iter().for_each(|&to| turn(from, to));
+                        effect.makes().iter().for_each(|&to| turn(from, to));
                     }
                     &[]
                 }
@@ -181,13 +177,8 @@ impl PopulationChanges {
             }
             (Condition::AtLeast(_, limit), _) if *limit <= 0 => Attainable::AtOnce,
             (Condition::AtLeast(..), _) if empty => Attainable::Never,
-            (Condition::Exactly(_, limit), Some(kinds)) if empty => {
-                if *limit == 0 && kinds == 0 {
-                    Attainable::AtOnce
-                } else {
-                    Attainable::Never
-                }
-            }
+            (Condition::Exactly(_, 0), Some(0)) if empty => Attainable::AtOnce,
+            (Condition::Exactly(..), Some(_)) if empty => Attainable::Never,
             (Condition::Exactly(_, limit), None) if empty && *limit > 0 => Attainable::Never,
             (Condition::AtMost(..) | Condition::Exactly(..), _) if empty => Attainable::AtOnce,
             (Condition::AtMost(..), _) => when(falls),

@@ -37,6 +37,14 @@ impl Encounter {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
 
+    /// Returns `true` if a sprite of one of these types, given in order, is sure to appear or to be what the first becomes.
+    pub(super) fn brings_one_of(&self, types: &[SpriteType]) -> bool {
+        self.does(|effect| {
+            let (EffectSummary::Become(to) | EffectSummary::Make(to)) = effect else { return false };
+            types.binary_search(to).is_ok()
+        })
+    }
+
     /// Returns `true` if the sprite of that side is removed or turns into another type.
     pub fn ends(&self, side: Side) -> bool {
         self.does(|effect| match effect {
@@ -110,5 +118,5 @@ pub(super) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<
 fn global_part(rules: &Rules, timed: u16) -> impl Iterator<Item = EffectSummary> {
     let effect = rules.timed[usize::from(timed)].effect;
     let effects = &rules.effects[usize::from(effect)].summary.effects;
-    effects.iter().filter(|effect| effect.is_at_large()).cloned()
+    effects.iter().filter(|effect| effect.at_large().is_some()).cloned()
 }

@@ -173,31 +173,18 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
             return;
         }
         sink.fills |= encounter.ends(own.other());
+        let becomes = encounter.effects.iter().rev().find_map(|effect| {
+            let EffectSummary::Become(to) = *effect else { return None };
+            (own == Side::First).then_some(to)
+        });
+        match becomes {
+            Some(to) => sink.fate = Fate::Becomes(to),
+            None if encounter.ends(own) && sink.fate == Fate::Stays => sink.fate = Fate::Goes,
+            None => {}
+        }
         for effect in &encounter.effects {
-            match effect {
-                EffectSummary::Become(to) if own == Side::First => sink.fate = Fate::Becomes(*to),
-                EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) => sink.opens.push(*other),
-                EffectSummary::Kill(_)
-                | EffectSummary::Become(_)
-                | EffectSummary::BecomeAny(_)
-                | EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Teleport
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Make(_)
-                | EffectSummary::Clone
-                | EffectSummary::Collect
-                | EffectSummary::Change { .. }
-                | EffectSummary::Health { .. }
-                | EffectSummary::Shield { .. } => {
-                    if encounter.ends(own) && sink.fate == Fate::Stays {
-                        sink.fate = Fate::Goes;
-                    }
-                }
+            if let EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) = effect {
+                sink.opens.push(*other);
             }
         }
     });

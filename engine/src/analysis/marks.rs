@@ -1,6 +1,6 @@
 //! The facts that interactions with other types establish about each type, gathered in one pass.
 
-use super::encounter::{EffectSummary, Encounter, Side};
+use super::encounter::{Encounter, Side};
 use super::facts::{Avatar, Facts, Motion, is_certain};
 use super::goal::Aims;
 use super::touch::Harm;
@@ -35,7 +35,7 @@ pub(super) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], 
         let Some(second) = encounter.second else { continue };
         let first = encounter.first;
         let [ones, twos] = [first, second].map(|written| &rules.types[written.index()].tree);
-        let spoils = spoils(encounter, aims);
+        let spoils = encounter.brings_one_of(&aims.prevent);
         if (encounter.ends(Side::First) && guarded[first.index()]) || (spoils && moving[second.index()]) {
             twos.iter().for_each(|stype| threat[stype.index()] = true);
         }
@@ -89,7 +89,7 @@ pub(super) fn marks(
             mark.breakable |= certain && ends_first && breaks[second];
             mark.meets_shots |= ends && flies[second];
         }
-        let spoils = spoils(encounter, aims);
+        let spoils = encounter.brings_one_of(&aims.prevent);
         for stype in twos {
             let mark = &mut marks[stype.index()];
             mark.takes_part = true;
@@ -101,30 +101,6 @@ pub(super) fn marks(
         }
     }
     marks
-}
-
-/// Returns `true` if an interaction makes a forbidden type.
-fn spoils(encounter: &Encounter, aims: &Aims) -> bool {
-    encounter.does(|effect| match effect {
-        EffectSummary::Become(to) | EffectSummary::Make(to) => aims.prevent.binary_search(to).is_ok(),
-        EffectSummary::Kill(_)
-        | EffectSummary::KillAll(_)
-        | EffectSummary::BecomeAny(_)
-        | EffectSummary::BecomeAll(..)
-        | EffectSummary::Stop
-        | EffectSummary::Undo(_)
-        | EffectSummary::Turn
-        | EffectSummary::Push
-        | EffectSummary::Carry
-        | EffectSummary::Teleport
-        | EffectSummary::Wrap
-        | EffectSummary::Speed(_)
-        | EffectSummary::Clone
-        | EffectSummary::Collect
-        | EffectSummary::Change { .. }
-        | EffectSummary::Health { .. }
-        | EffectSummary::Shield { .. } => false,
-    })
 }
 
 /// By type: `holds` is true of it or of a relative, so that a rule on the type can refer to it.

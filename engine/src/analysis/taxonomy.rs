@@ -97,12 +97,6 @@ crate::named_enum! {
     }
 }
 
-impl Time {}
-
-impl Spatiality {}
-
-impl Genre {}
-
 impl Analysis {
     /// Classifies the game. Cost: O(types × avatars + interactions).
     pub fn taxonomy(&self) -> Taxonomy {
@@ -242,31 +236,9 @@ impl Analysis {
             let fact = self.facts(*stype);
             fact.possible && !matches!(fact.motion, Motion::Still | Motion::Steered)
         };
-        let brought = |encounter: &Encounter, list: &[SpriteType]| {
-            encounter.does(|effect| match effect {
-                EffectSummary::Become(to) | EffectSummary::Make(to) => list.binary_search(to).is_ok(),
-                EffectSummary::Kill(_)
-                | EffectSummary::KillAll(_)
-                | EffectSummary::BecomeAny(_)
-                | EffectSummary::BecomeAll(..)
-                | EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Teleport
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Clone
-                | EffectSummary::Collect
-                | EffectSummary::Change { .. }
-                | EffectSummary::Health { .. }
-                | EffectSummary::Shield { .. } => false,
-            })
-        };
         let finish = self.encounters.iter().filter(|encounter| {
             let tree = &self.game.0.types[encounter.first.index()].tree;
-            tree.iter().any(runs) && brought(encounter, losses)
+            tree.iter().any(runs) && encounter.brings_one_of(losses)
         });
         finish.filter_map(|encounter| Some((encounter, encounter.second?))).any(|(encounter, goal)| {
             let thing = self.facts(goal).motion != Motion::Steered;
@@ -274,7 +246,7 @@ impl Analysis {
                 let touch = &row[goal.index()];
                 touch.makes.iter().chain(&touch.changes).any(|made| wins.binary_search(made).is_ok())
             };
-            thing && (brought(encounter, wins) || self.touches.iter().any(won))
+            thing && (encounter.brings_one_of(wins) || self.touches.iter().any(won))
         })
     }
 }

@@ -129,26 +129,8 @@ pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
 
 /// Tests whether sprites that move in a direction of their own can be turned, or made from others that face elsewhere.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
-    let into = |effect: &EffectSummary| match effect {
-        EffectSummary::Become(into) | EffectSummary::BecomeAll(_, into) => *into == stype,
-        EffectSummary::BecomeAny(into) => into.contains(&stype),
-        EffectSummary::Kill(_)
-        | EffectSummary::KillAll(_)
-        | EffectSummary::Stop
-        | EffectSummary::Undo(_)
-        | EffectSummary::Turn
-        | EffectSummary::Push
-        | EffectSummary::Carry
-        | EffectSummary::Teleport
-        | EffectSummary::Wrap
-        | EffectSummary::Speed(_)
-        | EffectSummary::Make(_)
-        | EffectSummary::Clone
-        | EffectSummary::Collect
-        | EffectSummary::Change { .. }
-        | EffectSummary::Health { .. }
-        | EffectSummary::Shield { .. } => false,
-    };
+    let into =
+        |effect: &EffectSummary| effect.makes().contains(&stype) && !matches!(effect, EffectSummary::Make(_));
     let turns = |encounter: &Encounter| {
         let is_own = analysis.applies(encounter.first, stype);
         encounter.does(|effect| into(effect) || (is_own && *effect == EffectSummary::Turn))

@@ -172,27 +172,11 @@ impl Linter<'_> {
     /// Returns `true` if a sprite can gain more of a resource.
     fn gained(&self, resource: SpriteType) -> bool {
         self.analysis.encounters().iter().any(|encounter| {
-            encounter.does(|effect| match effect {
-                EffectSummary::Collect => self.analysis.applies(encounter.first, resource),
-                EffectSummary::Change { resource: other, by, .. } => *other == resource && *by > 0,
-                EffectSummary::Kill(_)
-                | EffectSummary::KillAll(_)
-                | EffectSummary::Become(_)
-                | EffectSummary::BecomeAny(_)
-                | EffectSummary::BecomeAll(..)
-                | EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Teleport
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Make(_)
-                | EffectSummary::Clone
-                | EffectSummary::Health { .. }
-                | EffectSummary::Shield { .. } => false,
-            })
+            let collects = encounter.effects.contains(&EffectSummary::Collect);
+            let gains = |effect: &EffectSummary| {
+                matches!(effect, EffectSummary::Change { resource: other, by, .. } if *other == resource && *by > 0)
+            };
+            collects && self.analysis.applies(encounter.first, resource) || encounter.does(gains)
         })
     }
 

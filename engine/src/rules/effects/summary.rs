@@ -179,11 +179,11 @@ impl EffectSummary {
         }
     }
 
-    /// Tests whether it concerns all sprites of a type, and needs none in particular.
-    pub(crate) fn is_at_large(&self) -> bool {
-        match self {
-            EffectSummary::KillAll(_) | EffectSummary::BecomeAll(..) => true,
-            EffectSummary::Speed(of) | EffectSummary::Health { of, .. } => of.is_some(),
+    /// The type that it concerns all sprites of, if it needs none in particular.
+    pub(crate) fn at_large(&self) -> Option<SpriteType> {
+        match *self {
+            EffectSummary::KillAll(of) | EffectSummary::BecomeAll(of, _) => Some(of),
+            EffectSummary::Speed(of) | EffectSummary::Health { of, .. } => of,
             EffectSummary::Kill(_)
             | EffectSummary::Become(_)
             | EffectSummary::BecomeAny(_)
@@ -198,7 +198,7 @@ impl EffectSummary {
             | EffectSummary::Clone
             | EffectSummary::Collect
             | EffectSummary::Change { .. }
-            | EffectSummary::Shield { .. } => false,
+            | EffectSummary::Shield { .. } => None,
         }
     }
 }
@@ -467,27 +467,12 @@ impl Summary {
     /// The types that the first sprite can turn into.
     pub(crate) fn becomes(&self) -> impl Iterator<Item = SpriteType> + '_ {
         // Of two types, the one that a condition permits comes last.
-        let types = self.effects.iter().rev().flat_map(|effect| match effect {
-            EffectSummary::Become(to) => std::slice::from_ref(to),
-            EffectSummary::BecomeAny(options) => options,
-            EffectSummary::Kill(_)
-            | EffectSummary::KillAll(_)
-            | EffectSummary::BecomeAll(..)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Make(_)
-            | EffectSummary::Clone
-            | EffectSummary::Collect
-            | EffectSummary::Change { .. }
-            | EffectSummary::Health { .. }
-            | EffectSummary::Shield { .. } => &[],
-        });
+        let types = self
+            .effects
+            .iter()
+            .rev()
+            .filter(|effect| matches!(effect, EffectSummary::Become(_) | EffectSummary::BecomeAny(_)));
+        let types = types.flat_map(EffectSummary::makes);
         types.copied().filter(|&stype| stype != SpriteType::NONE)
     }
 
