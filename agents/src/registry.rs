@@ -61,8 +61,7 @@ planners! {
 }
 
 /// A planner as users name it: `mcts`, or `olets:500` with the forward-model calls of a decision.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannerSpec {
     name: String,
     budget: Option<Budget>,
@@ -101,19 +100,7 @@ impl FromStr for PlannerSpec {
     }
 }
 
-impl TryFrom<String> for PlannerSpec {
-    type Error = UnknownPlanner;
-
-    fn try_from(text: String) -> Result<PlannerSpec, UnknownPlanner> {
-        text.parse()
-    }
-}
-
-impl From<PlannerSpec> for String {
-    fn from(spec: PlannerSpec) -> String {
-        spec.to_string()
-    }
-}
+engine::serde_as_text!(PlannerSpec);
 
 impl fmt::Display for PlannerSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

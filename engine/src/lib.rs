@@ -34,6 +34,7 @@ mod search_key;
 mod seed;
 mod state;
 pub mod syntax;
+mod text;
 mod tick;
 mod trigonometry;
 mod world;

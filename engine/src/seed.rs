@@ -4,7 +4,6 @@
 //! shared, so items can be minted in any order, on any number of threads or machines.
 
 use crate::{chance::Chance, digest::NotHex, sampler::Sampler};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::{fmt, str::FromStr};
 
 /// The source of all random decisions of the suite.
@@ -69,17 +68,7 @@ impl FromStr for Seed {
     }
 }
 
-impl Serialize for Seed {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
-impl<'de> Deserialize<'de> for Seed {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Seed, D::Error> {
-        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
-    }
-}
+crate::serde_as_text!(Seed);
 
 #[cfg(test)]
 mod tests {

@@ -1,14 +1,12 @@
 //! The number of actions that a player commits to at each look at the board.
 
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::num::NonZeroU64;
 use std::str::FromStr;
 
 /// The number of actions that a player commits to at each decision. They are played one a tick, without another look; what
 /// came of them is shown at the next decision. How far a player can commit and still win measures how far it foresees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Commitment {
     /// This number of actions; one is a look before every action.
     Actions(NonZeroU64),
@@ -67,19 +65,7 @@ impl FromStr for Commitment {
     }
 }
 
-impl TryFrom<String> for Commitment {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Commitment, String> {
-        text.parse()
-    }
-}
-
-impl From<Commitment> for String {
-    fn from(commitment: Commitment) -> String {
-        commitment.to_string()
-    }
-}
+engine::serde_as_text!(Commitment);
 
 #[cfg(test)]
 mod tests {
