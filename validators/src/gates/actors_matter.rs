@@ -29,17 +29,14 @@ impl GameValidator for ActorsMatter {
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
-        let wins = won_levels(case);
-        if wins.is_empty() {
-            return without_subject(NO_WIN);
-        }
+        let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let actors = Actors::of(case.analysis);
         let (mut problems, mut notes) = (Vec::new(), Vec::new());
         let (mut sweeps, mut met, mut levels) = (Vec::new(), 0, 0);
         let (mut losses, mut theirs) = (0, 0);
         for won in wins {
             let seen = actors.watch(case, won, won.win);
-            let played = careless::plays(case, won, gates.careless_slips, gates.careless_plays, case.seed);
+            let played = careless::plays(case, won, gates.careless_slips, gates.careless_plays);
             let careless: Vec<Watched> = played.iter().map(|play| actors.watch(case, won, play)).collect();
             let lost = played.iter().zip(&careless).filter(|(play, _)| play.outcome == Outcome::Lost);
             for (_, watched) in lost {

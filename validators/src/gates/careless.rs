@@ -3,7 +3,7 @@
 use super::WonLevel;
 use crate::game_report::GameCase;
 use agents::{Budget, Limits, NearestGoal, play};
-use engine::{Episode, Outcome, Seed};
+use engine::{Episode, Outcome};
 use rayon::prelude::*;
 
 /// A play is broken off after this multiple of the ticks of the win, and [`GRACE`] more.
@@ -11,14 +11,8 @@ const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
 /// Plays of the nearest-goal player on a level, with a share of slips. Cost: a call for each action and tick.
-pub(super) fn plays(
-    case: GameCase<'_>,
-    won: WonLevel<'_>,
-    slips: f64,
-    plays: u32,
-    seed: Seed,
-) -> Vec<Episode> {
-    let seed = seed.child("level", won.number as u64);
+pub(super) fn plays(case: GameCase<'_>, won: WonLevel<'_>, slips: f64, plays: u32) -> Vec<Episode> {
+    let seed = case.seed.child("level", won.number as u64);
     let limits = Limits { ticks: PATIENCE * won.ticks() + GRACE, calls: u64::MAX };
     let run = |number: u32| {
         let seed = seed.child("play", u64::from(number));

@@ -6,7 +6,6 @@ use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameValidator};
 use crate::recording::Recorded;
 use crate::verdict::Finding;
-use engine::Episode;
 use std::slice;
 
 /// The drama of the shortest known wins ([`PlayMeasures::drama`]) is at least [`Gates::drama`], on average over the levels.
@@ -20,10 +19,9 @@ impl GameValidator for Drama {
     }
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
-        let wins: Vec<(&engine::Level, Episode)> =
-            won_levels(case).into_iter().map(|won| (won.level, won.win.clone())).collect();
+        let won = won_levels(case).unwrap_or_default();
         let recording: Vec<Recorded<'_>> =
-            wins.iter().map(|(level, win)| Recorded { level, episodes: slice::from_ref(win) }).collect();
+            won.iter().map(|won| Recorded { level: won.level, episodes: slice::from_ref(won.win) }).collect();
         let Some(play) = PlayMeasures::of(case.analysis, &recording, case.seed) else {
             return without_subject(NO_WIN);
         };

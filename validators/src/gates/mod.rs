@@ -63,14 +63,15 @@ impl WonLevel<'_> {
     }
 }
 
-/// Returns the levels of which a win is known, in order.
-fn won_levels<'a>(case: GameCase<'a>) -> Vec<WonLevel<'a>> {
+/// Returns the levels of which a win is known, in order; none if there are none.
+fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     let won = |(number, recorded): (usize, &crate::Recorded<'a>)| {
         let wins = recorded.episodes.iter().filter(|episode| episode.outcome == Outcome::Won);
         let win = wins.min_by_key(|episode| episode.actions.len())?;
         Some(WonLevel { number, level: recorded.level, win })
     };
-    case.recording.iter().enumerate().filter_map(won).collect()
+    let won: Vec<WonLevel<'a>> = case.recording.iter().enumerate().filter_map(won).collect();
+    (!won.is_empty()).then_some(won)
 }
 
 /// Returns the finding of a gate that has nothing to judge.

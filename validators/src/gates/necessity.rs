@@ -35,14 +35,10 @@ impl GameValidator for Necessity {
     }
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
-        let wins = won_levels(case);
-        if wins.is_empty() {
-            return without_subject(NO_WIN);
-        }
+        let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let gates = &self.0;
-        let careless = |&won: &WonLevel<'_>| {
-            careless::plays(case, won, gates.careless_slips, gates.careless_plays, case.seed)
-        };
+        let careless =
+            |&won: &WonLevel<'_>| careless::plays(case, won, gates.careless_slips, gates.careless_plays);
         let plays: Vec<Vec<Episode>> = wins.iter().map(careless).collect();
         let guards = Guards::of(case.analysis);
         let lines = |(won, plays): (&WonLevel<'_>, &Vec<Episode>)| {

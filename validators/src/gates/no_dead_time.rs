@@ -24,10 +24,7 @@ impl GameValidator for NoDeadTime {
     }
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
-        let wins = won_levels(case);
-        if wins.is_empty() {
-            return without_subject(NO_WIN);
-        }
+        let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let telling = Telling::of(case.analysis);
         let (mut problems, mut notes, mut worst) = (Vec::new(), Vec::new(), 0.0f64);
         for won in wins {

@@ -25,15 +25,15 @@ impl GameValidator for NotInstant {
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
-        let wins = won_levels(case);
-        let Some(longest) = wins.iter().map(WonLevel::ticks).max() else { return without_subject(NO_WIN) };
+        let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
+        let longest = wins.iter().map(WonLevel::ticks).max().unwrap_or_default();
         let periods = periods(case.analysis);
         let (mut problems, mut notes, mut instant) = (Vec::new(), Vec::new(), 0);
         let later: Vec<&WonLevel<'_>> = wins.iter().filter(|won| won.number > 0).collect();
         for won in &later {
             let before = problems.len();
             problems.extend(self.too_short(case, **won, &periods));
-            let plays = careless::plays(case, **won, 0.0, gates.bot_plays, case.seed);
+            let plays = careless::plays(case, **won, 0.0, gates.bot_plays);
             let share = careless::win_share(&plays);
             let text = format!(
                 "the nearest-goal player wins {:.0} % of its plays on level {}",

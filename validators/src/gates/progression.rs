@@ -26,10 +26,7 @@ impl GameValidator for Progression {
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
-        let wins = won_levels(case);
-        if wins.is_empty() {
-            return without_subject(NO_WIN);
-        }
+        let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         if wins.len() < COURSE {
             return without_subject("skipped: fewer than three levels have a known win");
         }
@@ -95,7 +92,7 @@ impl Progression {
         known.unwrap_or_else(|| {
             let Gates { careless_plays, careless_slips, .. } = self.0;
             let share = |won: &super::WonLevel<'_>| {
-                careless::win_share(&careless::plays(case, *won, careless_slips, careless_plays, case.seed))
+                careless::win_share(&careless::plays(case, *won, careless_slips, careless_plays))
             };
             wins.iter().map(share).collect()
         })

@@ -23,10 +23,7 @@ impl GameValidator for Tight {
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
-        let wins = won_levels(case);
-        if wins.is_empty() {
-            return without_subject(NO_WIN);
-        }
+        let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let (mut problems, mut notes, mut spares, mut shares) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let consumed = |resource: &&Resource| !resource.takers.is_empty() || resource.is_ammunition;
@@ -39,8 +36,7 @@ impl GameValidator for Tight {
                 notes.push(Evidence::new(text));
             }
             if won.number > 0 || wins.len() == 1 {
-                let plays =
-                    careless::plays(case, *won, gates.careless_slips, gates.careless_plays, case.seed);
+                let plays = careless::plays(case, *won, gates.careless_slips, gates.careless_plays);
                 shares.push(careless::win_share(&plays));
             }
         }
