@@ -21,10 +21,7 @@ pub(crate) enum Contents {
 /// # Errors
 /// See [`check_integrity`] and [`Archive::check`].
 pub(crate) fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
-    match is_file(place) {
-        true => Archive::check(place),
-        false => check_integrity(place),
-    }
+    if is_file(place) { Archive::check(place) } else { check_integrity(place) }
 }
 
 /// Tests whether the release at `place` is a single file.

@@ -29,6 +29,13 @@ impl Integrity {
     pub fn is_sound(&self) -> bool {
         self.problems.is_empty()
     }
+
+    /// Returns the error for a release at `path` that has problems, if there are any.
+    pub(crate) fn require_sound(&self, path: &Path) -> Result<(), SnapshotError> {
+        let Some((first, more)) = self.problems.split_first() else { return Ok(()) };
+        let (path, first) = (path.to_path_buf(), first.to_string());
+        Err(SnapshotError::Unsound { path, first, more: more.len() })
+    }
 }
 
 /// Compares the folder `root` with its `MANIFEST.json` and reports every difference. Trusts nothing in it: no link is

@@ -77,13 +77,7 @@ pub struct Packed {
 pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     refuse_unfinished(root)?;
     let integrity = check_integrity(root)?;
-    if let Some(first) = integrity.problems.first() {
-        return Err(SnapshotError::Unsound {
-            path: root.to_path_buf(),
-            first: first.to_string(),
-            more: integrity.problems.len() - 1,
-        });
-    }
+    integrity.require_sound(root)?;
     let (manifest, papers) = (integrity.manifest, integrity.beside.papers.len());
     if fs::symlink_metadata(out).is_ok() {
         return Err(SnapshotError::Taken(out.to_path_buf()));
@@ -259,13 +253,7 @@ impl Archive {
     /// # Errors
     /// The archive is not sound, `out` is occupied, or the file system refuses.
     pub fn unpack(&self, out: &Path) -> Result<(), SnapshotError> {
-        if let Some(first) = self.integrity.problems.first() {
-            return Err(SnapshotError::Unsound {
-                path: out.to_path_buf(),
-                first: first.to_string(),
-                more: self.integrity.problems.len() - 1,
-            });
-        }
+        self.integrity.require_sound(out)?;
         let draft = Draft::create(out)?;
         for (path, content) in &self.files {
             draft.write(path, content)?;

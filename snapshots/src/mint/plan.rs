@@ -374,7 +374,7 @@ mod tests {
         // The selection counts what the judges saw.
         frozen.difficulties = vec![Difficulty::VeryHard];
         let contender = Contender::of(0, 0, &frozen).unwrap();
-        assert_eq!(contender.labels, [(Difficulty::VeryHard, 1)].into());
+        assert_eq!(contender.difficulties, [Difficulty::VeryHard]);
     }
 
     #[test]

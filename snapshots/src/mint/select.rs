@@ -30,7 +30,8 @@ pub(super) struct Contender {
     pub(super) is_new: bool,
     title: String,
     cast: Cast,
-    pub(super) labels: BTreeMap<Difficulty, i64>,
+    /// The difficulties of its levels.
+    pub(super) difficulties: Vec<Difficulty>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
     pub(super) rules: usize,
@@ -58,7 +59,7 @@ impl Contender {
             is_new: is_new(&frozen.card),
             title: frozen.card.title.clone(),
             cast: Cast::of(&game),
-            labels: labels(&frozen.difficulties),
+            difficulties: frozen.difficulties.clone(),
             goal: kind.goal,
             avatar: kind.avatar,
             rules: game.description().interactions.len(),
@@ -79,15 +80,6 @@ impl Contender {
 /// Tests whether a game comes from a generator.
 pub(super) fn is_new(card: &Card) -> bool {
     matches!(card.origin, Origin::Generated { .. })
-}
-
-/// The number of levels at each difficulty.
-fn labels(difficulties: &[Difficulty]) -> BTreeMap<Difficulty, i64> {
-    let mut labels = BTreeMap::new();
-    for &difficulty in difficulties {
-        *labels.entry(difficulty).or_default() += 1;
-    }
-    labels
 }
 
 /// A requested range and the number that was achieved.
@@ -165,10 +157,7 @@ pub(super) fn select(
     let missed = bins(recipe, contenders, &taken).into_iter().filter(|bin| bin.missed() > 0);
     let told = |bin: Bin| format!("{} {} (asked {} to {})", bin.name, bin.there, bin.least, bin.most);
     let missed = missed.map(told).join(", ");
-    match missed.is_empty() {
-        true => Ok(taken),
-        false => Err(MintError::Uneven { candidates: fit.len(), missed }),
-    }
+    if missed.is_empty() { Ok(taken) } else { Err(MintError::Uneven { candidates: fit.len(), missed }) }
 }
 
 /// The contenders that may be selected together.
@@ -327,8 +316,8 @@ impl<'a> Counts<'a> {
     }
 
     fn add(&mut self, game: &'a Contender, times: i64) {
-        for (&label, levels) in &game.labels {
-            *self.labels.entry(label).or_default() += times * levels;
+        for &difficulty in &game.difficulties {
+            *self.labels.entry(difficulty).or_default() += times;
         }
         *self.goals.entry(game.goal).or_default() += times;
         *self.avatars.entry(game.avatar).or_default() += times;

@@ -102,10 +102,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
     // Check the place to write to before minutes of work.
-    let draft = match args.resume {
-        true => protected::resumed(&args.out)?,
-        false => protected::draft(&args.out)?,
-    };
+    let draft = if args.resume { protected::resumed(&args.out)? } else { protected::draft(&args.out)? };
     let store = JobFolder::open(&draft.jobs(), args.plan(&order))?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
     let hint = "interrupted; what is finished is kept: continue with the same command and --resume";
