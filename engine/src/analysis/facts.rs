@@ -48,6 +48,13 @@ pub enum Steering {
     Jumping,
 }
 
+impl Steering {
+    /// Returns `true` if the avatar stays where it is unless a key moves it.
+    pub(super) fn waits_for_keys(self) -> bool {
+        matches!(self, Steering::FourWay | Steering::Horizontal | Steering::Vertical | Steering::Fixed)
+    }
+}
+
 /// An avatar type that can occur.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Avatar {

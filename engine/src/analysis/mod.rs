@@ -279,11 +279,8 @@ impl Analysis {
     /// with grid physics, one whole cell per step.
     pub fn moves_by_whole_cells(&self, avatar: SpriteType) -> bool {
         let traits = &self.game.0.types[avatar.index()].traits;
-        let steering = self.avatars.iter().find(|known| known.stype == avatar).map(|known| known.steering);
-        let steps = matches!(
-            steering,
-            Some(Steering::FourWay | Steering::Horizontal | Steering::Vertical | Steering::Fixed)
-        );
+        let avatar = self.avatars.iter().find(|known| known.stype == avatar);
+        let steps = avatar.is_some_and(|avatar| avatar.steering.waits_for_keys());
         steps && !traits.continuous && (traits.speed <= 0.0 || traits.speed == 1.0)
     }
 
@@ -297,15 +294,7 @@ impl Analysis {
                     Motion::Still => facts.makes.is_empty(),
                     Motion::Steered => {
                         let avatar = self.avatars.iter().find(|avatar| avatar.stype == stype);
-                        avatar.is_none_or(|avatar| {
-                            matches!(
-                                avatar.steering,
-                                Steering::FourWay
-                                    | Steering::Horizontal
-                                    | Steering::Vertical
-                                    | Steering::Fixed
-                            )
-                        })
+                        avatar.is_none_or(|avatar| avatar.steering.waits_for_keys())
                     }
                     _ => false,
                 }

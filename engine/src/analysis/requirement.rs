@@ -108,8 +108,7 @@ fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
 fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {
-        Condition::AtLeast(_, limit) => *limit > 0,
-        Condition::Exactly(_, limit) => *limit > 0,
+        Condition::AtLeast(_, limit) | Condition::Exactly(_, limit) => *limit > 0,
         Condition::AtMost(..) | Condition::Tick(_) => false,
     };
     let mut list = Vec::new();

@@ -46,8 +46,8 @@ impl Analysis {
                 let is_second = second.is_some_and(|second| second.in_tree(stype));
                 *interchangeable &= match (is_first, is_second) {
                     (false, false) => !is_special(encounter, rules, stype),
-                    (true, false) => is_local_to_first(rules, encounter, info),
-                    (false, true) => is_partner_independent(rules, encounter, info),
+                    (true, false) => holds(info.summary.is_local_to_first, rules, encounter, info),
+                    (false, true) => holds(info.summary.is_partner_independent, rules, encounter, info),
                     (true, true) => is_undo(info),
                 };
             }
@@ -147,24 +147,14 @@ fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
-fn holds(property: Provided, encounter: &Encounter, info: &EffectInfo) -> bool {
-    match property {
+/// Returns `true` if a property of the effect that has this condition holds for an interaction.
+fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
+    let provided = match property {
         Provided::Never => false,
         Provided::Free => is_free(encounter, info),
         Provided::Always => true,
-    }
-}
-
-/// Returns `true` if the effect on the first sprite depends on it and its partner alone, and changes nothing else.
-fn is_local_to_first(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
-    let own = holds(info.summary.is_local_to_first, encounter, info);
-    own && !info.in_batch && !rules.remembering.contains(&encounter.effect)
-}
-
-/// Returns `true` if the effect on the first sprite is the same whichever partner comes first.
-fn is_partner_independent(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
-    let once = holds(info.summary.is_partner_independent, encounter, info);
-    once && !info.in_batch && !rules.remembering.contains(&encounter.effect)
+    };
+    provided && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
 /// Returns `true` if everything is moved back, whichever sprites met.

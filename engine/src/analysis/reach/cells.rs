@@ -196,20 +196,10 @@ impl Directions {
     pub(super) fn of(direction: Direction) -> Directions {
         match (direction.x, direction.y) {
             (0.0, 0.0) => Directions::UNSET,
-            (0.0, y) => {
-                if y < 0.0 {
-                    Directions::UP
-                } else {
-                    Directions::DOWN
-                }
-            }
-            (x, 0.0) => {
-                if x < 0.0 {
-                    Directions::LEFT
-                } else {
-                    Directions::RIGHT
-                }
-            }
+            (0.0, y) if y < 0.0 => Directions::UP,
+            (0.0, _) => Directions::DOWN,
+            (x, 0.0) if x < 0.0 => Directions::LEFT,
+            (_, 0.0) => Directions::RIGHT,
             _ => Directions::ASKEW,
         }
     }

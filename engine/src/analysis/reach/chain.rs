@@ -119,6 +119,9 @@ const MAX_DEPTH: usize = 4;
 /// Used instead of a cell: the making of sprites has been reported already.
 const UNMADE: usize = usize::MAX;
 
+/// The sprites whose obstacles have been reported, each with its cell or [`UNMADE`].
+type Reported = Vec<(SpriteType, usize)>;
+
 /// The sprites that an interaction would remove.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ended {
@@ -157,12 +160,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the rules that could remove a sprite where it stands, with their missing requirements.
-    fn keeping(
-        &self,
-        stype: SpriteType,
-        cell: usize,
-        reported: &mut Vec<(SpriteType, usize)>,
-    ) -> Vec<Obstacle> {
+    fn keeping(&self, stype: SpriteType, cell: usize, reported: &mut Reported) -> Vec<Obstacle> {
         if reported.contains(&(stype, cell)) || reported.len() >= MAX_DEPTH {
             return Vec::new();
         }
@@ -184,7 +182,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the rules and sprites that could make sprites of a type, with their missing requirements.
-    fn unmade(&self, stype: SpriteType, reported: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
+    fn unmade(&self, stype: SpriteType, reported: &mut Reported) -> Vec<Obstacle> {
         let makes = |encounter: &Encounter| {
             encounter.does(|effect| {
                 let clones = *effect == EffectSummary::Clone;
@@ -194,9 +192,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         let mut obstacles: Vec<Obstacle> = Vec::new();
         for encounter in self.analysis.encounters.iter().filter(|encounter| makes(encounter)) {
             let known = obstacles.iter().any(|known| known.line == Some(encounter.line));
-            if let Some(missing) =
-                Some(()).filter(|()| !known).and_then(|()| self.missing(encounter, None, reported))
-            {
+            if !known && let Some(missing) = self.missing(encounter, None, reported) {
                 obstacles.push(Obstacle { target: stype, line: Some(encounter.line), missing });
             }
         }
@@ -266,7 +262,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         &self,
         encounter: &Encounter,
         target: Option<(SpriteType, usize, Ended)>,
-        reported: &mut Vec<(SpriteType, usize)>,
+        reported: &mut Reported,
     ) -> Option<Missing> {
         let Encounter { first, second, precondition, .. } = *encounter;
         if let Some(absent) = [Some(first), second].into_iter().flatten().find(|&side| !self.is_alive(side)) {
@@ -328,12 +324,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the reason why no more of a resource can be obtained.
-    fn shortage(
-        &self,
-        resource: SpriteType,
-        needed: i32,
-        reported: &mut Vec<(SpriteType, usize)>,
-    ) -> Shortage {
+    fn shortage(&self, resource: SpriteType, needed: i32, reported: &mut Reported) -> Shortage {
         let model = self.events.flood.model;
         let rules = &*self.analysis.game().0;
         let limit = rules.types[resource.index()].resource_limit;
@@ -411,12 +402,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the obstacle that keeps sprites of a type from a cell.
-    fn unreachable(
-        &self,
-        stype: SpriteType,
-        cell: usize,
-        reported: &mut Vec<(SpriteType, usize)>,
-    ) -> Unreachable {
+    fn unreachable(&self, stype: SpriteType, cell: usize, reported: &mut Reported) -> Unreachable {
         let blockers = self.in_the_way(stype, cell);
         let blockers = blockers.into_iter().take(MAX_BLOCKERS).map(|(stype, cell)| {
             let obstacles = self.keeping(stype, cell, reported);
@@ -430,12 +416,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     fn in_the_way(&self, stype: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
         let family: Vec<SpriteType> = rules.types[stype.index()].tree.to_vec();
-        let rest = family.iter().fold(Cells::none(board), |mut all, &stype| {
-            if self.events.can_occur(stype) {
-                all.add(self.events.rest(stype));
-            }
-            all
-        });
+        let rest = self.cells_of(stype, |stype| self.events.rest(stype));
         let barring = |cell: usize| -> Vec<SpriteType> {
             let barring = family.iter().flat_map(|&stype| self.events.flood.barring(stype, cell));
             barring.collect::<BTreeSet<_>>().into_iter().collect()
@@ -474,11 +455,15 @@ impl<'a, 'e> Chains<'a, 'e> {
 
     /// Returns the cells where sprites for which a rule on `written` holds can be at some moment.
     fn all(&self, written: SpriteType) -> Cells {
+        self.cells_of(written, |stype| self.events.touch(stype))
+    }
+
+    /// Returns the cells of all sprites that can occur for which a rule on `written` holds.
+    fn cells_of<'c>(&self, written: SpriteType, cells: impl Fn(SpriteType) -> &'c Cells) -> Cells {
         let mut all = Cells::none(self.events.board());
-        for &stype in self.analysis.game().0.types[written.index()].tree.iter() {
-            if self.events.can_occur(stype) {
-                all.add(self.events.touch(stype));
-            }
+        let family = self.analysis.game().0.types[written.index()].tree.iter().copied();
+        for stype in family.filter(|&stype| self.events.can_occur(stype)) {
+            all.add(cells(stype));
         }
         all
     }

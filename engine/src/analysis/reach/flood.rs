@@ -77,14 +77,11 @@ impl<'a> Flood<'a> {
         let [touch, late, rest, spread] = std::array::from_fn(|_| none.clone());
         let region = Region { touch, late, rest, spread, ..Region::default() };
         let for_each = |exists: &bool| if *exists { none.clone() } else { Cells::default() };
+        let region_if = |exists: &bool| if *exists { region.clone() } else { Region::default() };
         let mut flood = Flood {
             model,
             board,
-            regions: model
-                .exists
-                .iter()
-                .map(|&exists| if exists { region.clone() } else { Region::default() })
-                .collect(),
+            regions: model.exists.iter().map(region_if).collect(),
             permanent: model.exists.iter().map(for_each).collect(),
             removable: model.exists.iter().map(for_each).collect(),
             ends: 0,
@@ -96,6 +93,7 @@ impl<'a> Flood<'a> {
             work: 0,
         };
         for stype in model.types() {
+            flood.removed[stype.index()] = super::super::attain::disappears_by_itself(model.rules, stype);
             let climb = super::jump::climb(model, stype);
             flood.climbs[stype.index()] = climb;
             if climb.is_some() {
@@ -104,9 +102,6 @@ impl<'a> Flood<'a> {
             if model.of_type(stype).is_steady() {
                 flood.regions[stype.index()].headings = vec![Directions::NONE; board.size()];
             }
-        }
-        for stype in model.types() {
-            flood.removed[stype.index()] = super::super::attain::disappears_by_itself(model.rules, stype);
         }
         let wraps = Flood::always_wraps(model);
         for meeting in model.meetings {

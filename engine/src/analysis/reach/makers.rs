@@ -40,13 +40,8 @@ impl Events<'_> {
         let traits = &model.info(maker).traits;
         match model.info(maker).class {
             Some(SpriteClass::FlakAvatar | SpriteClass::Spreader | SpriteClass::OngoingTurningAvatar) => born,
-            Some(class) if class.is_avatar() => {
-                if model.info(made).traits.is_oriented {
-                    facing
-                } else {
-                    born
-                }
-            }
+            Some(class) if class.is_avatar() && model.info(made).traits.is_oriented => facing,
+            Some(class) if class.is_avatar() => born,
             _ if traits.spawn_orientation != Direction::NONE => Directions::of(traits.spawn_orientation),
             _ if born.meets(Directions::UNSET) => facing,
             _ => born,
@@ -77,12 +72,9 @@ impl Events<'_> {
             (C::WizardAvatar, _) => around(2 + grown),
             (C::OngoingTurningAvatar, _) => vec![(self.rest(maker).clone(), own.facing)],
             (C::Spreader, _) => self.ahead(self.touch(maker), Directions::FOUR, grown),
-            (_, Family::Producer | Family::Avatar) => vec![(self.touch(maker).clone(), own.facing)],
-            // These make none.
-            (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
-                vec![(self.touch(maker).clone(), own.facing)]
-            }
-            (_, Family::Npc | Family::Walker) => {
+            // Other producers and avatars; the rest make none.
+            (_, Family::Producer | Family::Avatar | Family::Npc | Family::Walker)
+            | (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
                 vec![(self.touch(maker).clone(), own.facing)]
             }
         }
