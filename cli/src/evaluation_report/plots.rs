@@ -53,8 +53,7 @@ impl Heats {
     /// Makes the heat maps of all measures in all scopes.
     pub(super) fn of(study: &Study) -> Heats {
         let scopes = study.by_level.iter().map(|matrix| match matrix.scope {
-            Scope::ZeroShot => "zero-shot".to_owned(),
-            Scope::Contextual => "contextual".to_owned(),
+            Scope::ZeroShot | Scope::Contextual => matrix.scope.name().to_owned(),
             Scope::Both => "both modes together".to_owned(),
         });
         let panels = Measure::ALL.into_iter().enumerate().flat_map(|(measure, shown)| {

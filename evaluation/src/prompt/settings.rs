@@ -101,15 +101,16 @@ pub enum PromptStyle {
     Reference,
 }
 
-/// The handling of earlier turns.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Mode {
-    /// Every turn is independent: no earlier turns are shown.
-    #[default]
-    ZeroShot,
-    /// The conversation continues, within its token budget.
-    Contextual,
+engine::named_enum! {
+    /// The handling of earlier turns.
+    #[derive(Default)]
+    pub enum Mode {
+        /// Every turn is independent: no earlier turns are shown.
+        #[default]
+        ZeroShot = "zero-shot",
+        /// The conversation continues, within its token budget.
+        Contextual = "contextual",
+    }
 }
 
 /// The form of the rules.

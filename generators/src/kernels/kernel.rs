@@ -73,25 +73,20 @@ impl Casting {
     }
 }
 
-/// The intent of a level in a course of five.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
-#[serde(rename_all = "kebab-case")]
-pub enum Slot {
-    /// The trick in its safe and small form.
-    Introduce,
-    /// The same where a mistake costs.
-    Confirm,
-    /// Together with another mechanic.
-    Combine,
-    /// The known thing used the other way round.
-    Twist,
-    /// Everything, with little slack.
-    Exam,
-}
-
-impl Slot {
-    /// The slots in the order of a course.
-    pub const ALL: [Slot; 5] = [Slot::Introduce, Slot::Confirm, Slot::Combine, Slot::Twist, Slot::Exam];
+engine::named_enum! {
+    /// The intent of a level in a course of five, in the order of a course.
+    pub enum Slot {
+        /// The trick in its safe and small form.
+        Introduce = "introduce",
+        /// The same where a mistake costs.
+        Confirm = "confirm",
+        /// Together with another mechanic.
+        Combine = "combine",
+        /// The known thing used the other way round.
+        Twist = "twist",
+        /// Everything, with little slack.
+        Exam = "exam",
+    }
 }
 
 /// The map of a level, and its question to the player.

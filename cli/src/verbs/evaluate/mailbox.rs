@@ -1,6 +1,6 @@
 //! The player `mailbox:DIR`: whoever answers the prompts in a folder.
 
-use super::model::{mode_name, prompters};
+use super::model::prompters;
 use super::{Args, PlayerOf};
 use crate::console::Console;
 use crate::failure::Failure;
@@ -41,7 +41,7 @@ impl RequestedMailbox {
         let folder = self.folder.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy();
         Ok(Entrant {
             name: args.name.clone().unwrap_or_else(|| format!("mailbox:{folder}")),
-            mode: Some(mode_name(self.prompts.mode).to_owned()),
+            mode: Some(self.prompts.mode.name().to_owned()),
             aids: self.prompts.aids(),
             details: json!({
                 "mailbox": true,

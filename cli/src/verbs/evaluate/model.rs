@@ -91,7 +91,7 @@ pub(crate) struct ModelArgs {
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
     /// Earlier turns in prompts: left out or shown
-    #[arg(long, value_parser = named::<Mode, 2>(["zero-shot", "contextual"]), default_value = "zero-shot")]
+    #[arg(long, value_parser = named::<Mode, 2>(Mode::ALL.map(Mode::name)), default_value = "zero-shot")]
     mode: Mode,
     /// The composition of prompts
     #[arg(long, value_parser = named::<PromptStyle, 2>(["standard", "reference"]), default_value = "standard")]
@@ -241,13 +241,11 @@ impl ModelArgs {
     }
 
     fn options(&self, model: &str) -> Result<ModelOptions, Failure> {
-        let cost = match self.max_cost {
-            Some(dollars) => Some(
-                Usd::from_dollars(dollars)
-                    .ok_or_else(|| malformed!("--max-cost takes an amount in US dollars, not {dollars}"))?,
-            ),
-            None => None,
+        let cost = |dollars: f64| {
+            Usd::from_dollars(dollars)
+                .ok_or_else(|| malformed!("--max-cost takes an amount in US dollars, not {dollars}"))
         };
+        let cost = self.max_cost.map(cost).transpose()?;
         Ok(ModelOptions {
             base_url: self.base_url.clone(),
             key_variable: self.key_variable.clone(),
@@ -268,13 +266,6 @@ impl ModelArgs {
             timeout: self.timeout(),
             ..ModelOptions::new(model)
         })
-    }
-}
-
-pub(super) fn mode_name(mode: Mode) -> &'static str {
-    match mode {
-        Mode::ZeroShot => "zero-shot",
-        Mode::Contextual => "contextual",
     }
 }
 
@@ -353,7 +344,7 @@ impl RequestedModel {
             .transpose()?;
         Ok(Entrant {
             name: self.settings.model.clone(),
-            mode: Some(mode_name(self.prompts.mode).to_owned()),
+            mode: Some(self.prompts.mode.name().to_owned()),
             aids: self.prompts.aids(),
             details: json!({
                 "model": self.settings,
