@@ -36,14 +36,11 @@ impl<'a, V: Variation> Breeding<'a, V> {
 
     /// Creates a new candidate from nothing; `None` if none of a few seeds leads to one.
     pub(crate) fn create(&mut self) -> Option<V::Candidate> {
-        for _ in 0..TRIES {
+        (0..TRIES).find_map(|_| {
             self.drawn += 1;
             let made = self.variation.create(self.seed.child("create", self.drawn));
-            if let Some(candidate) = made.filter(|candidate| self.note(candidate)) {
-                return Some(candidate);
-            }
-        }
-        None
+            made.filter(|candidate| self.note(candidate))
+        })
     }
 
     /// Breeds a new candidate from one parent or from two: crossed, and then mutated half of the time; or only mutated. A

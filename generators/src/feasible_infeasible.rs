@@ -140,14 +140,11 @@ impl<V: Variation> Search for FeasibleInfeasible<'_, V> {
         for (candidate, evaluation) in evaluated {
             self.breeding.note(&candidate);
             let judged = Evaluated { candidate, evaluation };
+            let size = self.config.size;
             if judged.evaluation.is_feasible() {
-                insert_ranked(&mut self.feasible, judged, self.config.size, |evaluation| {
-                    evaluation.objective
-                });
+                insert_ranked(&mut self.feasible, judged, size, |evaluation| evaluation.objective);
             } else {
-                insert_ranked(&mut self.infeasible, judged, self.config.size, |evaluation| {
-                    evaluation.feasibility
-                });
+                insert_ranked(&mut self.infeasible, judged, size, |evaluation| evaluation.feasibility);
             }
         }
     }

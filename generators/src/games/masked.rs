@@ -7,6 +7,7 @@
 use super::surface::{self, Symbols};
 use engine::syntax::SpriteLine;
 use engine::{Description, Sampler, Seed};
+use itertools::Itertools;
 use std::collections::BTreeMap;
 
 /// Level characters of masked games.
@@ -55,14 +56,9 @@ struct Mask {
 impl Mask {
     fn draw(description: &Description, sampler: &mut Sampler) -> Mask {
         let own = surface::own_names(description);
-        let mut colors: Vec<&str> = Vec::new();
-        for (_, line) in description.sprite_lines() {
-            for param in line.params.iter().filter(|param| param.key.text == "color") {
-                if !colors.contains(&param.value.text.as_str()) {
-                    colors.push(&param.value.text);
-                }
-            }
-        }
+        let params = description.sprite_lines().into_iter().flat_map(|(_, line)| &line.params);
+        let colors = params.filter(|param| param.key.text == "color").map(|param| param.value.text.as_str());
+        let colors = colors.unique().collect_vec();
         let mut numbers: Vec<usize> = (1..=own.len()).collect();
         sampler.shuffle(&mut numbers);
         let names = own.iter().zip(numbers).map(|(name, number)| ((*name).to_owned(), format!("t{number}")));

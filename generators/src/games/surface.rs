@@ -3,7 +3,8 @@
 
 use engine::Description;
 use engine::syntax::{MappingLine, SpriteLine, Trivia};
-use std::collections::{BTreeMap, BTreeSet};
+use itertools::Itertools;
+use std::collections::BTreeMap;
 
 /// Names that the engine gives a meaning to, and that are never changed.
 pub(super) const RESERVED: [&str; 2] = ["wall", "avatar"];
@@ -33,14 +34,8 @@ fn strip_lines(lines: &mut [SpriteLine]) {
 
 /// The names of the types that the file declares, each once, without the reserved ones.
 pub(super) fn own_names(description: &Description) -> Vec<&str> {
-    let (mut own, mut seen) = (Vec::new(), BTreeSet::new());
-    for (_, line) in description.sprite_lines() {
-        let name = line.name.text.as_str();
-        if !RESERVED.contains(&name) && seen.insert(name) {
-            own.push(name);
-        }
-    }
-    own
+    let names = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.as_str());
+    names.filter(|name| !RESERVED.contains(name)).unique().collect()
 }
 
 /// The characters that levels of a game can use: those of the LevelMapping in its order, then the built-in ones whose

@@ -159,13 +159,8 @@ impl Builder<'_> {
             Role::Boulder => u32::from(own_kind > 0),
             // Close to each other, so that there is room for their threats.
             Role::Ward => 1 + 12 / (1 + own_kind),
-            Role::Pushable | Role::Socket => {
-                if walls == 0 && from_start > 1 {
-                    own_kind
-                } else {
-                    0
-                }
-            }
+            Role::Pushable | Role::Socket if walls == 0 && from_start > 1 => own_kind,
+            Role::Pushable | Role::Socket => 0,
             Role::Portal | Role::PortalExit => {
                 let pair = self.apart_from(cell, Role::Portal).min(self.apart_from(cell, Role::PortalExit));
                 if from_start < 3 || pair < 5 { 0 } else { share }
