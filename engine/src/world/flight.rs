@@ -66,13 +66,8 @@ impl World {
                 // Off the board and moving further away.
                 0 if by < 0 && size <= at.wrapping_neg() => i32::MAX,
                 0 => 0,
-                cell if cell > cells => {
-                    if by > 0 {
-                        i32::MAX
-                    } else {
-                        0
-                    }
-                }
+                cell if cell > cells && by > 0 => i32::MAX,
+                cell if cell > cells => 0,
                 _ => {
                     let offset = at - start;
                     let reach = self.block - size.max(1);

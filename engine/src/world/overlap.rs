@@ -154,11 +154,8 @@ impl World {
     ) -> usize {
         let sprite = self.sprite(slot);
         let rect = self.rect(sprite);
-        if sprite.is(flag::BIG) {
-            return self.overlapping_rect(reach, side, (slot, rect), above, hits);
-        }
         let span = self.span(self.cell_of(sprite), sprite.flags);
-        if self.span_is_covered(span, side) {
+        if sprite.is(flag::BIG) || self.span_is_covered(span, side) {
             return self.overlapping_rect(reach, side, (slot, rect), above, hits);
         }
         // Sprites that lie in several cells may reach over from the cells to the left and above.
