@@ -17,8 +17,8 @@ engine::with_defaults! {
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After
     /// that, and in stochastic games from the start, planners play episodes in rounds of growing length: [`Width`]
     /// looks far ahead, [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
-    /// risks. Last, where that is asked for, comes a [`best_first`] search of a stochastic game that foresees all chance of one
-    /// episode.
+    /// risks. In a stochastic game, where that is asked for, a [`best_first`] search that foresees all chance of one episode
+    /// comes when the planners have spent half of their calls.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
@@ -112,17 +112,29 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     {
         return solved;
     }
-    // The end of the budget is for the search with foresight.
-    let foresight = if is_certain || start.is_over() { 0 } else { share(config.foresight).calls };
+    // Halfway, the search with foresight gets its share.
+    let mut foresight = if is_certain || start.is_over() { 0 } else { share(config.foresight).calls };
     let budget = config.budget - foresight;
+    let mut played = solved.calls;
     let mut round_calls = budget / FIRST_ROUND;
     for round in 0.. {
-        let left = budget.saturating_sub(solved.calls);
+        if foresight > 0 && (played >= budget / 2 || round == MAX_ROUNDS) {
+            foresight = 0;
+            let searched = best_first(analysis, &pushes, &start, share(config.foresight));
+            // By other chance the level may be won.
+            if matches!(searched.answer, Answer::Impossible) {
+                solved.calls += searched.calls;
+            } else if take(&mut solved, searched) {
+                break;
+            }
+        }
+        let left = budget.saturating_sub(played);
         if left == 0 || round == MAX_ROUNDS {
             break;
         }
         let plays = play_round(analysis, level, config, round_calls.min(left), seed.child("round", round));
-        solved.calls += plays.iter().map(|play| play.calls).sum::<u64>();
+        let calls: u64 = plays.iter().map(|play| play.calls).sum();
+        (played, solved.calls) = (played + calls, solved.calls + calls);
         let won = plays.iter().filter(|play| play.episode.outcome == Outcome::Won);
         let shortest = won.min_by_key(|play| play.episode.actions.len());
         if let Some(play) = shortest {
@@ -133,9 +145,6 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
             break;
         }
         round_calls = round_calls.saturating_mul(2);
-    }
-    if foresight > 0 && matches!(solved.solution, Solution::Unknown) {
-        take(&mut solved, best_first(analysis, &pushes, &start, share(config.foresight)));
     }
     solved
 }

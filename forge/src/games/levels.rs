@@ -2,12 +2,14 @@
 
 use crate::card::LevelCard;
 use crate::tally::Tally;
-use engine::{Digest, Episode, Game, Level, Seed};
+use engine::{Digest, Episode, Game, Level, Outcome, Seed};
 use generators::kernels::{Course, CourseLevel, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use std::slice;
-use validators::{Criteria, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, mcts_rate};
+use validators::{
+    Criteria, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, Verdict, mcts_rate,
+};
 
 /// A level that its judges let in.
 #[derive(Clone, Debug)]
@@ -264,25 +266,35 @@ impl Levels<'_> {
         })
     }
 
-    /// A level that was found for another game, in which all that was played ends as in this one: judged again, but for the
-    /// ladder, whose plays are carried over. The dice are the same, so that a replay ends as before.
+    /// A level that was found for a game that had another time limit: judged again, but for the criteria whose plays are
+    /// dear, which are carried over if the win still wins. The dice are the same, so that a replay ends as before.
     pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
-        let ask = self.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
+        let witness = recorded(game, &level, found.report.witness.as_ref()?);
+        let is_won = witness.outcome == Outcome::Won;
+        let is_carried = |criterion: &str| PLAYED.contains(&criterion) || is_won && criterion == "winnable";
+        let ask = self.criteria.ask.iter().filter(|name| !is_carried(name)).cloned().collect();
         let panel =
             Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
-        let (place, mut carried) = ((found.difficulty, found.candidate), found.report.judgements.clone());
-        let asks = found.asks.clone();
-        let mut found = self.judged(&panel, game, level, place, found.seed, tally)?;
-        found.asks = asks;
-        carried.retain(|judgement| PLAYED.contains(&judgement.criterion));
-        for judgement in &mut carried {
+        let win = is_won.then_some(witness);
+        let (place, seed) = ((found.difficulty, found.candidate), found.seed);
+        let mut again = self.judged(&panel, game, level, (place, win), seed, tally)?;
+        let carried = found.report.judgements.iter().filter(|judgement| is_carried(judgement.criterion));
+        for mut judgement in carried.cloned() {
             for episode in &mut judgement.finding.episodes {
-                *episode = recorded(game, &found.level, episode);
+                *episode = recorded(game, &again.level, episode);
             }
+            if let Verdict::Pass { witness: Some(won) } = &mut judgement.finding.verdict {
+                *won = recorded(game, &again.level, won);
+            }
+            again.report.judgements.push(judgement);
         }
-        found.report.judgements.append(&mut carried);
-        Some(found)
+        let place_of = |judgement: &Judgement| {
+            found.report.judgements.iter().position(|before| before.criterion == judgement.criterion)
+        };
+        again.report.judgements.sort_by_key(place_of);
+        again.asks.clone_from(&found.asks);
+        Some(again)
     }
 
     /// A level for a place, beside those of other places.
@@ -332,7 +344,8 @@ impl Levels<'_> {
                 }
             };
             let calls = tally.calls;
-            let Some(found) = self.judged(self.panel, game, level, (difficulty, candidate), seed, tally)
+            let Some(found) =
+                self.judged(self.panel, game, level, ((difficulty, candidate), None), seed, tally)
             else {
                 // A search in vain for a win is dear: it counts as several candidates.
                 if tally.calls - calls > self.criteria.budget / 2 {
@@ -368,17 +381,21 @@ impl Levels<'_> {
         judged.iter().any(|judgement| !judgement.finding.verdict.is_pass())
     }
 
-    /// A level that meets all criteria.
+    /// A level that meets all criteria; `win` is one that is known.
     fn judged(
         &self,
         panel: &Panel,
         game: &Game,
         level: Level,
-        (difficulty, candidate): (f64, u32),
+        ((difficulty, candidate), win): ((f64, u32), Option<Episode>),
         seed: Seed,
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
-        let report = panel.screen(game, &level, seed.child("judges", 0));
+        let seed_of_judges = seed.child("judges", 0);
+        let report = match win {
+            Some(win) => panel.screen_won(game, &level, win, seed_of_judges),
+            None => panel.screen(game, &level, seed_of_judges),
+        };
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
         tally.level(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum(), obstacle);
         (obstacle.is_none() && report.witness.is_some()).then_some(FoundLevel {

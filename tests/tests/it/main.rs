@@ -17,6 +17,7 @@ mod limits;
 mod novelty;
 mod pages;
 mod pictures;
+mod portfolio;
 mod public_games;
 mod robustness;
 mod search;

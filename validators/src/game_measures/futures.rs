@@ -5,6 +5,7 @@
 
 use engine::{Game, Outcome, Sampler, Seed, State};
 use std::cmp::Ordering;
+use std::mem;
 
 /// Ticks that random futures are played.
 pub const SIGHT: usize = 64;
@@ -17,24 +18,32 @@ const KEYS_TRIED: usize = 3;
 /// The number of futures that must be worse for the played line to be visibly better.
 const WORSE: usize = 6;
 
-/// Plays for `ticks` ticks, or until the game is over.
-fn play_on(game: &Game, state: &mut State, keys: &mut Sampler, ticks: usize) {
-    for _ in 0..ticks {
-        if state.is_over() {
-            return;
-        }
-        let mut press = || {
-            let mut after = state.clone();
-            game.step(&mut after, *keys.choose(game.actions(state)));
-            after
-        };
-        let mut after = press();
-        for _ in 1..KEYS_TRIED {
-            if after.outcome() == Outcome::Lost {
-                after = press();
+/// A future while it is played.
+struct Future<'a> {
+    game: &'a Game,
+    state: State,
+    /// Room for the state after a key.
+    after: State,
+    keys: Sampler,
+}
+
+impl Future<'_> {
+    /// Plays for `ticks` ticks, or until the game is over.
+    fn play_on(&mut self, ticks: usize) {
+        for _ in 0..ticks {
+            if self.state.is_over() {
+                return;
             }
+            for _ in 0..KEYS_TRIED {
+                self.after.clone_from(&self.state);
+                let action = *self.keys.choose(self.game.actions(&self.state));
+                self.game.step(&mut self.after, action);
+                if self.after.outcome() != Outcome::Lost {
+                    break;
+                }
+            }
+            mem::swap(&mut self.state, &mut self.after);
         }
-        *state = after;
     }
 }
 
@@ -70,13 +79,14 @@ impl Futures {
     pub(super) fn of(game: &Game, state: &State, seed: Seed) -> Futures {
         let play = |number: u64| {
             let seed = seed.child("future", number);
-            let mut after = state.fork(seed.child("chance", 0));
-            let mut keys = seed.child("keys", 0).sampler();
+            let forked = state.fork(seed.child("chance", 0));
+            let keys = seed.child("keys", 0).sampler();
+            let mut future = Future { game, after: forked.clone(), state: forked, keys };
             let mut played = 0;
             CHECKPOINTS.map(|ticks| {
-                play_on(game, &mut after, &mut keys, ticks - played);
+                future.play_on(ticks - played);
                 played = ticks;
-                Standing::of(&after)
+                Standing::of(&future.state)
             })
         };
         Futures((0..FUTURES).map(play).collect())
