@@ -63,7 +63,7 @@ pub use sampler::Sampler;
 pub use seed::Seed;
 pub use state::State;
 pub use syntax::Description;
-pub use tick::{Meeting, Watch};
+pub use tick::{Meeting, Removal, Watch};
 pub use world::{SearchKey, StateHash};
 
 /// The version of the semantics, incremented when any golden trace changes: witnesses replay only under the same number.

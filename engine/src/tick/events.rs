@@ -1,7 +1,7 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
 use super::effects;
-use super::{Meeting, Scheduler, Step, Watch};
+use super::{Meeting, Removal, Scheduler, Step, Watch};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
 use crate::rules::{EffectInfo, Limit, Pass, SpriteType, Timed, memory};
@@ -86,8 +86,10 @@ impl<'a, S: Scheduler> Step<'a, S> {
                     if watch.wants_meetings() {
                         self.tell(watch, timed.line, slot, None);
                     }
+                    let standing = self.standing(watch, slot, &[]);
                     self.work_of_effect();
                     effects::execute(self, timed.effect, &info.effect, slot, None);
+                    self.tell_removals(watch, timed.line, &standing);
                     self.credit(info, info.initial_memory(), 1);
                     if self.world.group(stype).tail != tail {
                         self.stop(Limit::SpawnIntoUpdatedType);
@@ -266,9 +268,11 @@ impl<'a, S: Scheduler> Step<'a, S> {
         if watch.wants_meetings() {
             self.tell(watch, info.line, one, two);
         }
+        let standing = self.standing(watch, one, two.as_slice());
         self.work_of_effect();
         S::executes(self, info, one, two.as_slice());
         effects::execute(self, effect, &info.effect, one, two);
+        self.tell_removals(watch, info.line, &standing);
         let remembered = self.world.memory(effect);
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
@@ -280,6 +284,39 @@ impl<'a, S: Scheduler> Step<'a, S> {
         let cell = (first.rect.x.div_euclid(self.world.block()), first.rect.y.div_euclid(self.world.block()));
         let second = two.map(|two| self.world.sprite(two).stype);
         watch.meeting(Meeting { line, first: first.stype, second, cell });
+    }
+
+    /// Returns the sprites of an execution that are alive before it, each with the type of its partner; none where nobody
+    /// wants to know.
+    fn standing(
+        &self,
+        watch: &(impl Watch + ?Sized),
+        one: Slot,
+        partners: &[Slot],
+    ) -> Vec<(Slot, Option<SpriteType>)> {
+        if !watch.wants_meetings() {
+            return Vec::new();
+        }
+        let stype = |slot: Slot| self.world.sprite(slot).stype;
+        let first = (one, partners.first().map(|&partner| stype(partner)));
+        let seconds = partners.iter().map(|&partner| (partner, Some(stype(one))));
+        std::iter::once(first).chain(seconds).filter(|(slot, _)| !self.is_gone(*slot)).collect()
+    }
+
+    /// Reports which of these sprites are no longer alive.
+    fn tell_removals(
+        &self,
+        watch: &mut (impl Watch + ?Sized),
+        line: usize,
+        standing: &[(Slot, Option<SpriteType>)],
+    ) {
+        for &(slot, by) in standing.iter().filter(|(slot, _)| self.is_gone(*slot)) {
+            watch.removal(Removal { line, sprite: self.world.sprite(slot).stype, by });
+        }
+    }
+
+    fn is_gone(&self, slot: Slot) -> bool {
+        self.world.sprite(slot).is(flag::KILLED | flag::DISABLED)
     }
 
     /// Executes an effect on all partners at once; the score counts as often as the effect says.
@@ -295,9 +332,11 @@ impl<'a, S: Scheduler> Step<'a, S> {
         if watch.wants_meetings() {
             partners.iter().for_each(|&partner| self.tell(watch, info.line, one, Some(partner)));
         }
+        let standing = self.standing(watch, one, partners);
         self.work(EFFECT_WORK * partners.len());
         S::executes(self, info, one, partners);
         let times = effects::execute_batch(self, info, one, partners);
+        self.tell_removals(watch, info.line, &standing);
         self.credit(info, self.world.memory(effect), times);
     }
 

@@ -31,13 +31,24 @@ pub struct Meeting {
     pub cell: (i32, i32),
 }
 
+/// The removal of a sprite by an interaction that it took part in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Removal {
+    /// Index into [`Description::interactions`](crate::Description).
+    pub line: usize,
+    /// The type of the sprite.
+    pub sprite: SpriteType,
+    /// The type of its partner; `None` for the edge of the screen or the clock.
+    pub by: Option<SpriteType>,
+}
+
 /// An observer of a step: it is told about the executed interactions and their sprites.
 pub trait Watch {
     /// Called when interaction `line` (index into [`Description::interactions`](crate::Description)) has been executed.
     /// An interaction that puts the same sprite back to the same place tick after tick is reported once.
     fn interaction(&mut self, line: usize);
 
-    /// Returns `true` if [`Watch::meeting`] is to be called.
+    /// Returns `true` if [`Watch::meeting`] and [`Watch::removal`] are to be called.
     fn wants_meetings(&self) -> bool {
         false
     }
@@ -45,6 +56,9 @@ pub trait Watch {
     /// Called after [`Watch::interaction`] with the sprites of the execution. Not called for timed effects that run on no
     /// sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
+
+    /// Called after an execution for each of its sprites that it removed, or left disabled, as dead avatars are.
+    fn removal(&mut self, _removal: Removal) {}
 
     /// Called at the end of the step with its work, see [`MAX_WORK`].
     fn worked(&mut self, _work: usize) {}

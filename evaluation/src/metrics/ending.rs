@@ -1,9 +1,9 @@
 //! The ending of an episode that was not won: its cause, and the distance from a win.
 
 use crate::subject::Subject;
-use engine::analysis::{Condition, EffectSummary, Encounter, Side};
+use engine::analysis::{Condition, EffectSummary};
 use engine::syntax::Param;
-use engine::{Meeting, Outcome, Span, SpriteType, State, Watch};
+use engine::{Meeting, Outcome, Removal, Span, SpriteType, State, Watch};
 use itertools::Itertools;
 use serde::Serialize;
 
@@ -139,7 +139,7 @@ impl Ending {
     /// Derives the ending from the first and the last state and the interactions of the last tick. `None` for a win.
     pub(super) fn of(subject: &Subject, first: &State, last: &State, tick: LastTick) -> Option<Ending> {
         if last.outcome() == Outcome::Lost {
-            return Some(lost(subject, first, last, &tick.meetings));
+            return Some(lost(subject, first, last, &tick));
         }
         let ending = Ending::unknown(last.outcome())?;
         Some(Ending { distance: distance(subject, first, last), ..ending })
@@ -150,6 +150,7 @@ impl Ending {
 #[derive(Default)]
 pub(super) struct LastTick {
     meetings: Vec<Meeting>,
+    removals: Vec<Removal>,
 }
 
 impl Watch for LastTick {
@@ -162,10 +163,14 @@ impl Watch for LastTick {
     fn meeting(&mut self, meeting: Meeting) {
         self.meetings.push(meeting);
     }
+
+    fn removal(&mut self, removal: Removal) {
+        self.removals.push(removal);
+    }
 }
 
 /// Returns the ending of a lost game.
-fn lost(subject: &Subject, first: &State, last: &State, meetings: &[Meeting]) -> Ending {
+fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Ending {
     let (game, analysis) = (&subject.game, &subject.analysis);
     let distance = distance(subject, first, last);
     let line = game.ended_by(last);
@@ -192,9 +197,13 @@ fn lost(subject: &Subject, first: &State, last: &State, meetings: &[Meeting]) ->
         let present = types.iter().find(|&&stype| last.alive(stype) > 0);
         return Ending { sprite: present.map(|&stype| game.name(stype).to_owned()), ..ending(kind) };
     }
-    let cause = meetings.iter().rev().find_map(|meeting| {
-        let (sprite, by) = removed(subject, meeting, types)?;
-        let line = game.description().interactions.get(meeting.line)?;
+    // Effects on all sprites of a type remove others than the two that met: of these the last that may have done it.
+    let seen = tick.removals.iter().rev().find(|removal| types.contains(&removal.sprite));
+    let seen = seen.map(|removal| (removal.line, removal.sprite, removal.by));
+    let at_large =
+        || tick.meetings.iter().rev().find_map(|meeting| removed_at_large(subject, meeting, types));
+    let cause = seen.or_else(at_large).and_then(|(line, sprite, by)| {
+        let line = game.description().interactions.get(line)?;
         let is_edge = by.is_none() && line.second.iter().any(|word| word.text == EDGE);
         let by = by.map(|stype| game.name(stype)).or(is_edge.then_some(EDGE));
         Some((sprite, by.map(str::to_owned), written(&subject.source, line.first.span)))
@@ -208,27 +217,21 @@ fn lost(subject: &Subject, first: &State, last: &State, meetings: &[Meeting]) ->
     }
 }
 
-/// Returns the type among these that an interaction may have removed, and its partner.
-fn removed(
+/// Returns the line of an interaction that may have removed sprites wherever they are, the type of them among these, and what
+/// the interaction acted on.
+fn removed_at_large(
     subject: &Subject,
     meeting: &Meeting,
     types: &[SpriteType],
-) -> Option<(SpriteType, Option<SpriteType>)> {
-    let of_line = || subject.analysis.encounters().iter().filter(|encounter| encounter.line == meeting.line);
-    let ends = |side: Side| of_line().any(|encounter: &Encounter| encounter.ends(side));
-    if types.contains(&meeting.first) && ends(Side::First) {
-        return Some((meeting.first, meeting.second));
-    }
-    if let Some(second) = meeting.second.filter(|second| types.contains(second) && ends(Side::Second)) {
-        return Some((second, Some(meeting.first)));
-    }
+) -> Option<(usize, SpriteType, Option<SpriteType>)> {
+    let of_line = subject.analysis.encounters().iter().filter(|encounter| encounter.line == meeting.line);
     let at_large = |effect: &EffectSummary| match effect {
         EffectSummary::KillAll(stype) | EffectSummary::BecomeAll(stype, _) => Some(*stype),
         EffectSummary::Health { of, by, .. } => of.filter(|_| *by < 0),
         _ => None,
     };
-    let all = of_line().flat_map(|encounter| &encounter.effects).filter_map(at_large);
-    all.filter(|stype| types.contains(stype)).map(|stype| (stype, Some(meeting.first))).next()
+    let mut all = of_line.flat_map(|encounter| &encounter.effects).filter_map(at_large);
+    all.find(|stype| types.contains(stype)).map(|stype| (meeting.line, stype, Some(meeting.first)))
 }
 
 /// Returns the distance from the nearest win.

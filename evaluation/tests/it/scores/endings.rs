@@ -73,6 +73,39 @@ fn causes() {
     check(2, &[Right], (EndingKind::Appeared, "lost when weed appeared", rule, "1 of 1 gem left"));
 }
 
+/// Of several interactions that could have killed in the last tick, the one that did is named, not the last one: a dead avatar
+/// goes on touching things, and conditions hold or not.
+#[test]
+fn the_interaction_that_killed_is_named() {
+    let check = |rules: &str, sprites: &str, expect: &str, rule: &str| {
+        let source = GAME
+            .replace(
+                "        gem > Immovable\n",
+                &format!("        gem > Immovable\n        rust > Resource limit=3\n{sprites}"),
+            )
+            .replace("        g > gem\n", "        g > gem\n        x > pit seed\n")
+            .replace("        avatar pit >   killSprite   # it is deep\n", rules)
+            .replace("        seed avatar > transformTo stype=weed\n", "");
+        let level = "wwwwwwwww\nwgAx   fw\nwwwwwwwww".to_owned();
+        let subject = Subject::read("garden", &source, &[(0, level, None)], SubjectFacts::default());
+        let subject = subject.expect("the game is sound");
+        let ending = EpisodeMetrics::of(&subject, &log(&subject, 0, &[Right], 20)).unwrap().ending;
+        let ending = ending.expect("it was not won");
+        assert_eq!((ending.words().as_str(), ending.rule.as_deref()), (expect, Some(rule)));
+    };
+    let kill = "        avatar pit > killSprite\n";
+    let never = "        avatar seed > killIfHasLess resource=rust limit=-1\n";
+    check(&format!("{kill}{never}"), "", "died of touching pit", kill.trim());
+    check(&format!("{never}{kill}"), "", "died of touching pit", kill.trim());
+    let less = "        avatar seed > killIfHasLess resource=rust limit=1\n";
+    check(&format!("{less}{kill}"), "", "died of touching seed", less.trim());
+    let both = "        pit avatar > killBoth\n";
+    check(&format!("{both}{less}"), "", "died of touching pit", both.trim());
+    let ghost = "        avatar seed > transformTo stype=ghost\n";
+    let ghostly = "        ghost > MovingAvatar\n";
+    check(&format!("{ghost}{kill}"), ghostly, "died of touching seed", ghost.trim());
+}
+
 #[test]
 fn limits_wins_and_aborted_episodes() {
     let limited = ending(0, &[Left, Nil], 2).expect("it was not won");
