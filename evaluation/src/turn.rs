@@ -3,7 +3,8 @@
 use crate::commitment::Commitment;
 use crate::run::Task;
 use crate::subject::Subject;
-use engine::{Action, Game, Observation, State};
+use engine::analysis::Avatar;
+use engine::{Action, Analysis, Game, Observation, State};
 
 /// The view of a player at one decision: the facts of the whole episode, and an observation of the current state. The state
 /// itself is never shown, because a player could use it to look into the future.
@@ -113,4 +114,13 @@ impl Observed {
 pub(crate) fn choices(game: &Game, state: &State) -> Vec<Action> {
     let keys = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
     std::iter::once(Action::Nil).chain(keys).collect()
+}
+
+/// Returns `true` if an action can do something in a game: where nothing can be shot, the use key is no choice.
+pub(crate) fn is_of_use(analysis: &Analysis, action: Action) -> bool {
+    let game = analysis.game();
+    let by = |avatar: &Avatar| {
+        game.actions_of(avatar.stype).contains(&action) && (action != Action::Use || avatar.has_use())
+    };
+    action == Action::Nil || analysis.avatars().iter().any(by)
 }

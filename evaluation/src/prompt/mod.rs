@@ -24,8 +24,7 @@ use crate::legend::{Legend, LegendOptions};
 use crate::mask::{Mask, without_pictures};
 use crate::subject::Subject;
 use crate::tokens;
-use crate::turn::Turn;
-use engine::analysis::Avatar;
+use crate::turn::{Turn, is_of_use};
 use engine::describe::Guide;
 use engine::syntax::print_bare;
 use engine::{Action, Analysis, Digest, Outcome};
@@ -151,19 +150,11 @@ impl Prompter {
         let shuffled = settings.shuffled_symbols.or(settings.masked_names.then_some(0));
         let options = LegendOptions { tracking: settings.identity_tracking, shuffled };
         let legend = Legend::new(analysis, &options);
-        let game = analysis.game();
-        let offered = |action: &Action| {
-            // Where nothing can be shot, the use key is no choice.
-            let by = |avatar: &Avatar| {
-                game.actions_of(avatar.stype).contains(action) && (*action != Action::Use || avatar.has_use())
-            };
-            *action == Action::Nil || analysis.avatars().iter().any(by)
-        };
         let order = match settings.style {
             PromptStyle::Standard => Action::ALL,
             PromptStyle::Reference => NUMBERED,
         };
-        let actions: Vec<Action> = order.into_iter().filter(offered).collect();
+        let actions: Vec<Action> = order.into_iter().filter(|&action| is_of_use(analysis, action)).collect();
         let mut prompter = Prompter {
             environment: environment(),
             legend,

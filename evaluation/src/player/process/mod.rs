@@ -25,7 +25,7 @@ use crate::log::{Event, Journal, Reply, ReplyClass};
 use crate::player::{Agent, Choice, Halt, Validity};
 use crate::prompt::limited;
 use crate::run::clock::Stopwatch;
-use crate::turn::Turn;
+use crate::turn::{Turn, is_of_use};
 use child::{LineProcess, NoLine};
 use engine::Action;
 use engine::describe::Guide;
@@ -203,6 +203,8 @@ impl Process {
 
 impl Agent for Process {
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
+        let actions = of_use(turn);
+        let turn = &Turn { actions: &actions, ..*turn };
         let timeout = self.config.timeout;
         let running = self.running(turn)?;
         running.process.send_line(line(&running.shown.turn(turn, None)));
@@ -230,6 +232,8 @@ impl Agent for Process {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, choice: &Choice) -> Result<(), Halt> {
+        let actions = of_use(turn);
+        let turn = &Turn { actions: &actions, ..*turn };
         let running = self.running(turn)?;
         let past = match turn.commit.is_one() {
             true => Past { past: true, action: Some(choice.action(0)), actions: None },
@@ -247,6 +251,12 @@ impl Agent for Process {
             process.close();
         }
     }
+}
+
+/// Returns the available actions that can do something in the game, those of the prompts of models.
+fn of_use(turn: &Turn<'_>) -> Vec<Action> {
+    let analysis = &turn.subject.analysis;
+    turn.actions.iter().copied().filter(|&action| is_of_use(analysis, action)).collect()
 }
 
 /// The facts of a game for the whole episode.

@@ -23,8 +23,13 @@ struct Board {
 impl Board {
     /// Starts an episode with a `sh` script as the player and a time limit for its answers.
     fn with(script: &str, timeout: Duration) -> Board {
-        let subject =
-            Subject::read("board", GAME, &[(0, LEVEL.to_owned(), None)], SubjectFacts::default()).unwrap();
+        Board::playing(GAME, script, timeout)
+    }
+
+    fn playing(source: &str, script: &str, timeout: Duration) -> Board {
+        // Only the reference loads avatars that shoot nothing.
+        let facts = SubjectFacts { as_reference: true, ..SubjectFacts::default() };
+        let subject = Subject::read("board", source, &[(0, LEVEL.to_owned(), None)], facts).unwrap();
         let state = subject.game.start(&subject.levels[0].level, Seed::from_text("board"));
         let config = ProcessConfig { timeout, ..ProcessConfig::default() };
         let command = shlex::try_join(["sh", "-c", script]).unwrap();
@@ -146,6 +151,30 @@ fn an_episode_is_played_in_lines() {
     for secret in ["seed", "hash", "level", "source"] {
         assert!(heard.iter().all(|message| message.get(secret).is_none()), "{secret}");
     }
+}
+
+/// As in the prompts of models: an avatar that could shoot, but has nothing to shoot, has no use key.
+#[test]
+fn the_use_key_is_offered_where_it_does_something() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("heard");
+    let script = format!(
+        "tee {} | while read line; do case $line in *turn*|*invalid*) echo '{{\"action\":\"use\"}}';; esac; done",
+        log.display()
+    );
+    let keys = |avatar: &str, choice: Choice| {
+        let source = GAME.replace("MovingAvatar", avatar);
+        let mut board = Board::playing(&source, &script, Duration::from_secs(60));
+        assert_eq!(board.decide(), Ok(choice), "{avatar}");
+        board.end();
+        let heard = heard(&log);
+        assert_eq!(heard[0]["actions"], heard[1]["actions"]);
+        heard[1]["actions"].clone()
+    };
+    let all = serde_json::json!(["nil", "left", "right", "use"]);
+    assert_eq!(keys("FlakAvatar stype=coin", Choice::of(Action::Use)), all);
+    let without = serde_json::json!(["nil", "left", "right"]);
+    assert_eq!(keys("FlakAvatar", Choice::nothing(Validity::Invalid)), without);
 }
 
 #[test]
