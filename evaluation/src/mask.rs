@@ -56,8 +56,7 @@ impl Mask {
 
 /// Returns a digest of the rules without the names of types, characters of levels, colours, pictures and comments: games with the
 /// same lines in the same order under other names have the same.
-pub(crate) fn nameless(game: &Game) -> Digest {
-    let description = game.description();
+pub(crate) fn nameless(description: &Description) -> Digest {
     let own = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone());
     let own = own.filter(|name| !RESERVED.contains(&name.as_str())).unique();
     let names = own.zip(1..).map(|(name, number)| (name, format!("t{number}"))).collect();

@@ -19,6 +19,7 @@ mod failures;
 mod horizon;
 mod leaderboard;
 mod matrix;
+mod mirror;
 mod person;
 mod player;
 mod power;

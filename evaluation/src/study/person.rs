@@ -18,19 +18,23 @@ pub(super) struct PersonResults {
 
 /// The path of the model's version among the facts.
 const SERVED: &str = "served by";
-/// The path of the games' names.
+/// The path of the games' surface.
 const TWIN: &str = "games";
 
 impl PersonResults {
-    /// Parts the episodes of a results folder by the versions of the model that answered. `twin` tells that the games are under
-    /// other names than in an earlier folder.
-    pub(super) fn of(entrant: &Entrant, twin: bool, episodes: Vec<EpisodeMetrics>) -> Vec<PersonResults> {
+    /// Parts the episodes of a results folder by the versions of the model that answered. `surface` tells in words in what the
+    /// games differ from those of an earlier folder, if they are twins of them.
+    pub(super) fn of(
+        entrant: &Entrant,
+        surface: Option<&str>,
+        episodes: Vec<EpisodeMetrics>,
+    ) -> Vec<PersonResults> {
         let mut facts = BTreeMap::new();
         flatten("", &entrant.details, &mut facts);
         // The same model on another server is the same.
         facts.retain(|path, _| path != "model.server" && !path.starts_with("model.server."));
-        if twin {
-            facts.insert(TWIN.to_owned(), "under other names".to_owned());
+        if let Some(surface) = surface {
+            facts.insert(TWIN.to_owned(), surface.to_owned());
         }
         let mut parts: BTreeMap<BTreeSet<String>, Vec<EpisodeMetrics>> = BTreeMap::new();
         for episode in episodes {
@@ -118,7 +122,7 @@ mod tests {
         let of = |(details, episodes): &(Value, Vec<EpisodeMetrics>)| {
             let (name, mode) = ("m".to_owned(), Some("zero-shot".to_owned()));
             let entrant = Entrant { name, mode, aids: Vec::new(), details: details.clone() };
-            PersonResults::of(&entrant, false, episodes.clone())
+            PersonResults::of(&entrant, None, episodes.clone())
         };
         let found = told_apart(folders.iter().flat_map(of).collect());
         let labels: Vec<(String, usize)> =

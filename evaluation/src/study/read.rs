@@ -6,9 +6,9 @@ use crate::mask;
 use crate::metrics::EpisodeMetrics;
 use crate::run::{Evaluation, Task};
 use crate::study::person::{PersonResults, told_apart};
-use crate::study::{Player, Study, StudyGame};
+use crate::study::{Player, Study, StudyGame, mirror};
 use crate::subject::{Subject, SubjectLevel};
-use engine::{Digest, StateHash};
+use engine::{Game, StateHash};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -18,9 +18,9 @@ pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
 
 impl Study {
     /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same person (name, mode,
-    /// aids, prompts, decoding, version served) are merged. Games of one id with the same rules under
-    /// other names, and with levels that start in the same states, are one game; their results are of separate players. Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the
-    /// current rayon pool.
+    /// aids, prompts, decoding, version served) are merged. Games of one id with the same rules under other names and with levels
+    /// that start in the same states, or with mirrored rules and levels, are one game; their results are of separate players. Cost:
+    /// that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon pool.
     ///
     /// # Errors
     /// A folder or log cannot be read, a replay differs from its log, two folders hold the same episode of the same player,
@@ -29,15 +29,15 @@ impl Study {
         let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();
         let (mut notes, mut seeds, mut origins) = (Vec::new(), BTreeSet::new(), Vec::new());
+        let mut is_mirrored = false;
         for (place, folder) in folders.iter().enumerate() {
             let evaluation = Evaluation::open(folder)?;
             let player = Player::from(&evaluation.settings.entrant);
-            let mut twins: BTreeSet<&str> = BTreeSet::new();
+            let mut surfaces: BTreeMap<&str, Surface> = BTreeMap::new();
             for subject in &evaluation.subjects {
-                if names.add(subject, folder)? {
-                    twins.insert(&subject.id);
-                }
+                surfaces.insert(&subject.id, names.add(subject, folder)?);
             }
+            is_mirrored |= surfaces.values().any(|surface| *surface == Surface::Mirrored);
             seeds.insert(evaluation.settings.seed.clone());
             let tasks = evaluation.tasks();
             evaluation.check_logs(&tasks)?;
@@ -53,14 +53,17 @@ impl Study {
                     player.label()
                 ));
             }
-            let (renamed, own): (Vec<_>, Vec<_>) =
-                measured.into_iter().partition(|episode| twins.contains(episode.game.as_str()));
-            for (twin, episodes) in [(false, own), (true, renamed)] {
-                if !episodes.is_empty() || twin == (twins.len() == evaluation.subjects.len()) {
-                    let parts = PersonResults::of(&evaluation.settings.entrant, twin, episodes);
-                    origins.extend(parts.iter().map(|_| folder));
-                    results.extend(parts);
-                }
+            let mut parted: BTreeMap<Surface, Vec<EpisodeMetrics>> = BTreeMap::new();
+            for episode in measured {
+                parted.entry(surfaces[episode.game.as_str()]).or_default().push(episode);
+            }
+            if parted.is_empty() {
+                parted.extend(surfaces.values().min().map(|&surface| (surface, Vec::new())));
+            }
+            for (surface, episodes) in parted {
+                let parts = PersonResults::of(&evaluation.settings.entrant, surface.words(), episodes);
+                origins.extend(parts.iter().map(|_| folder));
+                results.extend(parts);
             }
         }
         let results = told_apart(results);
@@ -70,6 +73,10 @@ impl Study {
         let mut study = Study::new(results, names.games());
         study.notes.extend(notes);
         study.notes.extend(names.unpaired());
+        if is_mirrored {
+            let note = "Mirrored games have chance of their own: their episodes are not paired with those of the originals.";
+            study.notes.push(note.to_owned());
+        }
         if seeds.len() > 1 {
             study.notes.push(
                 "Players had different random seeds (--seed): their episodes are not paired.".to_owned(),
@@ -110,59 +117,100 @@ struct Names {
     episodes: BTreeMap<(Player, String, usize, u64), PathBuf>,
 }
 
-/// A game of the folders so far, with the digests of its text and of the texts and first states of its levels.
+/// A game of the folders so far.
 struct KnownGame {
     game: StudyGame,
-    digest: Digest,
-    levels: BTreeMap<usize, Digest>,
+    rules: Game,
+    /// The canonical texts of its levels.
+    levels: BTreeMap<usize, String>,
+    /// The first states of its levels under a fixed seed.
     starts: BTreeMap<usize, StateHash>,
-    /// The digest of the rules without names.
-    nameless: Digest,
+}
+
+/// The relation of a game to one of an earlier folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Surface {
+    /// The same game, or the first of its id.
+    Own,
+    /// The same under other names: its levels start in the same states.
+    Renamed,
+    /// The mirror image, left to right.
+    Mirrored,
+}
+
+impl Surface {
+    /// Returns the words for the difference; `None` if there is none.
+    fn words(self) -> Option<&'static str> {
+        match self {
+            Surface::Own => None,
+            Surface::Renamed => Some("under other names"),
+            Surface::Mirrored => Some("mirrored"),
+        }
+    }
+}
+
+impl KnownGame {
+    /// Returns the relation of another game of the same id, or in words what differs.
+    fn surface(&self, subject: &Subject, levels: &BTreeMap<usize, String>) -> Result<Surface, String> {
+        let differing = |image: fn(&str) -> String| {
+            let mut shared =
+                levels.iter().filter_map(|(number, text)| Some((number, text, self.levels.get(number)?)));
+            shared.find(|(_, text, known)| image(known) != **text).map(|(number, ..)| *number)
+        };
+        let is_same = self.rules.digest() == subject.game.digest();
+        let differs = match differing(str::to_owned) {
+            None if is_same => return Ok(Surface::Own),
+            Some(level) if is_same => format!("level {level} of"),
+            _ => "game".to_owned(),
+        };
+        let starts = |level: &SubjectLevel| {
+            self.starts.get(&level.number).is_none_or(|start| *start == subject.first_state(level))
+        };
+        let nameless = |game: &Game| mask::nameless(game.description());
+        if !is_same && nameless(&self.rules) == nameless(&subject.game) && subject.levels.iter().all(starts) {
+            return Ok(Surface::Renamed);
+        }
+        if mirror::is_image(&self.rules, &subject.game) && differing(mirror::level).is_none() {
+            return Ok(Surface::Mirrored);
+        }
+        Err(differs)
+    }
 }
 
 impl Names {
-    /// Adds a game. Returns `true` if it is one of an earlier folder under other names: with the same rules, and levels that
-    /// start in the same states.
-    fn add(&mut self, subject: &Subject, folder: &Path) -> Result<bool, EvaluationError> {
-        let levels = subject.levels.iter().map(|level| (level.number, level.level.digest()));
+    /// Adds a game, and returns its relation to the one of its id in an earlier folder.
+    fn add(&mut self, subject: &Subject, folder: &Path) -> Result<Surface, EvaluationError> {
+        let levels = subject.levels.iter().map(|level| (level.number, level.level.to_string())).collect();
         let start = |level: &SubjectLevel| (level.number, subject.first_state(level));
         let starts: BTreeMap<usize, StateHash> = subject.levels.iter().map(start).collect();
-        let Some(KnownGame { game, digest, levels: known, starts: begun, nameless }) =
-            self.games.iter_mut().find(|known| known.game.id == subject.id)
-        else {
-            let (game, digest) = (StudyGame::from(subject), subject.game.digest());
-            let (levels, nameless) = (levels.collect(), mask::nameless(&subject.game));
-            self.games.push(KnownGame { game, digest, levels, starts, nameless });
-            return Ok(false);
+        let Some(known) = self.games.iter_mut().find(|known| known.game.id == subject.id) else {
+            let (game, rules) = (StudyGame::from(subject), subject.game.clone());
+            self.games.push(KnownGame { game, rules, levels, starts });
+            return Ok(Surface::Own);
         };
-        let differs = |what: String| {
-            let what = format!("its {what} `{}` differs from that of an earlier folder", subject.id);
+        let surface = known.surface(subject, &levels).map_err(|differs| {
+            let what = format!("its {differs} `{}` differs from that of an earlier folder", subject.id);
             EvaluationError::malformed(folder, format!("{what}; report on them separately"))
-        };
-        let is_twin = *digest != subject.game.digest();
-        if is_twin {
-            let other =
-                starts.iter().find(|(number, start)| begun.get(number).is_some_and(|own| own != *start));
-            if *nameless != mask::nameless(&subject.game) || other.is_some() {
-                return Err(differs("game".to_owned()));
-            }
-        } else {
-            for (number, digest) in levels {
-                if *known.entry(number).or_insert(digest) != digest {
-                    return Err(differs(format!("level {number} of")));
-                }
+        })?;
+        if surface != Surface::Mirrored {
+            for (number, start) in starts {
+                known.starts.entry(number).or_insert(start);
             }
         }
-        for (number, start) in starts {
-            begun.entry(number).or_insert(start);
+        if surface != Surface::Renamed {
+            let is_image = surface == Surface::Mirrored;
+            for (number, text) in levels {
+                let text = if is_image { mirror::level(&text) } else { text };
+                known.levels.entry(number).or_insert(text);
+            }
         }
         for level in StudyGame::from(subject).levels {
-            if game.levels.iter().all(|known| known.number != level.number) {
-                game.levels.push(level);
+            if known.game.levels.iter().all(|own| own.number != level.number) {
+                known.game.levels.push(level);
             }
         }
-        game.levels.sort_by_key(|level| level.number);
-        Ok(is_twin)
+        known.game.levels.sort_by_key(|level| level.number);
+        Ok(surface)
     }
 
     /// Checks that no other folder has these episodes.

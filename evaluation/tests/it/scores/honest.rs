@@ -199,3 +199,50 @@ fn twins_share_chance_and_states() {
     assert_eq!(labels, ["random", "random (games under other names)"]);
     assert_eq!((study.games.len(), study.pairs.overall.len()), (1, 1));
 }
+
+/// The mirror image of a game, left to right, is the same game with other chance; what is no mirror image is refused.
+#[test]
+fn mirrored_twins_are_reported_beside_originals() {
+    let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    eastgust > Missile orientation=RIGHT\n    imp > Bomber stype=gem \
+                  spawnorientation=LEFT prob=0.1\n    avatar > MovingAvatar\n  LevelMapping\n    g > gem\n    e > eastgust\n    i > imp\n  \
+                  InteractionSet\n    avatar wall > stepBack\n    eastgust wall > reverseDirection\n    imp wall > turnAround\n    gem avatar > \
+                  killSprite scoreChange=1\n    avatar eastgust > killSprite\n    imp EOS > spawnLeft stype=gem\n  TerminationSet\n    \
+                  SpriteCounter stype=gem win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=50\n";
+    let image = source
+        .replace("eastgust", "westgust")
+        .replace("orientation=RIGHT", "orientation=WEST")
+        .replace("spawnorientation=LEFT", "spawnorientation=RIGHT")
+        .replace("orientation=WEST", "orientation=LEFT")
+        .replace("stype=gem spawn", "stype=gem orientation=LEFT spawn")
+        .replace("spawnLeft", "spawnRight");
+    let level = "wwwwwwww\nwA e  gw\nw  i   w\nwwwwwwww\n";
+    let reversed: String = level.lines().map(|row| row.chars().rev().collect::<String>() + "\n").collect();
+    let game = |source: &str, level: &str| {
+        let levels = [(0, level.to_owned(), None)];
+        Subject::read("gusts", source, &levels, SubjectFacts::default()).expect("the game is sound")
+    };
+    let home = tempfile::tempdir().unwrap();
+    let folder = |name: &str, subject| evaluate(&home.path().join(name), "random", vec![subject]);
+    let own = folder("own", game(source, level));
+    let twin = folder("twin", game(&image, &reversed));
+    let study = Study::read(&[own.clone(), twin.clone()]).unwrap();
+    let labels: Vec<String> = study.players.iter().map(Player::label).collect();
+    assert_eq!(labels, ["random", "random (games mirrored)"]);
+    assert_eq!((study.games.len(), study.pairs.overall.len()), (1, 1));
+    assert!(study.notes.iter().any(|note| note.starts_with("Mirrored games")), "{:?}", study.notes);
+    assert!(Study::read(&[twin, own.clone()]).is_ok(), "either may come first");
+    let others = [
+        ("unmirrored level", game(&image, level)),
+        ("unmirrored rules", game(source, &reversed)),
+        (
+            "one direction kept",
+            game(&image.replace("spawnorientation=RIGHT", "spawnorientation=LEFT"), &reversed),
+        ),
+        ("one facing kept", game(&image.replace(" orientation=LEFT spawn", " spawn"), &reversed)),
+        ("another score", game(&image.replace("scoreChange=1", "scoreChange=2"), &reversed)),
+    ];
+    for (name, other) in others {
+        let error = Study::read(&[own.clone(), folder(name, other)]).expect_err(name).to_string();
+        assert!(error.contains("differs from that of an earlier folder"), "{name}: {error}");
+    }
+}
