@@ -95,9 +95,9 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     }
 
     let whose = if study.players.iter().any(|player| !player.is_reference()) {
-        "Over the episodes of models."
+        "Over the episodes of all players but baselines."
     } else {
-        "Over the episodes of all players, since none of them is a model."
+        "Over the episodes of all players, since all of them are baselines."
     };
     let mut walked = Section::new("failures", "How episodes were walked", whose);
     walked.plots = plots::failures(study);
@@ -143,6 +143,9 @@ fn shown(study: &Study, table: &Table) -> Shown {
     let (models, marks) = (labels(false), labels(true));
     let about = |cells: &[String], players: &[String]| cells.iter().any(|cell| players.contains(cell));
     let found = Shown::of(table);
-    let found = if table.id == "causes" { found.stacked() } else { found };
+    // What matters in these tables is at the right of long names.
+    let is_long = ["causes", "taxonomy"].contains(&table.id.as_str())
+        || ["pairs-", "modes-", "aids-"].iter().any(|start| table.id.starts_with(start));
+    let found = if is_long { found.stacked() } else { found };
     found.cut(|cells| about(cells, &marks) && !about(cells, &models))
 }

@@ -165,8 +165,8 @@ fn answers(study: &Study) -> Option<String> {
         let useless = useless.map(|(count, why)| format!("in {} {why}", words::grouped(count))).join(", ");
         let steps = words::grouped(all.total());
         let useless = match useless.as_str() {
-            "" => format!("All {steps} decisions of models had a usable answer"),
-            some => format!("Of {steps} decisions of models, nothing was done {some}"),
+            "" => format!("All {steps} decisions (baselines aside) had a usable answer"),
+            some => format!("Of {steps} decisions (baselines aside), nothing was done {some}"),
         };
         match all.tolerant {
             0 => format!("{useless}."),

@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use evaluation::player::mailbox::{Delivery, Desk, OpenPrompt, View};
 use itertools::Itertools;
+use ratatui::crossterm::terminal;
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::io::{BufRead, IsTerminal, Write};
@@ -153,7 +154,7 @@ impl Session<'_> {
         let (episode, step) = (&prompt.episode, prompt.address.step);
         self.console.say(format_args!("\n--- {episode}, step {step} ---"));
         if self.introduced.insert(episode.clone()) && prompt.messages.len() > 1 {
-            self.console.say(format_args!("{}\n", prompt.messages[0].text));
+            self.tell(&format!("{}\n", prompt.messages[0].text));
         }
         self.show_turn(open);
     }
@@ -161,7 +162,7 @@ impl Session<'_> {
     /// Shows the newest message.
     fn show_turn(&self, open: &OpenPrompt) {
         if let Some(message) = open.prompt.messages.last() {
-            self.console.say(&message.text);
+            self.tell(&message.text);
         }
         if let Some(picture) = &open.prompt.picture {
             let path = self.desk.episode(&open.prompt.episode).join(picture);
@@ -169,6 +170,15 @@ impl Session<'_> {
         }
         if let Some(problem) = &open.problem {
             self.console.remark(problem);
+        }
+    }
+
+    /// Prints a text of a prompt, on a terminal in lines that fit.
+    fn tell(&self, text: &str) {
+        let size = if std::io::stdout().is_terminal() { terminal::size().ok() } else { None };
+        match size {
+            Some((columns, _)) => self.console.say(wrapped(text, usize::from(columns))),
+            None => self.console.say(text),
         }
     }
 
@@ -223,7 +233,7 @@ impl Session<'_> {
             }
             ("show", None) => self.show_turn(open),
             ("rules", None) => {
-                open.prompt.messages.first().iter().for_each(|message| self.console.say(&message.text));
+                open.prompt.messages.first().iter().for_each(|message| self.tell(&message.text));
             }
             ("list", None) => self.console.say(listed(&self.desk, &self.desk.view()?)),
             ("help" | "?", None) => self.console.say(HELP),
@@ -253,6 +263,29 @@ const HELP: &str = "an action, its first letters, or an arrow key: answers the p
 say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: what waits; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
+
+/// Breaks lines of more than `width` characters at blanks.
+fn wrapped(text: &str, width: usize) -> String {
+    let broken = |line: &str| {
+        // Below the words of a list.
+        let indent = if line.starts_with("- ") { "  " } else { "" };
+        let mut lines: Vec<String> = Vec::new();
+        for word in line.split(' ') {
+            match lines.last_mut() {
+                Some(last) if last.chars().count() + 1 + word.chars().count() <= width => {
+                    last.push(' ');
+                    last.push_str(word);
+                }
+                Some(_) => lines.push(format!("{indent}{word}")),
+                None => lines.push(word.to_owned()),
+            }
+        }
+        lines.join("\n")
+    };
+    text.split('\n')
+        .map(|line| if line.chars().count() > width { broken(line) } else { line.to_owned() })
+        .join("\n")
+}
 
 /// Returns the action that a line names, in full, by its first letters or by an arrow key.
 fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
@@ -357,6 +390,14 @@ fn document(desk: &Desk, view: &View) -> serde_json::Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_lines_are_broken_at_blanks() {
+        let check = |text: &str, expect: &str| assert_eq!(wrapped(text, 12), expect);
+        check("short\n\nw..@..w", "short\n\nw..@..w");
+        check("- You cannot enter any wall.", "- You cannot\n  enter any\n  wall.");
+        check("wwwwwwwwwwwwwwww\none two three", "wwwwwwwwwwwwwwww\none two\nthree");
+    }
 
     #[test]
     fn actions_by_their_first_letters() {

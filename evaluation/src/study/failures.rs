@@ -151,7 +151,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
             ("measure", &|mode| TableCell::text(mode.measure.title())),
             ("won", &|mode| average(&mode.won)),
             ("episodes", &|mode| TableCell::Count(mode.won.len() as u64)),
-            ("median", &|mode| TableCell::number(quantile(&mode.won, 0.5), 3)),
+            ("median won", &|mode| TableCell::number(quantile(&mode.won, 0.5), 3)),
             ("not won", &|mode| average(&mode.lost)),
             ("episodes not won", &|mode| TableCell::Count(mode.lost.len() as u64)),
             ("median not won", &|mode| TableCell::number(quantile(&mode.lost, 0.5), 3)),
