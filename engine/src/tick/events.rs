@@ -294,7 +294,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         one: Slot,
         partners: &[Slot],
     ) -> Vec<(Slot, Option<SpriteType>)> {
-        if !watch.wants_meetings() {
+        if !watch.wants_removals() {
             return Vec::new();
         }
         let stype = |slot: Slot| self.world.sprite(slot).stype;

@@ -48,7 +48,7 @@ pub trait Watch {
     /// An interaction that puts the same sprite back to the same place tick after tick is reported once.
     fn interaction(&mut self, line: usize);
 
-    /// Returns `true` if [`Watch::meeting`] and [`Watch::removal`] are to be called.
+    /// Returns `true` if [`Watch::meeting`] is to be called.
     fn wants_meetings(&self) -> bool {
         false
     }
@@ -56,6 +56,11 @@ pub trait Watch {
     /// Called after [`Watch::interaction`] with the sprites of the execution. Not called for timed effects that run on no
     /// sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
+
+    /// Returns `true` if [`Watch::removal`] is to be called.
+    fn wants_removals(&self) -> bool {
+        false
+    }
 
     /// Called after an execution for each of its sprites that it removed, or left disabled, as dead avatars are.
     fn removal(&mut self, _removal: Removal) {}

@@ -164,6 +164,10 @@ impl Watch for LastTick {
         self.meetings.push(meeting);
     }
 
+    fn wants_removals(&self) -> bool {
+        true
+    }
+
     fn removal(&mut self, removal: Removal) {
         self.removals.push(removal);
     }
