@@ -87,10 +87,14 @@ impl Study {
         };
         let mut ends = [sign * estimate.low, sign * estimate.high];
         ends.sort_unstable_by(f64::total_cmp);
-        let points = |share: f64| format!("{:+.0}", 100.0 * share).replace('-', "−");
+        let points = |share: f64| match (100.0 * share).round() {
+            0.0 => "0".to_owned(),
+            points => format!("{points:+}").replace('-', "−"),
+        };
         let [low, high] = ends.map(points);
         let apart = points(sign * estimate.value);
-        let numbers = format!("{apart} points, {low} to {high}, p = {p:.3}, {} games", found.games);
+        let p_value = if p < 0.0005 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") };
+        let numbers = format!("{apart} points, {low} to {high}, {p_value}, {} games", found.games);
         Some(match (p <= 0.05, found.games) {
             (true, _) if sign * estimate.value > 0.0 => {
                 format!("It is better than {theirs} in games like these ({numbers}).")
