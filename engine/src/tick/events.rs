@@ -86,10 +86,14 @@ impl<'a, S: Scheduler> Step<'a, S> {
                     if watch.wants_meetings() {
                         self.tell(watch, timed.line, slot, None);
                     }
-                    let standing = self.standing(watch, slot, &[]);
                     self.work_of_effect();
-                    effects::execute(self, timed.effect, &info.effect, slot, None);
-                    self.tell_removals(watch, timed.line, &standing);
+                    if watch.wants_removals() {
+                        let standing = self.standing(slot, &[]);
+                        effects::execute(self, timed.effect, &info.effect, slot, None);
+                        self.tell_removals(watch, timed.line, &standing);
+                    } else {
+                        effects::execute(self, timed.effect, &info.effect, slot, None);
+                    }
                     self.credit(info, info.initial_memory(), 1);
                     if self.world.group(stype).tail != tail {
                         self.stop(Limit::SpawnIntoUpdatedType);
@@ -262,17 +266,26 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
+    /// Executes an effect on two sprites, and reports those that it removed to who wants to know.
+    #[inline(always)]
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
+        if !watch.wants_removals() {
+            return self.execute_pair(effect, one, two, watch);
+        }
+        let standing = self.standing(one, two.as_slice());
+        self.execute_pair(effect, one, two, watch);
+        self.tell_removals(watch, self.rules.effects[usize::from(effect)].line, &standing);
+    }
+
+    fn execute_pair(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
         if watch.wants_meetings() {
             self.tell(watch, info.line, one, two);
         }
-        let standing = self.standing(watch, one, two.as_slice());
         self.work_of_effect();
         S::executes(self, info, one, two.as_slice());
         effects::execute(self, effect, &info.effect, one, two);
-        self.tell_removals(watch, info.line, &standing);
         let remembered = self.world.memory(effect);
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
@@ -286,17 +299,9 @@ impl<'a, S: Scheduler> Step<'a, S> {
         watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
 
-    /// Returns the sprites of an execution that are alive before it, each with the type of its partner; none where nobody
-    /// wants to know.
-    fn standing(
-        &self,
-        watch: &(impl Watch + ?Sized),
-        one: Slot,
-        partners: &[Slot],
-    ) -> Vec<(Slot, Option<SpriteType>)> {
-        if !watch.wants_removals() {
-            return Vec::new();
-        }
+    /// Returns the sprites of an execution that are alive before it, each with the type of its partner.
+    #[cold]
+    fn standing(&self, one: Slot, partners: &[Slot]) -> Vec<(Slot, Option<SpriteType>)> {
         let stype = |slot: Slot| self.world.sprite(slot).stype;
         let first = (one, partners.first().map(|&partner| stype(partner)));
         let seconds = partners.iter().map(|&partner| (partner, Some(stype(one))));
@@ -304,6 +309,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     /// Reports which of these sprites are no longer alive.
+    #[cold]
     fn tell_removals(
         &self,
         watch: &mut (impl Watch + ?Sized),
@@ -319,8 +325,24 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.sprite(slot).is(flag::KILLED | flag::DISABLED)
     }
 
-    /// Executes an effect on all partners at once; the score counts as often as the effect says.
+    /// [`Step::execute`] on all partners at once; the score counts as often as the effect says.
+    #[inline(always)]
     fn execute_batch(
+        &mut self,
+        effect: u16,
+        one: Slot,
+        partners: &mut Partners,
+        watch: &mut (impl Watch + ?Sized),
+    ) {
+        if !watch.wants_removals() {
+            return self.execute_all(effect, one, partners, watch);
+        }
+        let standing = self.standing(one, partners);
+        self.execute_all(effect, one, partners, watch);
+        self.tell_removals(watch, self.rules.effects[usize::from(effect)].line, &standing);
+    }
+
+    fn execute_all(
         &mut self,
         effect: u16,
         one: Slot,
@@ -332,11 +354,9 @@ impl<'a, S: Scheduler> Step<'a, S> {
         if watch.wants_meetings() {
             partners.iter().for_each(|&partner| self.tell(watch, info.line, one, Some(partner)));
         }
-        let standing = self.standing(watch, one, partners);
         self.work(EFFECT_WORK * partners.len());
         S::executes(self, info, one, partners);
         let times = effects::execute_batch(self, info, one, partners);
-        self.tell_removals(watch, info.line, &standing);
         self.credit(info, self.world.memory(effect), times);
     }
 
