@@ -53,6 +53,10 @@ impl GameValidator for RulesMatter {
         "ablation"
     }
 
+    fn asks_for_usage(&self) -> bool {
+        true
+    }
+
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let lines = case.usage.lines.iter().enumerate().filter(|(_, uses)| !uses.is_empty());
         let lines: Vec<(usize, &Vec<Use>)> = lines.collect();

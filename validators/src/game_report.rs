@@ -1,5 +1,6 @@
 //! Judgements on a game over all its levels.
 
+use crate::gates::CarelessPlays;
 use crate::ladder::Ladder;
 use crate::panel::{Judgement, Report};
 use crate::recording::{Recorded, Usage};
@@ -20,6 +21,8 @@ pub struct GameCase<'a> {
     pub ladders: &'a [Option<&'a Ladder>],
     /// The rules and types that those episodes show.
     pub(crate) usage: &'a Usage,
+    /// The plays of careless players that gates share.
+    pub(crate) careless: &'a CarelessPlays,
     /// The source of the validator's own randomness.
     pub seed: Seed,
 }
@@ -28,6 +31,12 @@ pub struct GameCase<'a> {
 pub trait GameValidator: Sync {
     /// Its name, kebab-case, as in recipes and cards.
     fn name(&self) -> &'static str;
+
+    /// Tests whether it asks which rules the recording executes. Where nobody does, the recording is not replayed, and no random walks
+    /// look for executions of the others.
+    fn asks_for_usage(&self) -> bool {
+        false
+    }
 
     /// Judges the case. The same case gives the same answer, on any number of threads.
     fn validate(&self, case: GameCase<'_>) -> Finding;

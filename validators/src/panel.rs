@@ -5,7 +5,7 @@ use crate::allowance::Allowance;
 use crate::causes;
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameReport, GameValidator};
-use crate::gates;
+use crate::gates::{self, CarelessPlays};
 use crate::recording::{Recorded, Usage, explore};
 use crate::too_soon;
 use crate::well_formed::is_over_at_once;
@@ -303,10 +303,13 @@ impl Panel {
             return panel.together(game, levels, reports, seed, screen);
         }
         let analysis = Analysis::of(game);
-        let episodes = record(game, levels, reports, seed.child("explore", 0), self.exploration);
+        let explores = self.of_game.iter().any(|(_, validator)| validator.asks_for_usage());
+        let ticks = if explores { self.exploration } else { 0 };
+        let episodes = record(game, levels, reports, seed.child("explore", 0), ticks);
         let recording = recorded(levels, &episodes);
-        let usage = Usage::within(game, &recording, self.exploration);
+        let usage = Usage::within(game, &recording, ticks);
         let ladders: Vec<Option<&Ladder>> = reports.iter().map(Report::ladder).collect();
+        let careless = CarelessPlays::new(levels.len(), seed.child("careless", 0));
         let judge = |(subject, validator): &(Subject, Box<dyn GameValidator + Send>)| {
             let criterion = validator.name();
             let seed = seed.child(criterion, 0);
@@ -316,6 +319,7 @@ impl Panel {
                 recording: &recording,
                 ladders: &ladders,
                 usage: &usage,
+                careless: &careless,
                 seed,
             };
             let finding = validator.validate(case);

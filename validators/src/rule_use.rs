@@ -25,6 +25,10 @@ impl GameValidator for RuleUse {
         "rule-use"
     }
 
+    fn asks_for_usage(&self) -> bool {
+        true
+    }
+
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let GameCase { game, analysis, recording, usage, .. } = case;
         let reaches: Vec<Reach> = recording.iter().map(|recorded| analysis.reach(recorded.level)).collect();

@@ -36,7 +36,7 @@ impl GameValidator for ActorsMatter {
         let (mut losses, mut theirs) = (0, 0);
         for won in wins {
             let seen = actors.watch(case, won, won.win);
-            let played = careless::plays(case, won, gates.careless_slips, gates.careless_plays);
+            let played = careless::plays(case, won, gates);
             let careless: Vec<Watched> = played.iter().map(|play| actors.watch(case, won, play)).collect();
             let lost = played.iter().zip(&careless).filter(|(play, _)| play.outcome == Outcome::Lost);
             for (_, watched) in lost {

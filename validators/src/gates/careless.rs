@@ -1,18 +1,44 @@
 //! Careless players: the nearest-goal player, with slips.
 
-use super::WonLevel;
+use super::{Gates, WonLevel};
 use crate::game_report::GameCase;
 use agents::{Budget, Limits, NearestGoal, play};
-use engine::{Episode, Outcome};
+use engine::{Episode, Outcome, Seed};
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// A play is broken off after this multiple of the ticks of the win, and [`GRACE`] more.
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
+/// The plays of careless players, made when the first gate asks, and shared by all.
+pub(crate) struct CarelessPlays {
+    seed: Seed,
+    levels: Vec<OnceLock<Vec<Episode>>>,
+}
+
+impl CarelessPlays {
+    /// The plays on so many levels; none is made yet.
+    pub(crate) fn new(levels: usize, seed: Seed) -> CarelessPlays {
+        CarelessPlays { seed, levels: vec![OnceLock::new(); levels] }
+    }
+}
+
+/// The plays of careless players on a level. Cost, once: a call for each action and tick.
+pub(super) fn plays<'a>(case: GameCase<'a>, won: WonLevel<'_>, gates: &Gates) -> &'a [Episode] {
+    let Gates { careless_plays, careless_slips, .. } = *gates;
+    let all = case.careless;
+    all.levels[won.number].get_or_init(|| nearest_goal(case, won, (careless_slips, careless_plays), all.seed))
+}
+
 /// Plays of the nearest-goal player on a level, with a share of slips. Cost: a call for each action and tick.
-pub(super) fn plays(case: GameCase<'_>, won: WonLevel<'_>, slips: f64, plays: u32) -> Vec<Episode> {
-    let seed = case.seed.child("level", won.number as u64);
+pub(super) fn nearest_goal(
+    case: GameCase<'_>,
+    won: WonLevel<'_>,
+    (slips, plays): (f64, u32),
+    seed: Seed,
+) -> Vec<Episode> {
+    let seed = seed.child("level", won.number as u64);
     let limits = Limits { ticks: PATIENCE * won.ticks() + GRACE, calls: u64::MAX };
     let run = |number: u32| {
         let seed = seed.child("play", u64::from(number));

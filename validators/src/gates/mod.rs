@@ -15,6 +15,8 @@ mod progression;
 mod thresholds;
 mod tight;
 
+pub(crate) use careless::CarelessPlays;
+
 pub use actors_matter::ActorsMatter;
 pub use drama::Drama;
 pub use necessity::Necessity;

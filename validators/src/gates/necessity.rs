@@ -34,14 +34,16 @@ impl GameValidator for Necessity {
         "necessity"
     }
 
+    fn asks_for_usage(&self) -> bool {
+        true
+    }
+
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let gates = &self.0;
-        let careless =
-            |&won: &WonLevel<'_>| careless::plays(case, won, gates.careless_slips, gates.careless_plays);
-        let plays: Vec<Vec<Episode>> = wins.iter().map(careless).collect();
+        let plays: Vec<&[Episode]> = wins.iter().map(|&won| careless::plays(case, won, gates)).collect();
         let guards = Guards::of(case.analysis);
-        let lines = |(won, plays): (&WonLevel<'_>, &Vec<Episode>)| {
+        let lines = |(won, plays): (&WonLevel<'_>, &&[Episode])| {
             let episodes = plays.iter().chain([won.win]);
             let lines = episodes.flat_map(|episode| mechanics(case.game, &guards, won.level, episode));
             (won.number, lines.collect())

@@ -33,7 +33,7 @@ impl GameValidator for NotInstant {
         for won in &later {
             let before = problems.len();
             problems.extend(self.too_short(case, **won, &periods));
-            let plays = careless::plays(case, **won, 0.0, gates.bot_plays);
+            let plays = careless::nearest_goal(case, **won, (0.0, gates.bot_plays), case.seed);
             let share = careless::win_share(&plays);
             let text = format!(
                 "the nearest-goal player wins {:.0} % of its plays on level {}",

@@ -90,11 +90,7 @@ impl Progression {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();
         known.unwrap_or_else(|| {
-            let Gates { careless_plays, careless_slips, .. } = self.0;
-            let share = |won: &super::WonLevel<'_>| {
-                careless::win_share(&careless::plays(case, *won, careless_slips, careless_plays))
-            };
-            wins.iter().map(share).collect()
+            wins.iter().map(|won| careless::win_share(careless::plays(case, *won, &self.0))).collect()
         })
     }
 }

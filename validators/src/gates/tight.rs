@@ -36,8 +36,7 @@ impl GameValidator for Tight {
                 notes.push(Evidence::new(text));
             }
             if won.number > 0 || wins.len() == 1 {
-                let plays = careless::plays(case, *won, gates.careless_slips, gates.careless_plays);
-                shares.push(careless::win_share(&plays));
+                shares.push(careless::win_share(careless::plays(case, *won, gates)));
             }
         }
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
