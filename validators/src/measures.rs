@@ -206,6 +206,21 @@ fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &Sta
     moved.min(types.len())
 }
 
+/// Returns the pushes of an episode, as [`Measures::pushes`] counts them. Cost: that of the episode.
+pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -> usize {
+    let game = analysis.game();
+    let mut state = game.start(level, episode.seed);
+    let mut recorder = MeetingRecorder::new(game);
+    let mut pushes = 0;
+    for &action in &episode.actions {
+        let before = state.clone();
+        recorder.meetings.clear();
+        game.step_watched(&mut state, action, &mut recorder);
+        pushes += pushed(analysis, &recorder.meetings, &before, &state);
+    }
+    pushes
+}
+
 /// Records the executed interactions, and the meetings of the current tick.
 pub(crate) struct MeetingRecorder {
     lines: Vec<bool>,

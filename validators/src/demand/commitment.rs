@@ -1,0 +1,102 @@
+//! The longest commitment with which a planner still wins.
+
+use super::patience;
+use agents::{Budget, OpenLoop, PlannerSpec};
+use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+
+engine::named_enum! {
+    /// The longest plan, in actions played without another look, with which a planner wins a level. Lower is more demanding.
+    pub enum Commitment {
+        /// No planner wins, even with a look before every action.
+        None = "none",
+        /// A look before every action.
+        One = "1",
+        /// Plans of 2 actions.
+        Two = "2",
+        /// Plans of 5 actions.
+        Five = "5",
+        /// Plans of 10 actions.
+        Ten = "10",
+        /// Plans of 20 actions.
+        Twenty = "20",
+        /// Plans of 50 actions.
+        Fifty = "50",
+        /// One plan for the whole episode.
+        All = "all",
+    }
+}
+
+/// The planners of the portfolio that play, each in open loop.
+const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
+/// Forward-model calls of a decision.
+const DECISION: Budget = Budget(200);
+/// The most forward-model calls of a play.
+const CALLS: u64 = 100_000;
+
+impl Commitment {
+    /// Plays every planner once for each commitment, the shortest first, until none wins. Without chance a plan is the same as
+    /// what looks would choose, so that one round of plays decides. Cost: at most 2.1 million forward-model calls.
+    pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Commitment {
+        let game = analysis.game();
+        let is_certain = analysis.is_deterministic_from(&game.start(level, seed));
+        let mut longest = Commitment::None;
+        for commitment in Commitment::ALL {
+            let Some(actions) = commitment.actions() else { continue };
+            let wins = |planner: &&str| {
+                let seed = seed.child(planner, actions);
+                let spec: PlannerSpec = planner.parse().expect("a planner of the registry");
+                let open = OpenLoop::new(spec.player(seed), DECISION, seed);
+                is_won(game, level, open, actions, patience(win), seed.child("chance", 0))
+            };
+            if !PLANNERS.iter().any(wins) {
+                break;
+            }
+            longest = if is_certain { Commitment::All } else { commitment };
+            if is_certain {
+                break;
+            }
+        }
+        longest
+    }
+
+    /// The actions of a plan.
+    fn actions(self) -> Option<u64> {
+        Some(match self {
+            Commitment::None => return None,
+            Commitment::One => 1,
+            Commitment::Two => 2,
+            Commitment::Five => 5,
+            Commitment::Ten => 10,
+            Commitment::Twenty => 20,
+            Commitment::Fifty => 50,
+            Commitment::All => u64::MAX,
+        })
+    }
+}
+
+/// Plays one episode in plans of so many actions; returns `true` if it is won.
+fn is_won(
+    game: &Game,
+    level: &Level,
+    mut player: OpenLoop<agents::Player>,
+    actions: u64,
+    ticks: usize,
+    seed: Seed,
+) -> bool {
+    let mut state = game.start(level, seed);
+    let (mut played, mut calls) = (0, 0);
+    while !state.is_over() && played < ticks && calls < CALLS {
+        let least = DECISION.0.max(1);
+        let most = actions.min((ticks - played) as u64).min((CALLS - calls).div_ceil(least));
+        let (plan, spent) = player.plan(game, &state, most);
+        calls += spent;
+        for action in plan {
+            if state.is_over() {
+                break;
+            }
+            game.step(&mut state, action);
+            played += 1;
+        }
+    }
+    state.outcome() == Outcome::Won
+}

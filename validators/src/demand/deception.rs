@@ -1,0 +1,63 @@
+//! Players that go for what is near, and how far from the win that leads them.
+
+use super::patience;
+use super::route::{Route, avatar_cell};
+use agents::{Budget, Limits, NearestGoal, OneStep, OneStepConfig, Planner, play};
+use engine::{Analysis, Episode, Level, Outcome, Seed};
+use serde::{Deserialize, Serialize};
+
+/// The plays of the nearest-goal player and of one-step look-ahead.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Deception {
+    /// Plays of both.
+    pub plays: u64,
+    /// Plays that were not won in twice the ticks of the win, and twenty more.
+    pub lost: u64,
+    /// The greatest distance of the avatar from the route of the win, in cells, on average over the plays.
+    pub astray: f64,
+}
+
+/// Plays of each player, each with its own random seed.
+const PLAYS: u64 = 4;
+
+impl Deception {
+    /// Cost: the ticks of eight plays, times the number of actions.
+    pub(super) fn of(
+        analysis: &Analysis,
+        level: &Level,
+        win: &Episode,
+        route: &Route,
+        seed: Seed,
+    ) -> Deception {
+        let game = analysis.game();
+        let limits = Limits { ticks: patience(win), ..Limits::default() };
+        let mut found = Deception { plays: 0, lost: 0, astray: 0.0 };
+        let mut farthest = 0;
+        for number in 0..PLAYS {
+            let seed = seed.child("play", number);
+            let mut nearest = NearestGoal::new(0.0, seed.child("nearest goal", 0));
+            let mut greedy = OneStep::new(OneStepConfig::default(), seed.child("one step", 0));
+            let players: [&mut dyn Planner; 2] = [&mut nearest, &mut greedy];
+            for player in players {
+                let played = play(game, level, player, Budget(0), seed.child("chance", 0), limits).episode;
+                found.plays += 1;
+                found.lost += u64::from(played.outcome != Outcome::Won);
+                let mut state = game.start(level, played.seed);
+                let mut far = 0;
+                for &action in &played.actions {
+                    game.step(&mut state, action);
+                    far = avatar_cell(&state).map_or(far, |cell| far.max(route.distance(cell)));
+                }
+                farthest += far;
+            }
+        }
+        found.astray = f64::from(farthest) / found.plays as f64;
+        found
+    }
+
+    /// The share of plays that were not won.
+    pub fn share(&self) -> f64 {
+        self.lost as f64 / self.plays.max(1) as f64
+    }
+}

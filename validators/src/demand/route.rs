@@ -1,0 +1,63 @@
+//! The route of a win, and what comes next to it.
+
+use engine::analysis::{Motion, Role};
+use engine::{Analysis, Episode, Level, SpriteType, State};
+use std::collections::BTreeSet;
+
+/// The cells that the avatar enters in a win.
+pub(super) struct Route {
+    pub(super) cells: BTreeSet<(i32, i32)>,
+    /// Sprites that move by themselves, shots of the player apart, and come into or next to one of the cells.
+    pub(super) movers: usize,
+}
+
+impl Route {
+    /// Cost: the win is replayed twice, with a look at all sprites in each tick.
+    pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode) -> Route {
+        let game = analysis.game();
+        let moves = |stype: SpriteType| {
+            !matches!(analysis.facts(stype).motion, Motion::Still | Motion::Steered)
+                && !matches!(analysis.role(stype), Role::Shot | Role::Avatar)
+        };
+        let moves: Vec<bool> = game.sprite_types().map(moves).collect();
+        let mut cells = BTreeSet::new();
+        each_state(analysis, level, win, |state| cells.extend(avatar_cell(state)));
+        let mut near = BTreeSet::new();
+        if moves.contains(&true) {
+            each_state(analysis, level, win, |state| {
+                let block = state.block();
+                let movers =
+                    game.records(state).into_iter().filter(|record| moves[usize::from(record.stype)]);
+                for mover in movers {
+                    let (x, y) = (mover.rect.x.div_euclid(block), mover.rect.y.div_euclid(block));
+                    let beside = (-1..=1).any(|dx| (-1..=1).any(|dy| cells.contains(&(x + dx, y + dy))));
+                    if beside {
+                        near.insert(mover.id);
+                    }
+                }
+            });
+        }
+        Route { cells, movers: near.len() }
+    }
+
+    /// The distance of a cell from the nearest cell of the route, in steps.
+    pub(super) fn distance(&self, (x, y): (i32, i32)) -> i32 {
+        self.cells.iter().map(|&(column, row)| (column - x).abs() + (row - y).abs()).min().unwrap_or(0)
+    }
+}
+
+/// The cell of the avatar, if it lives.
+pub(super) fn avatar_cell(state: &State) -> Option<(i32, i32)> {
+    let block = state.block();
+    state.avatar_place().map(|(x, y)| (x.div_euclid(block), y.div_euclid(block)))
+}
+
+fn each_state(analysis: &Analysis, level: &Level, win: &Episode, mut look: impl FnMut(&State)) {
+    let game = analysis.game();
+    let mut state = game.start(level, win.seed);
+    look(&state);
+    for &action in &win.actions {
+        game.step(&mut state, action);
+        look(&state);
+    }
+}

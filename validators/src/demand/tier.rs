@@ -1,0 +1,137 @@
+//! Four tiers of levels by what they demand.
+
+use super::{Commitment, Demand};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The tier of a level: a documented function of its [`Demand`] ([`TIERS`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "u8", into = "u8")]
+pub enum Tier {
+    /// A few decisions, or nothing that stands in the way.
+    One = 1,
+    /// Some decisions, and something that punishes hasty ones.
+    Two = 2,
+    /// Long plans against two such things.
+    Three = 3,
+    /// Very long plans against three.
+    Four = 4,
+}
+
+/// The least that a level of a tier demands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TierBounds {
+    /// The tier.
+    pub tier: Tier,
+    /// Decisions of the win.
+    pub decisions: usize,
+    /// Of the [traps](Demand::traps), how many the level has.
+    pub traps: usize,
+}
+
+/// The least demands of each tier; a level is of the highest tier whose demands it meets.
+pub const TIERS: [TierBounds; 4] = [
+    TierBounds { tier: Tier::One, decisions: 0, traps: 0 },
+    TierBounds { tier: Tier::Two, decisions: 20, traps: 1 },
+    TierBounds { tier: Tier::Three, decisions: 50, traps: 2 },
+    TierBounds { tier: Tier::Four, decisions: 120, traps: 3 },
+];
+
+/// No planner wins with plans longer than this.
+const FORESIGHT: Commitment = Commitment::Five;
+/// The share of states beside the win that are dead ends.
+const DEAD_ENDS: f64 = 0.1;
+/// Sprites that move by themselves and come next to the route.
+const MOVERS: usize = 3;
+/// The share of plays that greedy players lose.
+const LOSSES: f64 = 0.75;
+
+impl Demand {
+    /// The traps of a level, of four: planners of a small budget win at most with short plans; a tenth of the states beside the
+    /// win are dead ends; three movers come next to the route; greedy players lose three plays of four.
+    pub fn traps(&self) -> [bool; 4] {
+        [
+            self.commitment <= FORESIGHT,
+            self.dead_ends.is_some_and(|found| found.share() >= DEAD_ENDS),
+            self.movers >= MOVERS,
+            self.deception.share() >= LOSSES,
+        ]
+    }
+}
+
+impl Tier {
+    /// All tiers, the lowest first.
+    pub const ALL: [Tier; 4] = [Tier::One, Tier::Two, Tier::Three, Tier::Four];
+
+    /// The highest tier whose demands are met.
+    pub(super) fn of(demand: &Demand) -> Tier {
+        let traps = demand.traps().into_iter().filter(|&there| there).count();
+        let met = |bounds: &&TierBounds| demand.decisions >= bounds.decisions && traps >= bounds.traps;
+        TIERS.iter().rev().find(met).map_or(Tier::One, |bounds| bounds.tier)
+    }
+
+    /// The least demands of the tier.
+    pub fn bounds(self) -> TierBounds {
+        TIERS[usize::from(u8::from(self)) - 1]
+    }
+}
+
+impl From<Tier> for u8 {
+    fn from(tier: Tier) -> u8 {
+        tier as u8
+    }
+}
+
+impl TryFrom<u8> for Tier {
+    type Error = String;
+
+    fn try_from(number: u8) -> Result<Tier, String> {
+        let found = Tier::ALL.into_iter().find(|&tier| u8::from(tier) == number);
+        found.ok_or_else(|| format!("there is no tier {number}; there are 1 to 4"))
+    }
+}
+
+impl fmt::Display for Tier {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", u8::from(*self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demand::{DeadEnds, Deception};
+
+    fn check(decisions: usize, commitment: Commitment, dead: usize, lost: u64, expect: Tier) {
+        let demand = Demand {
+            ticks: decisions,
+            decisions,
+            pushes: 0,
+            shortest: true,
+            commitment,
+            dead_ends: Some(DeadEnds { states: 10, dead, won: 0 }),
+            movers: 0,
+            deception: Deception { plays: 8, lost, astray: 0.0 },
+        };
+        assert_eq!(demand.tier(), expect, "{demand:?}");
+    }
+
+    #[test]
+    fn tiers_rise_with_decisions_and_traps() {
+        check(500, Commitment::All, 0, 0, Tier::One);
+        check(19, Commitment::None, 9, 8, Tier::One);
+        check(20, Commitment::All, 0, 6, Tier::Two);
+        check(50, Commitment::All, 1, 6, Tier::Three);
+        check(50, Commitment::Ten, 0, 5, Tier::One);
+        check(119, Commitment::None, 9, 8, Tier::Three);
+        check(120, Commitment::Five, 1, 6, Tier::Four);
+        check(120, Commitment::Ten, 1, 6, Tier::Three);
+    }
+
+    #[test]
+    fn tiers_are_numbers_in_data() {
+        assert_eq!(TIERS.map(|bounds| bounds.tier), Tier::ALL);
+        assert_eq!(Tier::try_from(3), Ok(Tier::Three));
+        assert!(Tier::try_from(5).unwrap_err().contains("1 to 4"));
+    }
+}
