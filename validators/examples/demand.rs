@@ -5,8 +5,8 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "a program")]
 
-use infinite_arcade_agents::{PortfolioConfig, Solution, solve};
-use infinite_arcade_engine::{Analysis, Game, Seed};
+use agents::{PortfolioConfig, Solution, solve};
+use engine::{Analysis, Game, Seed};
 use infinite_arcade_validators::Demand;
 use rayon::prelude::*;
 use std::fs;
