@@ -3,7 +3,7 @@
 use engine::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use validators::{Ladder, Rate};
+use validators::{Demand, Ladder, Rate, Tier};
 
 /// The origin of a game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,6 +95,12 @@ pub struct LevelCard {
     /// `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
+    /// What a win demands of a player, if the recipe asks for tiers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub demand: Option<Demand>,
+    /// The tier that follows from it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tier: Option<Tier>,
 }
 
 /// A game of a release.

@@ -3,7 +3,7 @@
 use crate::sealed::{self, Secret};
 use engine::{Digest, Game, Seed};
 use forge::games::Board;
-use generators::games::Kind;
+use generators::games::{Kind, PushRules};
 use generators::kernels::kinds;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -13,6 +13,8 @@ use validators::{Criteria, CriteriaError, Difficulty, GameForm};
 
 /// The maximum size of a recipe, in bytes.
 pub const MAX_RECIPE: usize = 1 << 16;
+/// The maximum number of cells of a puzzle.
+const PUZZLE_CELLS: usize = 128;
 
 /// The parameters that determine the bytes of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,12 +39,18 @@ pub struct Recipe {
     /// New games with levels.
     #[serde(default)]
     pub generated: GeneratedPart,
+    /// New puzzles of pushed things.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub puzzles: Option<PuzzlePart>,
     /// The sizes of the boards.
     #[serde(default)]
     pub board: Board,
     /// The share of all levels that has each difficulty; if empty, any difficulty is accepted.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub difficulty: BTreeMap<Difficulty, f64>,
+    /// The share of all levels that is of each tier; if empty, tiers are not measured.
+    #[serde(default, skip_serializing_if = "Tiers::is_empty")]
+    pub tiers: Tiers,
     /// The quotas for kinds of games.
     #[serde(default)]
     pub taxonomy: Taxonomy,
@@ -100,6 +108,61 @@ engine::with_defaults! {
         pub least_interactions: usize = 7,
         /// The minimum number of different interactions that the wins of a game's levels execute together.
         pub least_mechanics: usize = 3,
+    }
+}
+
+engine::with_defaults! {
+    /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
+    /// of the recipe.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct PuzzlePart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game.
+        pub levels: u32 = 3,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 3,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.25,
+        /// The minimum and maximum number of columns.
+        pub columns: (usize, usize) = (10, 11),
+        /// The minimum and maximum number of rows.
+        pub rows: (usize, usize) = (10, 11),
+    }
+}
+
+/// Shares of levels by tier.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tiers {
+    /// The share of tier 1.
+    #[serde(rename = "1", skip_serializing_if = "is_zero")]
+    pub one: f64,
+    /// The share of tier 2.
+    #[serde(rename = "2", skip_serializing_if = "is_zero")]
+    pub two: f64,
+    /// The share of tier 3.
+    #[serde(rename = "3", skip_serializing_if = "is_zero")]
+    pub three: f64,
+    /// The share of tier 4.
+    #[serde(rename = "4", skip_serializing_if = "is_zero")]
+    pub four: f64,
+}
+
+fn is_zero(share: &f64) -> bool {
+    *share == 0.0
+}
+
+impl Tiers {
+    /// Returns `true` if no tier is asked for.
+    pub fn is_empty(&self) -> bool {
+        *self == Tiers::default()
+    }
+
+    /// The shares, from tier 1 to tier 4.
+    pub fn shares(&self) -> [f64; 4] {
+        [self.one, self.two, self.three, self.four]
     }
 }
 
@@ -285,9 +348,10 @@ impl Recipe {
             }
             _ => {}
         }
-        if self.corpus.games + self.generated.games == 0 {
+        if self.games() == 0 {
             return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
         }
+        self.check_puzzles()?;
         let (old, new) = (&self.corpus, &self.generated);
         for (key, value, least, most) in [
             ("corpus.games", old.games, 0, 10_000),
@@ -353,6 +417,38 @@ impl Recipe {
         Ok(())
     }
 
+    /// Checks the part of puzzles, and the tiers.
+    fn check_puzzles(&self) -> Result<(), RecipeError> {
+        let total: f64 = self.tiers.shares().iter().sum();
+        let are_shares = self.tiers.shares().iter().all(|share| (0.0..=1.0).contains(share));
+        if !(self.tiers.is_empty() || are_shares && (total - 1.0).abs() < 1e-6) {
+            return wrong("tiers", format!("adds up to {total}; it takes shares that add up to 1"));
+        }
+        let Some(part) = &self.puzzles else { return Ok(()) };
+        let known = PushRules::ALL.len() as u32;
+        if part.games == 0 || part.games > known {
+            return wrong("puzzles.games", format!("is {}; it takes 1 to {known}", part.games));
+        }
+        for (key, value) in [("puzzles.levels", part.levels), ("puzzles.level_tries", part.level_tries)] {
+            if !(1..=20).contains(&value) {
+                return wrong(key, format!("is {value}; it takes 1 to 20"));
+            }
+        }
+        if !(1.0..=20.0).contains(&part.candidates) {
+            return wrong("puzzles.candidates", "takes 1 to 20 for each game");
+        }
+        for (key, (least, most)) in [("puzzles.columns", part.columns), ("puzzles.rows", part.rows)] {
+            if least < 8 || most < least || part.columns.1 * part.rows.1 > PUZZLE_CELLS {
+                let help = "takes two numbers from 8, the smaller first; a board has at most 128 cells";
+                return wrong(key, help);
+            }
+        }
+        if self.tiers.is_empty() {
+            return wrong("puzzles", "needs `tiers`, the shares of levels that are made to each");
+        }
+        Ok(())
+    }
+
     /// Checks the values that govern the selection of games.
     fn check_selection(&self) -> Result<(), RecipeError> {
         if !self.difficulty.is_empty() {
@@ -375,7 +471,7 @@ impl Recipe {
             if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
                 return wrong(key, "takes pairs of shares from 0 to 1, the smaller first");
             }
-            let games = i64::from(self.corpus.games + self.generated.games);
+            let games = i64::from(self.games());
             let numbers = || quotas.iter().map(|&&share| self.quota(share));
             if let Some((&&(low, high), _)) =
                 quotas.iter().zip(numbers()).find(|(_, (least, most))| least > most)
@@ -441,14 +537,25 @@ impl Recipe {
 
     /// The numbers of games that a range of shares amounts to.
     pub(crate) fn quota(&self, (least, most): (f64, f64)) -> (i64, i64) {
-        let games = f64::from(self.corpus.games + self.generated.games);
+        let games = f64::from(self.games());
         // A little slack, so that 0.2 of 10 games is 2.
         ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
     }
 
     /// The number of levels of all games.
     pub fn levels(&self) -> u32 {
-        self.corpus.games * self.corpus.levels + self.generated.games * self.generated.levels
+        let puzzles = self.puzzles.as_ref().map_or(0, |part| part.games * part.levels);
+        self.corpus.games * self.corpus.levels + self.generated.games * self.generated.levels + puzzles
+    }
+
+    /// The number of games.
+    pub fn games(&self) -> u32 {
+        self.corpus.games + self.new_games()
+    }
+
+    /// The number of games from generators.
+    pub fn new_games(&self) -> u32 {
+        self.generated.games + self.puzzles.as_ref().map_or(0, |part| part.games)
     }
 }
 
@@ -513,6 +620,21 @@ mod tests {
         assert!(Recipe::to_commit(&GOOD.replace("seed = 'x'\n", "")).is_ok());
         let error = Recipe::to_commit(&GOOD.replace("= 2", "= 0")).unwrap_err().to_string();
         assert!(error.contains("nothing to mint"), "{error}");
+    }
+
+    #[test]
+    fn puzzles_are_made_to_tiers() {
+        let puzzles = "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[puzzles]\ngames = 2\n";
+        check(puzzles, "`puzzles` needs `tiers`");
+        check(&format!("{puzzles}[tiers]\n4 = 0.5"), "adds up to 0.5");
+        check(&format!("{puzzles}[tiers]\n5 = 1.0"), "unknown field `5`");
+        check(&format!("{puzzles}columns = [10, 16]\n[tiers]\n4 = 1.0"), "at most 128 cells");
+        check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "it takes 1 to 15");
+        let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
+        assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
+        // Recipes that ask for neither keep their bytes.
+        let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
+        assert!(plain.get("tiers").is_none() && plain.get("puzzles").is_none());
     }
 
     #[test]

@@ -194,6 +194,8 @@ pub(crate) mod tests {
             mcts: result("", 0, 4).rate,
             random: result("", 0, 4).rate,
             idle: result("", 0, 4).rate,
+            demand: None,
+            tier: None,
             ladder: Some(Ladder {
                 rungs: vec![result("random", *random, 10)],
                 held_out: vec![result("olets:9", *olets, 10)],

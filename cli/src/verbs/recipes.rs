@@ -42,14 +42,14 @@ fn list(console: &Console) -> Answer {
         json!({
             "name": recipe.name,
             "description": recipe.description.trim(),
-            "games": recipe.generated.games + recipe.corpus.games,
+            "games": recipe.games(),
             "levels": recipe.levels(),
         })
     };
     console.document(&json!({ "recipes": recipes.iter().map(entry).collect::<Vec<_>>() }))?;
     let width = names.iter().map(String::len).max().unwrap_or(0);
     for recipe in &recipes {
-        let games = recipe.generated.games + recipe.corpus.games;
+        let games = recipe.games();
         let levels = recipe.levels();
         let what = recipe.description.trim();
         console.say(format_args!("{:<width$}  {games:>3} games, {levels:>3} levels  {what}", recipe.name));

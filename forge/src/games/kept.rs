@@ -71,6 +71,7 @@ impl KeptGame {
                 difficulty: card.difficulty,
                 candidate: card.candidate,
                 seed: Seed::from_text("kept"),
+                demand: card.demand.clone(),
             })
         };
         let levels = places.map(found).collect::<Option<Vec<FoundLevel>>>()?;

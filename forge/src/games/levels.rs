@@ -1,14 +1,15 @@
 //! Levels for one game: candidates of the level generator until enough pass.
 
+use super::puzzles::{self, PuzzleLevels};
 use crate::card::LevelCard;
 use crate::tally::Tally;
-use engine::{Digest, Episode, Game, Level, Outcome, Seed};
+use engine::{Action, Analysis, Digest, Episode, Game, Level, Outcome, Seed};
 use generators::kernels::{Course, CourseLevel, Slot};
-use generators::levels::{ConstructiveLevels, LevelConfig};
+use generators::levels::{ConstructiveLevels, LevelConfig, PuzzleVariation};
 use generators::{GenerateError, Generator};
 use std::slice;
 use validators::{
-    Criteria, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, Verdict, mcts_rate,
+    Criteria, Demand, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, Verdict, mcts_rate,
 };
 
 /// A level that its judges let in.
@@ -28,6 +29,8 @@ pub struct FoundLevel {
     pub candidate: u32,
     /// The seed of its judges.
     pub seed: Seed,
+    /// What it demands, if it was made to a tier.
+    pub demand: Option<Demand>,
 }
 
 /// The levels of a game, and what was found of all of them together.
@@ -48,6 +51,8 @@ pub enum LevelSource<'a> {
     Rules(&'a LevelConfig),
     /// The maps of a kernel; each place has a slot.
     Course(&'a Course),
+    /// Puzzles of pushed things; each place has a tier.
+    Puzzles(&'a PuzzleLevels),
 }
 
 impl LevelSource<'_> {
@@ -56,6 +61,7 @@ impl LevelSource<'_> {
         match self {
             LevelSource::Rules(_) => "constructive",
             LevelSource::Course(_) => "course",
+            LevelSource::Puzzles(_) => "puzzle",
         }
     }
 }
@@ -64,18 +70,26 @@ impl LevelSource<'_> {
 enum PlaceGenerator<'a> {
     Rules(Box<ConstructiveLevels<'a>>),
     Course(&'a Course, Slot),
+    Puzzles(Box<PuzzleVariation<'a>>),
 }
 
+/// A level, its question to the player if it is one of a course, and actions that win it if they are known.
+type Generated = (Level, Option<String>, Option<Vec<Action>>);
+
 impl PlaceGenerator<'_> {
-    /// Generates a level, and its question to the player if it is one of a course.
-    fn generate(&self, game: &Game, seed: Seed) -> Result<(Level, Option<String>), GenerateError> {
+    fn generate(&self, game: &Game, seed: Seed) -> Result<Generated, GenerateError> {
         match self {
-            PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None)),
+            PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None, None)),
+            PlaceGenerator::Puzzles(puzzles) => {
+                let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
+                let solved = puzzles.create_solved(seed).ok_or_else(far)?;
+                Ok((solved.level, None, solved.solution))
+            }
             PlaceGenerator::Course(course, slot) => {
                 let CourseLevel { text, asks, .. } = course.level(*slot, seed)?;
                 let level =
                     game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))?;
-                Ok((level, Some(asks)))
+                Ok((level, Some(asks), None))
             }
         }
     }
@@ -168,7 +182,7 @@ impl Levels<'_> {
         levels: &[(u32, FoundLevel)],
         tally: &mut Tally,
     ) -> Option<&'static str> {
-        if matches!(self.source, LevelSource::Rules(_)) || self.count as usize == OUTLINE {
+        if !matches!(self.source, LevelSource::Course(_)) || self.count as usize == OUTLINE {
             return None;
         }
         let gates = &self.criteria.gates;
@@ -317,6 +331,9 @@ impl Levels<'_> {
                 let slot = Slot::ALL[(difficulty * last as f64).round() as usize];
                 Ok(PlaceGenerator::Course(course, slot))
             }
+            LevelSource::Puzzles(puzzles) => {
+                puzzles.generator(game, number).map(|levels| PlaceGenerator::Puzzles(Box::new(levels)))
+            }
         };
         let generator = match generator {
             Ok(generator) => generator,
@@ -332,8 +349,8 @@ impl Levels<'_> {
             }
             left -= 1;
             let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
-            let (level, asks) = match generator.generate(game, seed.child("layout", 0)) {
-                Ok((level, _)) if taken.contains(&level.digest()) => {
+            let (level, asks, known) = match generator.generate(game, seed.child("layout", 0)) {
+                Ok((level, ..)) if taken.contains(&level.digest()) => {
                     tally.level(0, Some("the same level twice"));
                     continue;
                 }
@@ -343,6 +360,13 @@ impl Levels<'_> {
                     continue;
                 }
             };
+            if let (LevelSource::Puzzles(puzzles), Some(known)) = (self.source, known) {
+                match self.puzzle(puzzles, game, level, known, ((number, difficulty, candidate), seed), tally)
+                {
+                    Some(found) => return Some(found),
+                    None => continue,
+                }
+            }
             let calls = tally.calls;
             let Some(found) =
                 self.judged(self.panel, game, level, ((difficulty, candidate), None), seed, tally)
@@ -357,7 +381,7 @@ impl Levels<'_> {
                 true => found.asks_as_much_as(other),
                 false => other.asks_as_much_as(&found),
             };
-            if matches!(self.source, LevelSource::Rules(_)) {
+            if !matches!(self.source, LevelSource::Course(_)) {
                 return Some(found);
             }
             if !others.iter().all(in_order) {
@@ -369,6 +393,33 @@ impl Levels<'_> {
             }
         }
         None
+    }
+
+    /// A puzzle of the tier of its place: won, judged, and measured. Cost: a proof of the shortest win within the share of the
+    /// budget for it, the judges, and [`Demand::of`].
+    fn puzzle(
+        &self,
+        puzzles: &PuzzleLevels,
+        game: &Game,
+        level: Level,
+        known: Vec<Action>,
+        ((number, difficulty, candidate), seed): ((u32, f64, u32), Seed),
+        tally: &mut Tally,
+    ) -> Option<FoundLevel> {
+        let analysis = Analysis::of(game);
+        let of_win = seed.child("judges", 0).child("winnable", 0).child("systematic", 0);
+        let calls = (self.criteria.budget as f64 * self.criteria.shortest) as u64;
+        let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win)?;
+        tally.calls(calls);
+        let place = ((difficulty, candidate), Some(win));
+        let found = self.judged(self.panel, game, level, place, seed, tally)?;
+        let witness = found.report.witness.as_ref()?;
+        let demand = Demand::of(&analysis, &found.level, witness, shortest, seed.child("demand", 0))?;
+        if demand.tier() != puzzles.tier(number) {
+            tally.level_taken_back("tier");
+            return None;
+        }
+        Some(FoundLevel { demand: Some(demand), ..found })
     }
 
     /// Tests whether the win of a level has dead time: the gate looks at each level alone.
@@ -406,6 +457,7 @@ impl Levels<'_> {
             difficulty,
             candidate,
             seed,
+            demand: None,
         })
     }
 }
@@ -463,12 +515,17 @@ impl FoundLevel {
             candidate: self.candidate,
             witness_ticks: witness.actions.len(),
             witness_score: witness.score,
-            optimal_ticks: report.finding("winnable").and_then(|finding| finding.optimal),
+            optimal_ticks: match &self.demand {
+                Some(demand) => demand.shortest.then_some(demand.ticks),
+                None => report.finding("winnable").and_then(|finding| finding.optimal),
+            },
             search_calls: report.finding("winnable").map_or(0, Finding::calls),
             mcts: mcts.clone(),
             random: rate("not-random")?,
             idle: rate("not-idle")?,
             ladder: report.ladder().cloned(),
+            tier: self.demand.as_ref().map(Demand::tier),
+            demand: self.demand.clone(),
         };
         Some((card, witness))
     }

@@ -13,6 +13,7 @@ mod levels;
 mod look;
 mod make;
 mod order;
+mod puzzles;
 mod rounds;
 
 pub mod report;
@@ -23,3 +24,4 @@ pub use kept::{Kept, KeptGame};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{GameSet, GamesError, Progress, Shortfall, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};
+pub use puzzles::PuzzleLevels;

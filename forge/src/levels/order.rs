@@ -129,6 +129,7 @@ impl LevelOrder {
             things,
             floor_plans: if is_annealed { PuzzleConfig::default().floor_plans } else { PLANS_OF_ARCHIVE },
             way: self.difficulty.map(|_| ANY_WAY),
+            target: None,
         }
     }
 

@@ -8,6 +8,7 @@ pub(crate) mod english;
 mod kind;
 mod masked;
 pub(crate) mod palette;
+mod push;
 mod rethemed;
 mod role;
 mod surface;
@@ -16,6 +17,7 @@ mod themes;
 
 pub use kind::Kind;
 pub use masked::Masked;
+pub use push::PushRules;
 pub use rethemed::Rethemed;
 
 use engine::Description;

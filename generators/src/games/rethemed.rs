@@ -76,6 +76,11 @@ impl Rethemed {
         Ok(Rethemed { goal: goal(&analysis), title, summary, theme: theme.name, symbols, description })
     }
 
+    /// The names of all themes.
+    pub fn themes() -> impl Iterator<Item = &'static str> {
+        Theme::ALL.iter().map(|theme| theme.name)
+    }
+
     /// Translates a level of the game to the new characters. Characters without a meaning become blanks.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)

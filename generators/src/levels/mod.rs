@@ -36,7 +36,7 @@ pub use config::LevelConfig;
 pub use constructive::{ConstructiveLevels, Solved};
 pub use examples::{Examples, cover};
 pub use measures::{LevelMeasure, LevelMeasures};
-pub use puzzles::{PuzzleConfig, PuzzleVariation};
+pub use puzzles::{PuzzleConfig, PuzzleTarget, PuzzleVariation};
 pub use search::LevelSearch;
 pub use symmetry::LevelSimilarity;
 pub use variation::LevelVariation;

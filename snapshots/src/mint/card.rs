@@ -28,6 +28,9 @@ pub struct ReleaseCard {
     pub planned: Vec<Bin>,
     /// The number of levels of each difficulty by the ladders of the cards, if it was measured.
     pub difficulty: BTreeMap<String, u64>,
+    /// The number of levels of each tier, if it was measured.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub tiers: BTreeMap<String, u64>,
     /// The number of games with each goal.
     pub goals: BTreeMap<String, u64>,
     /// The number of games with each avatar.
@@ -149,6 +152,7 @@ impl ReleaseCard {
                     .filter_map(|level| level.ladder.as_ref())
                     .map(|ladder| ladder.difficulty.name().to_owned()),
             ),
+            tiers: counted(levels().filter_map(|level| level.tier).map(|tier| tier.to_string())),
             goals: counted(games().map(|game| game.goal.name().to_owned())),
             avatars: counted(games().map(|game| game.avatar.name().to_owned())),
             generators: counted(cards.iter().map(generator)),

@@ -7,7 +7,7 @@ use forge::card::Card;
 use forge::games::{FoundLevel, MadeGame, Step};
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
-use validators::{Case, Criteria, Difficulty};
+use validators::{Case, Criteria, Demand, Difficulty};
 
 /// The games of a job; none if nothing passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,17 +42,41 @@ impl FrozenGame {
     /// The game of a job. `job` holds the steps from the release's root to the job's seed. `criteria` are those of its
     /// judges: if they asked a ladder, it plays once more, because accepted levels were lucky in the plays that they
     /// were accepted for.
-    pub(super) fn of(mut made: MadeGame, root: Seed, job: &[Step], criteria: &Criteria) -> FrozenGame {
+    /// If `measured`, levels without a tier are given one.
+    pub(super) fn of(
+        mut made: MadeGame,
+        root: Seed,
+        job: &[Step],
+        criteria: &Criteria,
+        measured: bool,
+    ) -> FrozenGame {
         let start: Vec<Step> = job.iter().chain(&made.path).cloned().collect();
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         let difficulties = ladders.map(|ladder| ladder.difficulty).collect();
         climb_again(&mut made, descendant(root, &start).child("published", 0), criteria);
+        if measured {
+            measure(&mut made, descendant(root, &start).child("demand", 0));
+        }
         let won = made.levels.iter().zip(&made.witnesses);
         let paths = won.map(|(found, witness)| path(root, &start, found, made.levels.len(), witness));
         let paths = paths.map(Option::unwrap_or_default).collect();
         let MadeGame { text, card, levels, witnesses, .. } = made;
         let levels = levels.iter().map(|found| found.level.to_string()).collect();
         FrozenGame { text, card, difficulties, levels, witnesses, paths }
+    }
+}
+
+/// Measures what the levels of a game demand, where that is not known.
+fn measure(made: &mut MadeGame, seed: Seed) {
+    let analysis = Analysis::of(&made.game);
+    let won = made.levels.iter().zip(&made.witnesses);
+    for (number, (card, (found, witness))) in made.card.levels.iter_mut().zip(won).enumerate() {
+        if card.demand.is_none() {
+            let shortest = card.optimal_ticks == Some(witness.actions.len());
+            let seed = seed.child("level", number as u64);
+            card.demand = Demand::of(&analysis, &found.level, witness, shortest, seed);
+            card.tier = card.demand.as_ref().map(Demand::tier);
+        }
     }
 }
 

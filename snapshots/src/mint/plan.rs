@@ -12,15 +12,16 @@ use forge::Tally;
 use forge::card::Origin;
 use forge::games::Step;
 use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, make_games, make_one,
+    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, PuzzleLevels, make_games,
+    make_one,
 };
 use forge::levels::Method;
-use generators::games::Rethemed;
+use generators::games::{PushRules, Rethemed};
 use generators::levels::{Examples, LevelConfig};
 use report::canonical::canonical_digest;
 use std::sync::Arc;
 use validators::novelty::GameForm;
-use validators::{Criteria, GATES, Panel};
+use validators::{Criteria, GATES, Panel, Tier};
 
 /// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
@@ -48,6 +49,8 @@ pub enum Job {
     Constructive(u32),
     /// New levels for a corpus game, by its place in the corpus.
     Corpus(usize),
+    /// A new puzzle of pushed things, by its number.
+    Puzzle(u32),
 }
 
 /// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
@@ -60,8 +63,11 @@ const ARCHIVE: [f64; 3] = [0.1, 5.4, 16.0];
 const SEARCH: [f64; 3] = [0.1, 5.4, 16.0];
 const CONSTRUCTIVE: [f64; 3] = [0.03, 5.4, 16.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
+const PUZZLE: [f64; 3] = [150.0, 150.0, 150.0];
 /// The calls of a search for a win for which the costs with gates hold.
 const GATED_BUDGET: f64 = 1e6;
+/// The maximum number of fictions to draw for a puzzle, to find one of its theme.
+const FICTIONS: u64 = 400;
 
 impl<'a> Plan<'a> {
     /// Makes the plan of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of
@@ -84,7 +90,7 @@ impl<'a> Plan<'a> {
         let forms = games.iter().map(GameForm::of).collect();
         let before = recipe.known.forms()?;
         let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs: Vec::new() };
-        plan.jobs = plan.generated().into_iter().chain(plan.of_corpus()?).collect();
+        plan.jobs = plan.puzzles().chain(plan.generated()).chain(plan.of_corpus()?).collect();
         Ok(plan)
     }
 
@@ -128,6 +134,9 @@ impl<'a> Plan<'a> {
             Job::Search(_) => of(SEARCH, new, &self.recipe.criteria),
             Job::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
             Job::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
+            Job::Puzzle(_) => {
+                of(PUZZLE, self.recipe.puzzles.as_ref().map_or(0, |part| part.levels), &self.recipe.criteria)
+            }
         };
         jobs.iter().map(cost).sum()
     }
@@ -146,6 +155,7 @@ impl<'a> Plan<'a> {
             Job::Search(number) => format!("search-{number}"),
             Job::Constructive(number) => format!("constructive-{number}"),
             Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
+            Job::Puzzle(number) => format!("puzzle-{number}"),
         }
     }
 
@@ -167,7 +177,11 @@ impl<'a> Plan<'a> {
     /// Never for a checked recipe.
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
+        let puzzles = self.recipe.puzzles.as_ref();
+        let puzzles = puzzles.map(|part| (part.levels, part.level_tries, part.columns, part.rows));
         let decisive = serde_json::json!({
+            "puzzles": puzzles,
+            "tiers": self.recipe.tiers,
             "generation": generators::GENERATION,
             "semantics": engine::SEMANTICS,
             "seed": seed,
@@ -193,6 +207,67 @@ impl<'a> Plan<'a> {
         archives.chain((0..searched).map(Job::Search)).chain((0..drawn).map(Job::Constructive)).collect()
     }
 
+    /// The candidates for puzzles.
+    fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
+        let part = self.recipe.puzzles.as_ref();
+        let all = part.map_or(0, |part| candidates(part.games, part.candidates));
+        (0..all.min(PushRules::ALL.len() as u32)).map(Job::Puzzle)
+    }
+
+    /// A puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
+    fn puzzle(&self, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
+        let mut tally = Tally::default();
+        let Some(part) = &self.recipe.puzzles else { return (Vec::new(), tally) };
+        let rules = PushRules::ALL[number as usize % PushRules::ALL.len()];
+        let mut themes: Vec<&str> = Rethemed::themes().collect();
+        self.seed.child("themes", 0).sampler().shuffle(&mut themes);
+        let theme = themes[number as usize % themes.len()];
+        let fictions = (0..FICTIONS).map(|draw| Rethemed::of(&rules.game(), seed.child("fiction", draw)));
+        let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
+        let Some(retold) = retold else {
+            tally.game_rejected("no fiction fits");
+            return (Vec::new(), tally);
+        };
+        let Ok(game) = Game::from_source(&syntax::print(&retold.description)) else {
+            tally.game_rejected("the rules do not compile");
+            return (Vec::new(), tally);
+        };
+        let candidate = Candidate {
+            title: retold.title,
+            description: retold.summary,
+            goal: retold.goal,
+            kind: "puzzle".to_owned(),
+            real_time: false,
+            origin: Origin::Generated {
+                generator: "puzzle".to_owned(),
+                patterns: vec![format!("puzzle/{}", rules.name())],
+                candidate: 0,
+            },
+            game,
+        };
+        let of_tiers = Tier::ALL.into_iter().zip(apportion(part.levels, &self.recipe.tiers.shares()));
+        let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
+        let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
+        let puzzles = PuzzleLevels { config, tiers };
+        let panel = Panel::new(&self.recipe.criteria).expect("the recipe was checked");
+        let levels = Levels {
+            count: part.levels,
+            tries: part.level_tries,
+            source: LevelSource::Puzzles(&puzzles),
+            criteria: &self.recipe.criteria,
+            panel: &panel,
+            seed: seed.child("levels", 0),
+        };
+        let made = levels.find(&candidate.game, &mut tally).and_then(|found| {
+            let path = vec![("levels".to_owned(), 0)];
+            Some(MadeGame { path, ..candidate.finish(found, "")? })
+        });
+        if made.is_some() {
+            tally.game_accepted();
+        }
+        (made.into_iter().collect(), tally)
+    }
+
     /// Draws the corpus games to use.
     fn of_corpus(&self) -> Result<Vec<Job>, MintError> {
         let (asked, known) = (self.recipe.corpus.games, self.corpus.games.len());
@@ -216,6 +291,7 @@ impl<'a> Plan<'a> {
         let seed = descendant(self.seed, &steps);
         let (games, tally) = match job {
             Job::Corpus(at) => self.new_levels(at, seed),
+            Job::Puzzle(number) => self.puzzle(number, seed),
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
             Job::Archive(_) => {
@@ -232,7 +308,8 @@ impl<'a> Plan<'a> {
             Job::Corpus(_) => self.corpus_criteria(),
             _ => &self.recipe.criteria,
         };
-        let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria));
+        let measured = !self.recipe.tiers.is_empty();
+        let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria, measured));
         Ok(JobResult { games: games.collect(), tally })
     }
 
@@ -244,6 +321,7 @@ impl<'a> Plan<'a> {
             Job::Constructive(_) => vec![step("constructive", 0)],
             Job::Search(_) => vec![step("search", 0)],
             Job::Archive(number) => vec![step("archive", number)],
+            Job::Puzzle(number) => vec![step("puzzle", number)],
         }
     }
 
@@ -373,7 +451,7 @@ mod tests {
         let (made, _) = plan.new_levels(0, descendant(plan.seed, &steps));
         let [made] = &made[..] else { panic!("one game") };
         let judged = made.card.levels[0].ladder.as_ref().unwrap();
-        let mut frozen = FrozenGame::of(made.clone(), plan.seed, &steps, &recipe.criteria);
+        let mut frozen = FrozenGame::of(made.clone(), plan.seed, &steps, &recipe.criteria, false);
         let published = frozen.card.levels[0].ladder.clone().unwrap();
         assert_eq!(frozen.difficulties, [judged.difficulty]);
         assert_eq!(published.rungs[1].rate.plays, judged.rungs[1].rate.plays);

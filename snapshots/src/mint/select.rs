@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GameKind, GoalKind};
-use validators::{Difficulty, GameForm};
+use validators::{Difficulty, GameForm, Tier};
 
 /// A game that can be selected.
 pub(super) struct Contender {
@@ -32,6 +32,8 @@ pub(super) struct Contender {
     cast: Cast,
     /// The difficulties of its levels.
     pub(super) difficulties: Vec<Difficulty>,
+    /// The tiers of its levels, if they were measured.
+    tiers: Vec<Tier>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
     pub(super) rules: usize,
@@ -60,6 +62,7 @@ impl Contender {
             title: frozen.card.title.clone(),
             cast: Cast::of(&game),
             difficulties: frozen.difficulties.clone(),
+            tiers: frozen.card.levels.iter().filter_map(|level| level.tier).collect(),
             goal: kind.goal,
             avatar: kind.avatar,
             rules: game.description().interactions.len(),
@@ -115,6 +118,15 @@ pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     recipe.difficulty.keys().copied().zip(numbers.into_iter().map(i64::from)).collect()
 }
 
+/// The requested number of levels of each tier; empty if none are requested.
+fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
+    if recipe.tiers.is_empty() {
+        return Vec::new();
+    }
+    let numbers = apportion(recipe.levels(), &recipe.tiers.shares());
+    Tier::ALL.into_iter().zip(numbers.into_iter().map(i64::from)).collect()
+}
+
 /// The number of random starts of the local search.
 const STARTS: u64 = 24;
 
@@ -133,7 +145,7 @@ pub(super) fn select(
 ) -> Result<Vec<usize>, MintError> {
     let recipe = plan.recipe;
     let Fit { fit, dropped } = Fit::of(plan, contenders);
-    let asked = [(false, recipe.corpus.games as usize), (true, recipe.generated.games as usize)];
+    let asked = [(false, recipe.corpus.games as usize), (true, recipe.new_games() as usize)];
     for (is_new, asked) in asked {
         let there = fit.iter().filter(|&&at| contenders[at].is_new == is_new).count();
         if there < asked {
@@ -209,6 +221,10 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
     let others = counts.labels.iter().filter(|(label, _)| !recipe.difficulty.contains_key(label));
     for (label, &there) in others.filter(|_| !recipe.difficulty.is_empty()) {
         bins.push(Bin { name: label.name().to_owned(), least: 0, most: 1, there });
+    }
+    for &(tier, asked) in &counts.tiers_asked {
+        let there = counts.tiers.get(&tier).copied().unwrap_or_default();
+        bins.push(Bin { name: format!("tier {tier}"), least: (asked - 1).max(0), most: asked + 1, there });
     }
     for &(goal, (least, most)) in &counts.goal_quotas {
         let there = counts.goals.get(&goal).copied().unwrap_or_default();
@@ -292,10 +308,12 @@ impl<'a> Choice<'a> {
 #[derive(Default)]
 struct Counts<'a> {
     histogram: Vec<(Difficulty, i64)>,
+    tiers_asked: Vec<(Tier, i64)>,
     goal_quotas: Vec<(GoalKind, (i64, i64))>,
     avatar_quotas: Vec<(AvatarKind, (i64, i64))>,
     crowd: Option<i64>,
     labels: BTreeMap<Difficulty, i64>,
+    tiers: BTreeMap<Tier, i64>,
     goals: BTreeMap<GoalKind, i64>,
     avatars: BTreeMap<AvatarKind, i64>,
     kinds: BTreeMap<(GoalKind, AvatarKind), i64>,
@@ -306,6 +324,7 @@ impl<'a> Counts<'a> {
     fn of(recipe: &Recipe, games: impl Iterator<Item = &'a Contender>) -> Counts<'a> {
         let mut counts = Counts {
             histogram: histogram(recipe),
+            tiers_asked: tiers(recipe),
             goal_quotas: recipe.goal_quotas(),
             avatar_quotas: recipe.avatar_quotas(),
             crowd: recipe.taxonomy.crowd.map(|crowd| recipe.quota((0.0, crowd)).1.max(1)),
@@ -318,6 +337,9 @@ impl<'a> Counts<'a> {
     fn add(&mut self, game: &'a Contender, times: i64) {
         for &difficulty in &game.difficulties {
             *self.labels.entry(difficulty).or_default() += times;
+        }
+        for &tier in &game.tiers {
+            *self.tiers.entry(tier).or_default() += times;
         }
         *self.goals.entry(game.goal).or_default() += times;
         *self.avatars.entry(game.avatar).or_default() += times;
@@ -347,6 +369,9 @@ impl<'a> Counts<'a> {
             true => 0,
             false => labels.iter().map(|label| apart(label, there(label)).pow(2)).sum(),
         };
+        let of_tier =
+            |(tier, asked): &(Tier, i64)| (self.tiers.get(tier).copied().unwrap_or_default() - asked).pow(2);
+        let histogram = histogram + self.tiers_asked.iter().map(of_tier).sum::<i64>();
         let twice = self.titles.values().map(|there| (there - 1).max(0)).sum();
         (goals.chain(avatars).sum::<i64>() + crowded, histogram, twice)
     }

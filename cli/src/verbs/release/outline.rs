@@ -41,8 +41,17 @@ pub(super) fn outline(
             count(new.levels as usize, "level")
         ));
     }
-    if old.games > 0 {
+    let puzzles = recipe.puzzles.as_ref().filter(|part| part.games > 0);
+    if let Some(part) = puzzles {
         let would = if new.games > 0 { "and" } else { "would mint" };
+        console.say(format_args!(
+            "{would} {} of {}",
+            count(part.games as usize, "new puzzle"),
+            count(part.levels as usize, "level")
+        ));
+    }
+    if old.games > 0 {
+        let would = if new.games > 0 || puzzles.is_some() { "and" } else { "would mint" };
         console.say(format_args!(
             "{would} {} for each of {}",
             count(old.levels as usize, "new level"),
@@ -118,7 +127,7 @@ fn words((least, most): (f64, f64)) -> String {
 /// Prints the public facts of a sealed release, without its secret.
 pub(super) fn without_secret(recipe: &Recipe, console: &Console) -> Answer {
     console.document(&json!({ "recipe": recipe }))?;
-    let games = recipe.generated.games + recipe.corpus.games;
+    let games = recipe.games();
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     console.say(format_args!(
         "would mint {games} games with {} levels, sealed; give --secret FILE for the plan",

@@ -71,7 +71,7 @@ impl SearchedPositions {
 
 fn hash(position: &Position) -> u64 {
     let mut hash = u64::from(position.avatar);
-    for cells in [position.things[0], position.things[1], position.targets] {
+    for cells in [position.things[0], position.things[1], position.targets[0], position.targets[1]] {
         for half in [cells as u64, (cells >> 64) as u64] {
             hash = (hash.rotate_left(23) ^ half).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         }

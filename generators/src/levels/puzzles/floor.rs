@@ -1,18 +1,20 @@
 //! Floor plans for puzzles: drawn, varied, and rated by the distance of their farthest position from a solution.
 
 use super::floor_plan::{Cells, FloorPlan, Position, Pushing, bit, each};
-use super::rules::{Destination, KINDS, Rules};
+use super::rules::{KINDS, Rules};
 use crate::levels::edits::pick;
 use crate::levels::grid::{Grid, WAYS};
 use crate::{Evaluation, Variation};
 use engine::{Sampler, Seed};
 
 /// The maximum number of positions to examine for the rating of a floor plan.
-const MAX_POSITIONS: usize = 100_000;
+pub(crate) const MAX_POSITIONS: usize = 100_000;
 /// The maximum distance of a target from the nearest other one, in cells.
 const GROUP: usize = 2;
 /// The number of pushes with a rating of 1.0.
 const PERFECT: f64 = 120.0;
+/// The maximum number of sills.
+const MAX_SILLS: usize = 5;
 /// The number of draws of a change before a floor plan is returned unchanged.
 const REDRAWS: usize = 40;
 
@@ -21,6 +23,10 @@ pub(crate) struct FloorPlans<'a> {
     pub(crate) rules: &'a Rules,
     pub(crate) grid: Grid,
     pub(crate) counts: [usize; KINDS],
+    /// The maximum number of positions to examine for the rating of a floor plan.
+    pub(crate) most_positions: usize,
+    /// `true` if floor plans have sills, where the game has such a type.
+    pub(crate) sills: bool,
 }
 
 impl FloorPlans<'_> {
@@ -28,9 +34,10 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// The number of targets.
-    fn destinations(&self) -> usize {
-        if self.rules.target.is_some() { self.counts[0] } else { 0 }
+    /// The number of targets of a kind.
+    fn destinations(&self, kind: usize) -> usize {
+        let has_targets = self.rules.targets.get(kind).is_some_and(Option::is_some);
+        if has_targets { self.counts[kind] } else { 0 }
     }
 
     /// The minimum number of open cells: room for all things, and not just a small closet in a block of wall.
@@ -42,7 +49,7 @@ impl FloorPlans<'_> {
 
     /// The maximum number of open cells at first: if things may meet anywhere, a large yard has too many positions.
     fn most(&self) -> usize {
-        if self.rules.destination == Destination::Partner { 22 } else { usize::MAX }
+        if self.rules.in_pairs() { 22 } else { usize::MAX }
     }
 
     /// Draws connected rooms and corridors, with targets in a group.
@@ -70,12 +77,15 @@ impl FloorPlans<'_> {
                 open |= piece;
             }
         }
+        let wall = self.wall_of(open);
         let mut floor_plan =
-            FloorPlan { grid: self.grid, wall: self.wall_of(open), targets: 0, counts: self.counts };
-        for _ in 0..self.destinations() {
-            let cells: Vec<usize> =
-                each(open & !floor_plan.targets).filter(|&cell| self.joins(&floor_plan, cell)).collect();
-            floor_plan.targets |= bit(pick(&cells, sampler)?);
+            FloorPlan { grid: self.grid, wall, targets: [0; KINDS], sills: 0, counts: self.counts };
+        for kind in 0..KINDS {
+            for _ in 0..self.destinations(kind) {
+                let free = each(open & !floor_plan.all_targets());
+                let cells: Vec<usize> = free.filter(|&cell| self.joins(&floor_plan, cell)).collect();
+                floor_plan.targets[kind] |= bit(pick(&cells, sampler)?);
+            }
         }
         self.is_fair(&floor_plan).then_some(floor_plan)
     }
@@ -86,8 +96,8 @@ impl FloorPlans<'_> {
 
     /// Returns `true` if a target at the cell joins the group.
     fn joins(&self, floor_plan: &FloorPlan, cell: usize) -> bool {
-        floor_plan.targets == 0
-            || each(floor_plan.targets).any(|other| self.grid.manhattan(cell, other) <= GROUP)
+        floor_plan.all_targets() == 0
+            || each(floor_plan.all_targets()).any(|other| self.grid.manhattan(cell, other) <= GROUP)
     }
 
     /// Returns `true` if the yard is connected and has room.
@@ -95,18 +105,23 @@ impl FloorPlans<'_> {
         let pushing = Pushing { floor_plan, rules: self.rules };
         let open = pushing.stands(&Position::default());
         let first = open & open.wrapping_neg();
-        let grouped = each(floor_plan.targets).all(|cell| {
-            let others = FloorPlan { targets: floor_plan.targets & !bit(cell), ..floor_plan.clone() };
+        let grouped = each(floor_plan.all_targets()).all(|cell| {
+            let targets = floor_plan.targets.map(|targets| targets & !bit(cell));
+            let others = FloorPlan { targets, ..floor_plan.clone() };
             self.joins(&others, cell)
         });
         open.count_ones() as usize >= self.least()
-            && floor_plan.targets & floor_plan.wall == 0
-            && floor_plan.targets.count_ones() as usize == self.destinations()
+            && floor_plan.all_targets() & (floor_plan.wall | floor_plan.sills) == 0
+            && floor_plan.targets[0] & floor_plan.targets[1] == 0
+            && floor_plan.sills & floor_plan.wall == 0
+            && (0..KINDS)
+                .all(|kind| floor_plan.targets[kind].count_ones() as usize == self.destinations(kind))
             && grouped
             && pushing.flood(first, open) == open
     }
 
-    /// Makes a small change: a wall is removed or added, a wall moves, a target moves, or all targets do.
+    /// Makes a small change: a wall is removed or added, a wall moves, a target moves, all targets do, or a sill
+    /// comes or goes.
     fn change(&self, floor_plan: &FloorPlan, sampler: &mut Sampler) -> Option<FloorPlan> {
         let mut next = floor_plan.clone();
         let inner = self.inner();
@@ -115,12 +130,16 @@ impl FloorPlans<'_> {
         let edge = |floor_plan: &FloorPlan, walls: bool| -> Vec<usize> {
             let meets = |&cell: &usize| {
                 wall(floor_plan, cell) == walls
-                    && floor_plan.targets & bit(cell) == 0
+                    && (floor_plan.all_targets() | floor_plan.sills) & bit(cell) == 0
                     && self.grid.beside(cell).any(|next| wall(floor_plan, next) != walls)
             };
             inner.iter().copied().filter(meets).collect()
         };
-        match sampler.weighted(&[3, 3, 4, 3, 1])? {
+        let has_sills = self.sills && self.rules.sill.is_some();
+        let weights = [3, 3, 4, 3, 1, 2];
+        let kind =
+            if self.rules.kinds.len() > 1 && !self.rules.in_pairs() { sampler.below(KINDS) } else { 0 };
+        match sampler.weighted(&weights[..weights.len() - usize::from(!has_sills)])? {
             0 => next.wall ^= bit(pick(&edge(floor_plan, true), sampler)?),
             1 => next.wall ^= bit(pick(&edge(floor_plan, false), sampler)?),
             2 => {
@@ -128,17 +147,30 @@ impl FloorPlans<'_> {
                 next.wall ^= bit(pick(&edge(floor_plan, false), sampler)?);
             }
             3 => {
-                let targets: Vec<usize> = each(floor_plan.targets).collect();
-                next.targets &= !bit(pick(&targets, sampler)?);
-                let free = |&cell: &usize| !wall(floor_plan, cell) && floor_plan.targets & bit(cell) == 0;
+                let targets: Vec<usize> = each(floor_plan.targets[kind]).collect();
+                next.targets[kind] &= !bit(pick(&targets, sampler)?);
+                let free = |&cell: &usize| {
+                    !wall(floor_plan, cell) && (floor_plan.all_targets() | floor_plan.sills) & bit(cell) == 0
+                };
                 let cells: Vec<usize> = inner.iter().copied().filter(free).collect();
-                next.targets |= bit(pick(&cells, sampler)?);
+                next.targets[kind] |= bit(pick(&cells, sampler)?);
+            }
+            4 => {
+                let way = *sampler.choose(&WAYS);
+                for kind in 0..KINDS {
+                    next.targets[kind] = 0;
+                    for target in each(floor_plan.targets[kind]) {
+                        next.targets[kind] |= bit(self.grid.shift(target, way)?);
+                    }
+                }
             }
             _ => {
-                let way = *sampler.choose(&WAYS);
-                next.targets = 0;
-                for target in each(floor_plan.targets) {
-                    next.targets |= bit(self.grid.shift(target, way)?);
+                let free =
+                    |&cell: &usize| !wall(floor_plan, cell) && floor_plan.all_targets() & bit(cell) == 0;
+                let cells: Vec<usize> = inner.iter().copied().filter(free).collect();
+                next.sills ^= bit(pick(&cells, sampler)?);
+                if next.sills.count_ones() as usize > MAX_SILLS {
+                    return None;
                 }
             }
         }
@@ -148,14 +180,14 @@ impl FloorPlans<'_> {
     /// The number of pushes from its farthest position.
     pub(crate) fn depth(&self, floor_plan: &FloorPlan) -> usize {
         let pushing = Pushing { floor_plan, rules: self.rules };
-        let searched = pushing.by_pushes(MAX_POSITIONS);
+        let searched = pushing.by_pushes(self.most_positions);
         let starts = searched.iter().filter(|(position, _)| pushing.is_start(position));
         starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
     }
 
     /// The number of positions examined for its depth.
     pub(crate) fn positions(&self, floor_plan: &FloorPlan) -> usize {
-        Pushing { floor_plan, rules: self.rules }.by_pushes(MAX_POSITIONS).len()
+        Pushing { floor_plan, rules: self.rules }.by_pushes(self.most_positions).len()
     }
 
     /// Rates a yard by the pushes that it takes, with a penalty for halls and isolated wall blocks.
@@ -167,6 +199,11 @@ impl FloorPlans<'_> {
             objective: objective.min(1.0),
             measures: Vec::new(),
         }
+    }
+
+    /// Returns `true` if a yard's rating says that it takes so many pushes, with the penalties taken off.
+    pub(crate) fn is_at_least(&self, rated: &Evaluation, pushes: usize) -> bool {
+        rated.is_feasible() && rated.objective >= (pushes as f64 / PERFECT).min(1.0)
     }
 
     /// The penalty for halls and isolated wall blocks, in pushes.
@@ -190,11 +227,15 @@ impl FloorPlans<'_> {
         for cell in self.inner() {
             let beside = self.grid.beside(cell).filter(|&next| best.wall & bit(next) != 0).count();
             let is_wall = best.wall & bit(cell) != 0;
-            let idle = if is_wall { beside == 0 } else { beside >= 2 && best.targets & bit(cell) == 0 };
-            if !idle {
+            let is_sill = best.sills & bit(cell) != 0;
+            let idle = if is_wall { beside == 0 } else { beside >= 2 && best.all_targets() & bit(cell) == 0 };
+            if !idle && !is_sill {
                 continue;
             }
-            let next = FloorPlan { wall: best.wall ^ bit(cell), ..best.clone() };
+            let next = match is_sill {
+                true => FloorPlan { sills: best.sills ^ bit(cell), ..best.clone() },
+                false => FloorPlan { wall: best.wall ^ bit(cell), ..best.clone() },
+            };
             if self.is_fair(&next) {
                 let found = self.depth(&next);
                 if found >= depth {
@@ -207,7 +248,11 @@ impl FloorPlans<'_> {
 
     /// The number of things of each kind: in pairs, if they are pushed onto each other.
     pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
-        if rules.destination == Destination::Partner { [(things / 2).max(1); KINDS] } else { [things, 0] }
+        match rules.kinds.len() {
+            1 => [things, 0],
+            _ if rules.in_pairs() => [(things / 2).max(1); KINDS],
+            _ => [things.div_ceil(2).max(1), (things / 2).max(1)],
+        }
     }
 }
 
@@ -242,7 +287,10 @@ impl Variation for FloorPlans<'_> {
             let mask: Cells = (0..self.grid.len()).filter(half).map(bit).sum();
             let wall = one.wall & mask | two.wall & !mask;
             let targets = if sampler.ratio(1, 2) { one.targets } else { two.targets };
-            let child = FloorPlan { wall: wall & !targets, targets, ..one.clone() };
+            let taken = targets[0] | targets[1];
+            let wall = wall & !taken;
+            let sills = (one.sills & mask | two.sills & !mask) & !(taken | wall);
+            let child = FloorPlan { wall, targets, sills, ..one.clone() };
             if self.is_fair(&child) {
                 return child;
             }

@@ -28,9 +28,19 @@ pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
 pub(crate) struct FloorPlan {
     pub(crate) grid: Grid,
     pub(crate) wall: Cells,
-    pub(crate) targets: Cells,
+    /// By kind.
+    pub(crate) targets: [Cells; KINDS],
+    /// Floor that things cannot be pushed onto.
+    pub(crate) sills: Cells,
     /// The number of things of each kind at the start.
     pub(crate) counts: [usize; KINDS],
+}
+
+impl FloorPlan {
+    /// The cells with a target.
+    pub(crate) fn all_targets(&self) -> Cells {
+        self.targets[0] | self.targets[1]
+    }
 }
 
 /// A position: the cells of things, targets and avatar.
@@ -38,8 +48,8 @@ pub(crate) struct FloorPlan {
 pub(crate) struct Position {
     /// By kind.
     pub(crate) things: [Cells; KINDS],
-    /// The remaining targets.
-    pub(crate) targets: Cells,
+    /// The remaining targets, by kind.
+    pub(crate) targets: [Cells; KINDS],
     /// The cell of the avatar, or the first of those that it can walk to.
     pub(crate) avatar: u8,
 }
@@ -48,6 +58,11 @@ impl Position {
     /// The cells with a thing.
     pub(crate) fn taken(&self) -> Cells {
         self.things[0] | self.things[1]
+    }
+
+    /// The cells with a target.
+    pub(crate) fn all_targets(&self) -> Cells {
+        self.targets[0] | self.targets[1]
     }
 }
 
@@ -66,14 +81,21 @@ impl Pushing<'_> {
 
     /// The cells where the avatar can stand.
     pub(crate) fn stands(&self, position: &Position) -> Cells {
-        let barred = if self.rules.walkable { 0 } else { position.targets };
-        self.inside() & !(self.floor_plan.wall | position.taken() | barred)
+        let barred = |kind: usize| if self.rules.walkable[kind] { 0 } else { position.targets[kind] };
+        self.inside() & !(self.floor_plan.wall | position.taken() | barred(0) | barred(1))
     }
 
-    /// The cells where a thing can lie.
-    pub(crate) fn lies(&self, position: &Position) -> Cells {
-        let sinks = if self.rules.destination == Destination::Place { 0 } else { position.targets };
-        self.inside() & !(self.floor_plan.wall | position.taken() | sinks)
+    /// The cells where a thing of a kind can come to lie.
+    pub(crate) fn lies(&self, kind: usize, position: &Position) -> Cells {
+        let barred = |of: usize| {
+            let rests = match kind == of {
+                true => self.rules.destinations[kind] == Destination::Place,
+                false => self.rules.crosses[kind][of],
+            };
+            if rests { 0 } else { position.targets[of] }
+        };
+        let blocked = self.floor_plan.wall | self.floor_plan.sills | position.taken();
+        self.inside() & !(blocked | barred(0) | barred(1))
     }
 
     fn inside(&self) -> Cells {
@@ -97,41 +119,55 @@ impl Pushing<'_> {
 
     /// The solved positions, without the avatar.
     pub(crate) fn solved(&self) -> Vec<Position> {
-        let all = self.floor_plan.targets;
-        let position = |thing: Cells, targets: Cells| Position { things: [thing, 0], targets, avatar: 0 };
-        match self.rules.destination {
-            Destination::Sink | Destination::Partner => vec![position(0, all)],
-            // All choices of filled holes; all holes, if there are no more of them than things.
-            Destination::Hole => subsets(all, self.floor_plan.counts[0])
-                .into_iter()
-                .map(|filled| position(0, all & !filled))
-                .collect(),
-            Destination::Place => subsets(all, self.floor_plan.counts[0])
-                .into_iter()
-                .map(|things| position(things, all))
-                .collect(),
+        let mut all = vec![Position::default()];
+        for (kind, destination) in self.rules.destinations.iter().enumerate() {
+            let targets = self.floor_plan.targets[kind];
+            let count = self.floor_plan.counts[kind];
+            // The things and targets that are left.
+            let ends: Vec<(Cells, Cells)> = match destination {
+                Destination::Sink | Destination::Partner => vec![(0, targets)],
+                // All choices of filled holes; all holes, if there are no more of them than things.
+                Destination::Hole => {
+                    subsets(targets, count).into_iter().map(|filled| (0, targets & !filled)).collect()
+                }
+                Destination::Place => {
+                    subsets(targets, count).into_iter().map(|things| (things, targets)).collect()
+                }
+            };
+            let join = |position: &Position, &(things, targets): &(Cells, Cells)| {
+                let mut joined = *position;
+                (joined.things[kind], joined.targets[kind]) = (things, targets);
+                joined
+            };
+            all = all.iter().flat_map(|position| ends.iter().map(move |end| join(position, end))).collect();
         }
+        all
     }
 
     /// Returns `true` if all things are there, and none is in its place yet.
     pub(crate) fn is_start(&self, position: &Position) -> bool {
         let counted =
             |kind: usize| position.things[kind].count_ones() as usize == self.floor_plan.counts[kind];
-        let has_arrived =
-            self.rules.destination == Destination::Place && position.things[0] & position.targets != 0;
-        (0..KINDS).all(counted) && !has_arrived
+        let has_arrived = |(kind, destination): (usize, &Destination)| {
+            *destination == Destination::Place && position.things[kind] & position.targets[kind] != 0
+        };
+        (0..KINDS).all(counted) && !self.rules.destinations.iter().enumerate().any(has_arrived)
+    }
+
+    /// Returns `true` if fewer things of a kind are left than at the start.
+    fn is_missing(&self, kind: usize, position: &Position) -> bool {
+        (position.things[kind].count_ones() as usize) < self.floor_plan.counts[kind]
     }
 
     /// The cells where the push that led to a position may have ended.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
-        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.floor_plan.counts[kind];
-        let destinations = match self.rules.destination {
+        let gone = |(kind, destination): (usize, &Destination)| match destination {
+            _ if !self.is_missing(kind, after) => 0,
             Destination::Place => 0,
-            _ if !more(0) => 0,
-            Destination::Sink | Destination::Hole => self.floor_plan.targets,
-            Destination::Partner => self.lies(after),
+            Destination::Sink | Destination::Hole => self.floor_plan.targets[kind],
+            Destination::Partner => self.lies(kind, after),
         };
-        after.taken() | destinations
+        self.rules.destinations.iter().enumerate().map(gone).fold(after.taken(), |ends, more| ends | more)
     }
 
     /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the thing
@@ -150,40 +186,42 @@ impl Pushing<'_> {
             return;
         }
         let (to_bit, near_bit, far_bit) = (bit(to), bit(near), bit(far));
-        let (stands, lies) = (self.stands(after), self.lies(after));
-        if lies & near_bit == 0 || stands & far_bit == 0 {
+        if self.stands(after) & far_bit == 0 {
             return;
         }
         let avatar = far as u8;
-        for kind in 0..self.rules.kinds.len() {
+        for (kind, destination) in self.rules.destinations.iter().enumerate() {
+            if self.lies(kind, after) & near_bit == 0 {
+                continue;
+            }
             if after.things[kind] & to_bit != 0 {
                 let mut things = after.things;
                 things[kind] ^= to_bit | near_bit;
                 each(Position { things, avatar, ..*after });
             }
-        }
-        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.floor_plan.counts[kind];
-        match self.rules.destination {
-            Destination::Sink if after.targets & to_bit != 0 && more(0) => {
-                each(Position { things: [after.things[0] | near_bit, 0], avatar, ..*after });
+            if !self.is_missing(kind, after) || after.taken() & to_bit != 0 {
+                continue;
             }
-            Destination::Hole => {
-                let free = self.floor_plan.targets & !after.targets & !after.taken() & to_bit != 0;
-                // The hole is open again, with neither thing nor avatar on it.
-                if free && more(0) {
-                    let things = [after.things[0] | near_bit, 0];
-                    each(Position { things, targets: after.targets | to_bit, avatar });
+            let mut things = after.things;
+            things[kind] |= near_bit;
+            match destination {
+                Destination::Sink if after.targets[kind] & to_bit != 0 => {
+                    each(Position { things, avatar, ..*after });
                 }
-            }
-            Destination::Partner if lies & to_bit != 0 && more(0) && more(1) => {
-                for kind in 0..KINDS {
-                    let mut things = after.things;
-                    things[kind] |= near_bit;
+                // The hole is open again, with neither thing nor avatar on it.
+                Destination::Hole if self.floor_plan.targets[kind] & !after.targets[kind] & to_bit != 0 => {
+                    let mut targets = after.targets;
+                    targets[kind] |= to_bit;
+                    each(Position { things, targets, avatar });
+                }
+                Destination::Partner
+                    if self.lies(kind, after) & to_bit != 0 && self.is_missing(1 - kind, after) =>
+                {
                     things[1 - kind] |= to_bit;
                     each(Position { things, avatar, ..*after });
                 }
+                _ => {}
             }
-            _ => {}
         }
     }
 
@@ -201,18 +239,20 @@ impl Pushing<'_> {
         if self.stands(&after) & bit(near) == 0 {
             return None;
         }
-        if position.targets & bit(to) != 0 && self.rules.destination != Destination::Place {
-            if self.rules.destination == Destination::Hole {
-                after.targets &= !bit(to);
-            }
-            return Some(after);
-        }
         if let Some(other) = position.things.iter().position(|things| things & bit(to) != 0) {
             after.things[other] &= !bit(to);
             return self.rules.merges[kind][other].then_some(after);
         }
+        let destination = self.rules.destinations[kind];
+        if position.targets[kind] & bit(to) != 0 && destination != Destination::Place {
+            if destination == Destination::Hole {
+                after.targets[kind] &= !bit(to);
+            }
+            return Some(after);
+        }
+        let lies = self.lies(kind, &after) & bit(to) != 0;
         after.things[kind] |= bit(to);
-        (self.floor_plan.wall & bit(to) == 0).then_some(after)
+        lies.then_some(after)
     }
 }
 

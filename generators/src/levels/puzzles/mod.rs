@@ -9,4 +9,4 @@ mod rules;
 mod tests;
 mod variation;
 
-pub use variation::{PuzzleConfig, PuzzleVariation};
+pub use variation::{PuzzleConfig, PuzzleTarget, PuzzleVariation};

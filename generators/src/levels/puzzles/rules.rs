@@ -24,18 +24,28 @@ pub(crate) enum Destination {
 /// The rules of pushing.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
-    /// The pushed types: one kind, or two if they are pushed onto each other.
+    /// The pushed types: one kind, or two, each with targets of its own or pushed onto each other.
     pub(crate) kinds: Vec<SpriteType>,
-    pub(crate) destination: Destination,
-    /// The type of the targets; `None` if things are pushed onto things.
-    pub(crate) target: Option<SpriteType>,
-    /// `true` if the avatar can stand on a target.
-    pub(crate) walkable: bool,
+    /// By kind.
+    pub(crate) destinations: Vec<Destination>,
+    /// The type of the targets of each kind; `None` if things are pushed onto things.
+    pub(crate) targets: Vec<Option<SpriteType>>,
+    /// By kind: `true` if the avatar can stand on its targets.
+    pub(crate) walkable: [bool; KINDS],
+    /// `crosses[a][b]` is `true` if a thing of kind a can lie on a target of kind b and be pushed on.
+    pub(crate) crosses: [[bool; KINDS]; KINDS],
+    /// Ground that the avatar walks on and things cannot be pushed onto, if the rules have such a type.
+    pub(crate) sill: Option<SpriteType>,
     /// `merges[a][b]` is `true` if pushing a thing of kind a onto one of kind b removes both.
     pub(crate) merges: [[bool; KINDS]; KINDS],
 }
 
 impl Rules {
+    /// Returns `true` if things are pushed onto things.
+    pub(crate) fn in_pairs(&self) -> bool {
+        self.destinations.contains(&Destination::Partner)
+    }
+
     /// # Errors
     /// [`GenerateError::Unsuitable`] with the reason, if the game is not won by pushing alone, or pushes otherwise.
     pub(crate) fn of(analysis: &Analysis, palette: &Palette) -> Result<Rules, GenerateError> {
@@ -89,24 +99,72 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
             }
         }
     }
+    let sill = find_sill(analysis, palette, avatar.stype, &kinds);
     match kinds[..] {
-        [kind] if !merges[0][0] => single(analysis, palette, kind, counted, sinks(kind), merges),
-        [_, _] if merges[0][1] && merges[1][0] && !merges[0][0] && !merges[1][1] => {
-            Ok(Rules { kinds, destination: Destination::Partner, target: None, walkable: true, merges })
+        [_, _] if merges[0][1] && merges[1][0] && !merges[0][0] && !merges[1][1] => Ok(Rules {
+            kinds,
+            destinations: vec![Destination::Partner; KINDS],
+            targets: vec![None; KINDS],
+            walkable: [true; KINDS],
+            crosses: [[true; KINDS]; KINDS],
+            merges,
+            sill,
+        }),
+        _ if merges.iter().flatten().all(|&merges| !merges) => {
+            let (mut destinations, mut targets, mut walkable) = (Vec::new(), Vec::new(), [true; KINDS]);
+            for (at, &kind) in kinds.iter().enumerate() {
+                let (target, destination, open) = single(analysis, palette, kind, counted, sinks(kind))?;
+                destinations.push(destination);
+                targets.push(Some(target));
+                walkable[at] = open;
+            }
+            let mut crosses = [[true; KINDS]; KINDS];
+            for (a, &kind) in kinds.iter().enumerate() {
+                for (b, &target) in targets.iter().enumerate().filter(|&(b, _)| b != a) {
+                    let target = target.expect("a kind with targets");
+                    if sinks(kind).iter().any(|sink| sink.partner == target) {
+                        return Err("one kind of things goes where the other does");
+                    }
+                    crosses[a][b] = !analysis.blocks(target, kind);
+                    if crosses[a][b] && !walkable[b] {
+                        return Err("things lie where the avatar cannot follow them");
+                    }
+                }
+            }
+            Ok(Rules { kinds, destinations, targets, walkable, crosses, merges, sill })
         }
         _ => Err("things are pushed onto each other in an unsupported way"),
     }
 }
 
-/// The rules for one kind of things, which are pushed to targets.
+/// A placed type that stops things and nothing else.
+fn find_sill(
+    analysis: &Analysis,
+    palette: &Palette,
+    avatar: SpriteType,
+    kinds: &[SpriteType],
+) -> Option<SpriteType> {
+    let game = analysis.game();
+    game.sprite_types().find(|&stype| {
+        let Some(symbol) = palette.symbol(stype) else { return false };
+        analysis.role(stype) != Role::Avatar
+            && Some(symbol) != palette.wall
+            && palette.walk(symbol) == Walk::Open
+            && analysis.between(avatar, stype).next().is_none()
+            && kinds.iter().all(|&kind| analysis.blocks(stype, kind))
+            && !kinds.contains(&stype)
+    })
+}
+
+/// The rules for one kind of things, which are pushed to targets: the target, what becomes of things there, and whether the
+/// avatar can stand on it.
 fn single(
     analysis: &Analysis,
     palette: &Palette,
     kind: SpriteType,
     counted: &[SpriteType],
     sinks: &[Sink],
-    merges: [[bool; KINDS]; KINDS],
-) -> Result<Rules, &'static str> {
+) -> Result<(SpriteType, Destination, bool), &'static str> {
     let returns = |to: SpriteType| {
         let pushed = analysis.pushables().iter().any(|pushable| pushable.stype == to);
         pushed && analysis.turns(to).iter().any(|&(back, _)| back == kind)
@@ -131,5 +189,5 @@ fn single(
         Walk::Blocked | Walk::Deadly => false,
         _ => return Err("the destinations are blocked in an unsupported way"),
     };
-    Ok(Rules { kinds: vec![kind], destination, target: Some(target), walkable, merges })
+    Ok((target, destination, walkable))
 }

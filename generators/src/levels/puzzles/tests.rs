@@ -1,10 +1,11 @@
 //! Puzzles of every kind of destination: compares the backward search with plain forward search, and with the game
 //! itself.
 
-use super::floor::FloorPlans;
+use super::floor::{FloorPlans, MAX_POSITIONS};
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, Rules};
-use super::{PuzzleConfig, PuzzleVariation};
+use super::{PuzzleConfig, PuzzleTarget, PuzzleVariation};
+use crate::games::PushRules;
 use crate::levels::config::LevelConfig;
 use crate::levels::constructive::{ConstructiveLevels, Solved};
 use crate::levels::grid::Grid;
@@ -68,12 +69,12 @@ fn puzzles(game: &Game) -> PuzzleVariation<'_> {
 
 #[test]
 fn rules_are_recognised() {
-    assert_eq!(rules_of(&sink()).destination, Destination::Sink);
-    assert_eq!(rules_of(&hole()).destination, Destination::Hole);
-    assert!(!rules_of(&hole()).walkable);
-    assert_eq!(rules_of(&place()).destination, Destination::Place);
+    assert_eq!(rules_of(&sink()).destinations, [Destination::Sink]);
+    assert_eq!(rules_of(&hole()).destinations, [Destination::Hole]);
+    assert!(!rules_of(&hole()).walkable[0]);
+    assert_eq!(rules_of(&place()).destinations, [Destination::Place]);
     let jars = game_in(&workspace().join("corpora/quiet-jars")).unwrap();
-    assert_eq!(rules_of(&jars).destination, Destination::Partner);
+    assert_eq!(rules_of(&jars).destinations, [Destination::Partner; 2]);
 }
 
 #[test]
@@ -117,13 +118,18 @@ fn forward(pushing: &Pushing<'_>, start: Position) -> Option<usize> {
     None
 }
 
+fn floors_of(rules: &Rules, grid: Grid, things: usize) -> FloorPlans<'_> {
+    let counts = FloorPlans::counts_of(rules, things);
+    FloorPlans { rules, grid, counts, most_positions: MAX_POSITIONS, sills: true }
+}
+
 #[test]
 fn backward_and_forward_search_agree() {
     let jars = game_in(&workspace().join("corpora/quiet-jars")).unwrap();
     for (game, things) in [(sink(), 2), (hole(), 2), (place(), 2), (jars, 2)] {
         let rules = rules_of(&game);
         let grid = Grid { columns: 7, rows: 6 };
-        let floors = FloorPlans { rules: &rules, grid, counts: FloorPlans::counts_of(&rules, things) };
+        let floors = floors_of(&rules, grid, things);
         for index in 0..3 {
             let floor_plan: FloorPlan = floors.create(Seed::from_text("agree").child("yard", index)).unwrap();
             let pushing = Pushing { floor_plan: &floor_plan, rules: &rules };
@@ -135,11 +141,11 @@ fn backward_and_forward_search_agree() {
                     forward(&pushing, *position),
                     Some(pushes),
                     "{:?} {position:?}",
-                    rules.destination
+                    rules.destinations
                 );
             }
             // Positions that were not found cannot be solved.
-            let floor = pushing.lies(&Position { targets: floor_plan.targets, ..Position::default() });
+            let floor = pushing.lies(0, &Position { targets: floor_plan.targets, ..Position::default() });
             let cells: Vec<usize> = each(floor).collect();
             for pair in cells.windows(2).step_by(3).filter(|_| rules.kinds.len() == 1) {
                 let things = [bit(pair[0]) | bit(pair[1]), 0];
@@ -152,7 +158,7 @@ fn backward_and_forward_search_agree() {
                         searched.distance(&position),
                         forward(&pushing, position),
                         "{:?}",
-                        rules.destination
+                        rules.destinations
                     );
                 }
             }
@@ -190,7 +196,8 @@ fn a_level_starts_at_the_requested_part_of_the_solution() {
     let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
     let analysis = Analysis::of(&game);
     let pushes = |way: (f64, f64), index: u64| -> usize {
-        let puzzle = PuzzleConfig { things: Some(3), floor_plans: 40, way: Some(way) };
+        let puzzle =
+            PuzzleConfig { things: Some(3), floor_plans: 40, way: Some(way), ..PuzzleConfig::default() };
         let variation = PuzzleVariation::new(&game, config.clone(), puzzle).unwrap();
         let solved = variation.create_solved(Seed::from_text("way").child("level", index)).unwrap();
         pushes_among(&analysis, &solved.level, &solved.solution.unwrap())
@@ -229,6 +236,30 @@ fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize
         count += usize::from(things(&state) != before);
     }
     count
+}
+
+/// The model has no more freedom than the game: no win pushes less often than the backward search says.
+#[test]
+fn puzzles_of_all_rules_meet_their_target_and_agree_with_the_game() {
+    let target = PuzzleTarget { pushes: 9, decisions: 16 };
+    for rules in PushRules::ALL {
+        let game = rules.game();
+        let analysis = Analysis::of(&game);
+        let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
+        let puzzle = PuzzleConfig {
+            things: Some(2),
+            floor_plans: 400,
+            target: Some(target),
+            ..PuzzleConfig::default()
+        };
+        let variation = PuzzleVariation::new(&game, config, puzzle).unwrap();
+        let Solved { level, solution } = variation.create_solved(Seed::from_text(&rules.name())).unwrap();
+        let solution = solution.unwrap();
+        let known = pushes_among(&analysis, &level, &solution);
+        assert!(known >= target.pushes && solution.len() >= target.decisions, "{}\n{level}", rules.name());
+        let (ticks, pushes) = proved(&analysis, &level);
+        assert!(ticks <= solution.len() && pushes >= known, "{}: {pushes} {known}\n{level}", rules.name());
+    }
 }
 
 fn median(mut numbers: Vec<usize>) -> usize {

@@ -1,8 +1,8 @@
 //! Levels that are puzzles of pushed things, as candidates of a search.
 
-use super::floor::FloorPlans;
+use super::floor::{self, FloorPlans};
 use super::floor_plan::{Cells, FloorPlan, MAX_CELLS, Position, Pushing, bit, each};
-use super::rules::Rules;
+use super::rules::{KINDS, Rules};
 use crate::levels::board::Board;
 use crate::levels::builder::Builder;
 use crate::levels::config::LevelConfig;
@@ -38,8 +38,27 @@ engine::with_defaults! {
         /// The range for the distance of a level from its solution, as a share of the longest one; the draw favours the lower
         /// end. `None` derives it from [`LevelConfig::difficulty`].
         pub way: Option<(f64, f64)> = None,
+        /// The least that a level demands: floor plans are searched until one does, with more positions for each.
+        pub target: Option<PuzzleTarget> = None,
     }
 }
+
+/// The least that a puzzle demands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PuzzleTarget {
+    /// Pushes of a win with the fewest.
+    pub pushes: usize,
+    /// Actions of that win.
+    pub decisions: usize,
+}
+
+/// The limits of a search with a target: positions of a floor plan, and of all of them.
+const DEEP_POSITIONS: usize = 150_000;
+const DEEP_SEARCH: usize = 150_000_000;
+/// The number of things of a puzzle with a target.
+const DEEP_THINGS: usize = 3;
+/// The pushes by which the next floor plan has to be farther, after one that took enough pushes but too few actions.
+const RAISE: usize = 3;
 
 /// Levels of a game that is won by pushing things to their places (Sokoban and its relatives).
 ///
@@ -85,7 +104,7 @@ impl<'a> PuzzleVariation<'a> {
             return unsuitable("the share of the solution must be between 0 and 1, in ascending order");
         }
         let variation = PuzzleVariation { levels, rules, config, puzzle };
-        let trial = |index: u64| variation.made(Seed::from_text("trial").child("puzzle", index), BATCH);
+        let trial = |index: u64| variation.made(Seed::from_text("trial").child("puzzle", index), BATCH, None);
         if (0..ATTEMPTS).all(|index| trial(index).is_none()) {
             return unsuitable("no trial puzzle could be won by pushing");
         }
@@ -98,14 +117,22 @@ impl<'a> PuzzleVariation<'a> {
     }
 
     /// Creates the level of a seed with actions that win it: they use the fewest pushes, not always the fewest actions.
+    /// With a target, a level that misses it is none.
     pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
-        (0..ATTEMPTS).find_map(|attempt| self.made(seed.child("attempt", attempt), self.puzzle.floor_plans))
+        if self.puzzle.target.is_some() {
+            return self.made(seed, self.puzzle.floor_plans, self.puzzle.target);
+        }
+        (0..ATTEMPTS)
+            .find_map(|attempt| self.made(seed.child("attempt", attempt), self.puzzle.floor_plans, None))
     }
 
-    fn made(&self, seed: Seed, floor_plans: usize) -> Option<Solved> {
+    fn made(&self, seed: Seed, floor_plans: usize, target: Option<PuzzleTarget>) -> Option<Solved> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(low, high): (usize, usize)| {
             let low = low.max(6).min(high);
+            if target.is_some() {
+                return sampler.between(low, high);
+            }
             // Puzzles do not benefit from wide halls.
             sampler.between(low, high.min(low.max(9)))
         };
@@ -118,17 +145,58 @@ impl<'a> PuzzleVariation<'a> {
         let of_kind = |(stype, _): &&(SpriteType, usize)| self.rules.kinds.contains(stype);
         let asked: usize = self.config.counts.iter().filter(of_kind).map(|(_, count)| count).sum();
         let asked = self.puzzle.things.or((asked > 0).then_some(asked));
-        let things = asked.unwrap_or(usual.min(inner / 10).max(2));
-        let floors =
-            FloorPlans { rules: &self.rules, grid, counts: FloorPlans::counts_of(&self.rules, things) };
+        let usual = if self.puzzle.target.is_some() { DEEP_THINGS } else { usual.min(inner / 10).max(2) };
+        let floors = self.floors(grid, FloorPlans::counts_of(&self.rules, asked.unwrap_or(usual)));
+        if let Some(target) = target {
+            return self.deep(&floors, target, floor_plans, seed);
+        }
         let floor_plan = anneal(&floors, floor_plans, seed.child("floor plans", 0))?;
         self.level_of(&floors.tidy(&floor_plan), seed)
+    }
+
+    fn floors(&self, grid: Grid, counts: [usize; KINDS]) -> FloorPlans<'_> {
+        let is_deep = self.puzzle.target.is_some();
+        let most_positions = if is_deep { DEEP_POSITIONS } else { floor::MAX_POSITIONS };
+        FloorPlans { rules: &self.rules, grid, counts, most_positions, sills: is_deep }
+    }
+
+    /// Anneals floor plans until the level of one meets the target.
+    fn deep(
+        &self,
+        floors: &FloorPlans<'_>,
+        target: PuzzleTarget,
+        floor_plans: usize,
+        seed: Seed,
+    ) -> Option<Solved> {
+        let mut search = annealing(floors, floor_plans, DEEP_SEARCH, seed.child("floor plans", 0));
+        let mut least = target.pushes;
+        loop {
+            let plans = search.ask(BATCH);
+            if plans.is_empty() {
+                return None;
+            }
+            for plan in plans {
+                let rated = floors.rate(&plan);
+                let is_far = floors.is_at_least(&rated, least);
+                let level = is_far.then(|| self.level_of(&floors.tidy(&plan), seed)).flatten();
+                let enough = |solved: &Solved| {
+                    solved.solution.as_ref().is_some_and(|win| win.len() >= target.decisions)
+                };
+                match level {
+                    Some(solved) if enough(&solved) => return Some(solved),
+                    _ if is_far => least += RAISE,
+                    _ => {}
+                }
+                search.tell(vec![(plan, rated)]);
+            }
+        }
     }
 
     /// Makes the level at the farthest position of a floor plan.
     fn level_of(&self, floor_plan: &FloorPlan, seed: Seed) -> Option<Solved> {
         let pushing = Pushing { floor_plan, rules: &self.rules };
-        let searched = pushing.by_pushes(MAX_POSITIONS);
+        let is_deep = self.puzzle.target.is_some();
+        let searched = pushing.by_pushes(if is_deep { 2 * DEEP_POSITIONS } else { MAX_POSITIONS });
         let starts = || searched.iter().filter(|(position, _)| pushing.is_start(position));
         let most = starts().map(|(_, pushes)| pushes).max()?;
         // Easy levels start closer to the solution.
@@ -137,6 +205,7 @@ impl<'a> PuzzleVariation<'a> {
                 let drawn = seed.child("way", 0).sampler().unit();
                 from + (to - from) * drawn * drawn
             }
+            None if is_deep => 1.0,
             None => (0.3 + 1.4 * self.config.difficulty).min(1.0),
         };
         let least = (most as f64 * share) as usize;
@@ -145,7 +214,7 @@ impl<'a> PuzzleVariation<'a> {
         let steps = pushing.by_steps(MAX_STEPS);
         let stands = far.flat_map(|(position, _)| {
             let region = pushing.flood(bit(position.avatar.into()), pushing.stands(position));
-            let clear = region & !position.targets;
+            let clear = region & !position.all_targets();
             let clear = if clear == 0 { region } else { clear };
             each(clear).map(|avatar| Position { avatar: avatar as u8, ..*position })
         });
@@ -173,8 +242,13 @@ impl<'a> PuzzleVariation<'a> {
             log: Vec::new(),
             target: None,
         };
-        if let Some(target) = self.rules.target {
-            each(start.targets).for_each(|cell| builder.put(cell, target));
+        for (kind, target) in self.rules.targets.iter().enumerate() {
+            if let Some(target) = *target {
+                each(start.targets[kind]).for_each(|cell| builder.put(cell, target));
+            }
+        }
+        if let Some(sill) = self.rules.sill {
+            each(floor_plan.sills).for_each(|cell| builder.put(cell, sill));
         }
         for (kind, &stype) in self.rules.kinds.iter().enumerate() {
             each(start.things[kind]).for_each(|cell| builder.put(cell, stype));
@@ -204,16 +278,20 @@ impl<'a> PuzzleVariation<'a> {
             return None;
         }
         let wall = self.levels.palette.wall?;
-        let mut floor_plan = FloorPlan { grid, wall: 0, targets: 0, counts: [0; 2] };
+        let mut floor_plan = FloorPlan { grid, wall: 0, targets: [0; KINDS], sills: 0, counts: [0; KINDS] };
         for (cell, &symbol) in level.cells().iter().enumerate() {
             let places = self.levels.game.places(symbol);
             if symbol == wall {
                 floor_plan.wall |= bit(cell);
             }
-            if self.rules.target.is_some_and(|target| places.contains(&target)) {
-                floor_plan.targets |= bit(cell);
+            let has = |stype: Option<SpriteType>| stype.is_some_and(|stype| places.contains(&stype));
+            if self.puzzle.target.is_some() && has(self.rules.sill) {
+                floor_plan.sills |= bit(cell);
             }
             for (kind, stype) in self.rules.kinds.iter().enumerate() {
+                if has(self.rules.targets[kind]) {
+                    floor_plan.targets[kind] |= bit(cell);
+                }
                 floor_plan.counts[kind] += usize::from(places.contains(stype));
             }
         }
@@ -228,7 +306,7 @@ impl<'a> PuzzleVariation<'a> {
         sampler: &mut Sampler,
         plan: impl Fn(&FloorPlans<'_>, &mut Sampler) -> FloorPlan,
     ) -> Option<Level> {
-        let floors = FloorPlans { rules: &self.rules, grid: parent.grid, counts: parent.counts };
+        let floors = self.floors(parent.grid, parent.counts);
         let plans = (0..CHANGES).map(|_| plan(&floors, sampler)).filter(|plan| plan != parent);
         let rated: Vec<(f64, FloorPlan)> = plans.map(|plan| (floors.rate(&plan).objective, plan)).collect();
         // The first of the best.
@@ -274,11 +352,7 @@ impl Variation for PuzzleVariation<'_> {
 
 /// Returns the best floor plan of this many.
 fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<FloorPlan> {
-    let samples: Vec<FloorPlan> = (0..4).filter_map(|at| floors.create(seed.child("sample", at))).collect();
-    let positions: usize = samples.iter().map(|floor_plan| floors.positions(floor_plan)).sum();
-    let affordable = POSITIONS * samples.len() / positions.max(1);
-    let config = AnnealingConfig::of(floor_plans.min(affordable.max(BATCH)));
-    let mut search = Annealing::new(floors, config, seed);
+    let mut search = annealing(floors, floor_plans, POSITIONS, seed);
     loop {
         let plans = search.ask(BATCH);
         if plans.is_empty() {
@@ -287,4 +361,18 @@ fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<Flo
         }
         search.tell(plans.into_iter().map(|plan| (plan.clone(), floors.rate(&plan))).collect());
     }
+}
+
+/// A search for the best floor plan of this many, or of as many as the positions allow.
+fn annealing<'a, 'b>(
+    floors: &'a FloorPlans<'b>,
+    floor_plans: usize,
+    most: usize,
+    seed: Seed,
+) -> Annealing<&'a FloorPlans<'b>> {
+    let samples: Vec<FloorPlan> = (0..4).filter_map(|at| floors.create(seed.child("sample", at))).collect();
+    let positions: usize = samples.iter().map(|floor_plan| floors.positions(floor_plan)).sum();
+    let affordable = most * samples.len() / positions.max(1);
+    let config = AnnealingConfig::of(floor_plans.min(affordable.max(BATCH)));
+    Annealing::new(floors, config, seed)
 }

@@ -104,6 +104,8 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
             random: never.clone(),
             idle: never,
             ladder: None,
+            demand: None,
+            tier: None,
         }],
     };
     let one = |what: &str| BTreeMap::from([(what.to_owned(), 1)]);
