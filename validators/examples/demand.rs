@@ -1,7 +1,7 @@
 //! Prints what levels demand, a line each, and the levels of each tier.
 //!
 //! ```sh
-//! cargo run --release -p infinite-arcade-validators --example demand -- corpora/*
+//! cargo run --release -p infinite-arcade-validators --example demand -- CALLS corpora/*
 //! ```
 #![allow(clippy::print_stdout, reason = "a program")]
 
@@ -13,8 +13,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let folders: Vec<PathBuf> = std::env::args().skip(1).map(PathBuf::from).collect();
-    let tables: Vec<Result<Vec<String>, String>> = folders.par_iter().map(|folder| rows(folder)).collect();
+    let mut arguments = std::env::args().skip(1);
+    let calls = arguments.next().ok_or("CALLS FOLDERS...")?.parse()?;
+    let folders: Vec<PathBuf> = arguments.map(PathBuf::from).collect();
+    let tables: Vec<Result<Vec<String>, String>> =
+        folders.par_iter().map(|folder| rows(folder, calls)).collect();
     println!(
         "| level | ticks | decisions | pushes | proved | commitment | dead ends | won | movers | lost of 8 | astray | tier |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|"
@@ -25,8 +28,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The rows of a folder with a game and its levels.
-fn rows(folder: &Path) -> Result<Vec<String>, String> {
+/// The rows of a folder with a game and its levels; each win is searched with so many calls.
+fn rows(folder: &Path, budget: u64) -> Result<Vec<String>, String> {
     let read = |file: &str| fs::read_to_string(folder.join(file));
     let source = read("game.vgdl").map_err(|error| format!("{}: {error}", folder.display()))?;
     let game = Game::from_source(&source).map_err(|_| format!("{}: no valid game", folder.display()))?;
@@ -37,7 +40,7 @@ fn rows(folder: &Path) -> Result<Vec<String>, String> {
         let Ok(text) = read(&format!("lvl{number}.txt")) else { break };
         let level = game.level(&text).map_err(|_| format!("{name} {number}: no valid level"))?;
         let seed = Seed::from_text("demand").child(&name, number);
-        let config = PortfolioConfig { budget: 1_500_000, shortest: 0.4, ..PortfolioConfig::default() };
+        let config = PortfolioConfig { budget, shortest: 0.4, ..PortfolioConfig::default() };
         let solved = solve(&analysis, &level, &config, seed.child("win", 0));
         let Solution::Won { episode, shortest } = solved.solution else {
             rows.push(format!("| {name} {number} | no win found | | | | | | | | | | |"));

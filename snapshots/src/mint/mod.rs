@@ -306,8 +306,9 @@ mod tests {
                 ..order
             };
             let made = make_games(&order, &[], "", plan.seed, &()).unwrap().games;
-            made.into_iter()
-                .for_each(|made| check(plan.seed, &FrozenGame::of(made, plan.seed, &[], &recipe.criteria)));
+            made.into_iter().for_each(|made| {
+                check(plan.seed, &FrozenGame::of(made, plan.seed, &[], &recipe.criteria, false))
+            });
         }
     }
 

@@ -19,13 +19,13 @@ pub struct DeadEnds {
 }
 
 /// The ticks of the win that are left, evenly spread.
-const TICKS: usize = 12;
+const TICKS: usize = 40;
 /// Forward-model calls of the search from each state.
 const CALLS: u64 = 3000;
 
 impl DeadEnds {
     /// Leaves the win at up to [`TICKS`] of its ticks by every other action, and then by a random one; states of the win
-    /// itself do not count. `None` if chance plays a part. Cost: up to 96 searches of [`CALLS`].
+    /// itself do not count. `None` if chance plays a part. Cost: up to 320 searches of [`CALLS`].
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Option<DeadEnds> {
         let game = analysis.game();
         let start = game.start(level, win.seed);

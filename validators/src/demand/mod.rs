@@ -44,7 +44,7 @@ impl Demand {
     /// Measures a level with a win; `None` if the episode does not win. `shortest` says that no win is known to take fewer
     /// ticks, by proof.
     ///
-    /// Cost: at most 2.2 million forward-model calls for commitments, 0.3 million for dead ends, and the ticks of a few plays;
+    /// Cost: at most 2.2 million forward-model calls for commitments, 1 million for dead ends, and the ticks of a few plays;
     /// typically a tenth of that.
     pub fn of(
         analysis: &Analysis,

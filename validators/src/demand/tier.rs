@@ -40,15 +40,15 @@ pub const TIERS: [TierBounds; 4] = [
 /// No planner wins with plans longer than this.
 const FORESIGHT: Commitment = Commitment::Five;
 /// The share of states beside the win that are dead ends.
-const DEAD_ENDS: f64 = 0.1;
+const DEAD_ENDS: f64 = 0.03;
 /// Sprites that move by themselves and come next to the route.
 const MOVERS: usize = 3;
 /// The share of plays that greedy players lose.
 const LOSSES: f64 = 0.75;
 
 impl Demand {
-    /// The traps of a level, of four: planners of a small budget win at most with short plans; a tenth of the states beside the
-    /// win are dead ends; three movers come next to the route; greedy players lose three plays of four.
+    /// The traps of a level, of four: planners of a small budget win at most with short plans; three in a hundred states
+    /// beside the win are dead ends; three movers come next to the route; greedy players lose three plays of four.
     pub fn traps(&self) -> [bool; 4] {
         [
             self.commitment <= FORESIGHT,
@@ -109,7 +109,7 @@ mod tests {
             pushes: 0,
             shortest: true,
             commitment,
-            dead_ends: Some(DeadEnds { states: 10, dead, won: 0 }),
+            dead_ends: Some(DeadEnds { states: 100, dead, won: 0 }),
             movers: 0,
             deception: Deception { plays: 8, lost, astray: 0.0 },
         };
@@ -120,12 +120,13 @@ mod tests {
     fn tiers_rise_with_decisions_and_traps() {
         check(500, Commitment::All, 0, 0, Tier::One);
         check(19, Commitment::None, 9, 8, Tier::One);
+        check(50, Commitment::None, 2, 5, Tier::Two);
         check(20, Commitment::All, 0, 6, Tier::Two);
-        check(50, Commitment::All, 1, 6, Tier::Three);
+        check(50, Commitment::All, 3, 6, Tier::Three);
         check(50, Commitment::Ten, 0, 5, Tier::One);
         check(119, Commitment::None, 9, 8, Tier::Three);
-        check(120, Commitment::Five, 1, 6, Tier::Four);
-        check(120, Commitment::Ten, 1, 6, Tier::Three);
+        check(120, Commitment::Five, 3, 6, Tier::Four);
+        check(120, Commitment::Ten, 3, 6, Tier::Three);
     }
 
     #[test]
