@@ -68,6 +68,7 @@ mod regenerate;
 pub mod released;
 pub mod rungs;
 mod sealed;
+mod tiers;
 pub mod twin;
 mod verify;
 pub mod version;
@@ -86,6 +87,7 @@ pub use problem::{Flaw, Problem};
 pub use recipe::{CorpusPart, GeneratedPart, Known, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
 pub use regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
 pub use sealed::{COMMITS_TO_RECIPE_SINCE, HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
+pub use tiers::{PuzzlePart, Tiers};
 pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
 pub use witness::Witness;
 

@@ -1,9 +1,10 @@
 //! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
 use crate::sealed::{self, Secret};
+use crate::tiers::{PuzzlePart, Tiers};
 use engine::{Digest, Game, Seed};
 use forge::games::Board;
-use generators::games::{Kind, PushRules};
+use generators::games::Kind;
 use generators::kernels::kinds;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -13,8 +14,6 @@ use validators::{Criteria, CriteriaError, Difficulty, GameForm};
 
 /// The maximum size of a recipe, in bytes.
 pub const MAX_RECIPE: usize = 1 << 16;
-/// The maximum number of cells of a puzzle.
-const PUZZLE_CELLS: usize = 128;
 
 /// The parameters that determine the bytes of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,61 +107,6 @@ engine::with_defaults! {
         pub least_interactions: usize = 7,
         /// The minimum number of different interactions that the wins of a game's levels execute together.
         pub least_mechanics: usize = 3,
-    }
-}
-
-engine::with_defaults! {
-    /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
-    /// of the recipe.
-    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-    #[serde(default, deny_unknown_fields)]
-    pub struct PuzzlePart {
-        /// The number of games.
-        pub games: u32 = 0,
-        /// The number of levels of each game.
-        pub levels: u32 = 3,
-        /// The maximum number of levels that are tried for one place.
-        pub level_tries: u32 = 3,
-        /// The number of candidate games per selected game.
-        pub candidates: f64 = 1.25,
-        /// The minimum and maximum number of columns.
-        pub columns: (usize, usize) = (10, 11),
-        /// The minimum and maximum number of rows.
-        pub rows: (usize, usize) = (10, 11),
-    }
-}
-
-/// Shares of levels by tier.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Tiers {
-    /// The share of tier 1.
-    #[serde(rename = "1", skip_serializing_if = "is_zero")]
-    pub one: f64,
-    /// The share of tier 2.
-    #[serde(rename = "2", skip_serializing_if = "is_zero")]
-    pub two: f64,
-    /// The share of tier 3.
-    #[serde(rename = "3", skip_serializing_if = "is_zero")]
-    pub three: f64,
-    /// The share of tier 4.
-    #[serde(rename = "4", skip_serializing_if = "is_zero")]
-    pub four: f64,
-}
-
-fn is_zero(share: &f64) -> bool {
-    *share == 0.0
-}
-
-impl Tiers {
-    /// Returns `true` if no tier is asked for.
-    pub fn is_empty(&self) -> bool {
-        *self == Tiers::default()
-    }
-
-    /// The shares, from tier 1 to tier 4.
-    pub fn shares(&self) -> [f64; 4] {
-        [self.one, self.two, self.three, self.four]
     }
 }
 
@@ -287,7 +231,7 @@ pub enum RecipeError {
 }
 
 /// The error of a value that is out of its range.
-fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
+pub(crate) fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
     Err(RecipeError::Value { key, message: message.into() })
 }
 
@@ -351,7 +295,10 @@ impl Recipe {
         if self.games() == 0 {
             return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
         }
-        self.check_puzzles()?;
+        self.tiers.check()?;
+        if let Some(puzzles) = &self.puzzles {
+            puzzles.check(&self.tiers)?;
+        }
         let (old, new) = (&self.corpus, &self.generated);
         for (key, value, least, most) in [
             ("corpus.games", old.games, 0, 10_000),
@@ -413,38 +360,6 @@ impl Recipe {
                 let message = format!("lacks `{missing}`, which every card shows");
                 return Err(named(CriteriaError { key: "ask", message }));
             }
-        }
-        Ok(())
-    }
-
-    /// Checks the part of puzzles, and the tiers.
-    fn check_puzzles(&self) -> Result<(), RecipeError> {
-        let total: f64 = self.tiers.shares().iter().sum();
-        let are_shares = self.tiers.shares().iter().all(|share| (0.0..=1.0).contains(share));
-        if !(self.tiers.is_empty() || are_shares && (total - 1.0).abs() < 1e-6) {
-            return wrong("tiers", format!("adds up to {total}; it takes shares that add up to 1"));
-        }
-        let Some(part) = &self.puzzles else { return Ok(()) };
-        let known = PushRules::ALL.len() as u32;
-        if part.games == 0 || part.games > known {
-            return wrong("puzzles.games", format!("is {}; it takes 1 to {known}", part.games));
-        }
-        for (key, value) in [("puzzles.levels", part.levels), ("puzzles.level_tries", part.level_tries)] {
-            if !(1..=20).contains(&value) {
-                return wrong(key, format!("is {value}; it takes 1 to 20"));
-            }
-        }
-        if !(1.0..=20.0).contains(&part.candidates) {
-            return wrong("puzzles.candidates", "takes 1 to 20 for each game");
-        }
-        for (key, (least, most)) in [("puzzles.columns", part.columns), ("puzzles.rows", part.rows)] {
-            if least < 8 || most < least || part.columns.1 * part.rows.1 > PUZZLE_CELLS {
-                let help = "takes two numbers from 8, the smaller first; a board has at most 128 cells";
-                return wrong(key, help);
-            }
-        }
-        if self.tiers.is_empty() {
-            return wrong("puzzles", "needs `tiers`, the shares of levels that are made to each");
         }
         Ok(())
     }
@@ -620,21 +535,6 @@ mod tests {
         assert!(Recipe::to_commit(&GOOD.replace("seed = 'x'\n", "")).is_ok());
         let error = Recipe::to_commit(&GOOD.replace("= 2", "= 0")).unwrap_err().to_string();
         assert!(error.contains("nothing to mint"), "{error}");
-    }
-
-    #[test]
-    fn puzzles_are_made_to_tiers() {
-        let puzzles = "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[puzzles]\ngames = 2\n";
-        check(puzzles, "`puzzles` needs `tiers`");
-        check(&format!("{puzzles}[tiers]\n4 = 0.5"), "adds up to 0.5");
-        check(&format!("{puzzles}[tiers]\n5 = 1.0"), "unknown field `5`");
-        check(&format!("{puzzles}columns = [10, 16]\n[tiers]\n4 = 1.0"), "at most 128 cells");
-        check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "it takes 1 to 15");
-        let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
-        assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
-        // Recipes that ask for neither keep their bytes.
-        let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
-        assert!(plain.get("tiers").is_none() && plain.get("puzzles").is_none());
     }
 
     #[test]
