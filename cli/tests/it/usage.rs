@@ -208,7 +208,7 @@ fn misspelt_names_get_suggestions() {
 fn recipes_are_listed_and_printed() {
     let home = tempfile::tempdir().unwrap();
     let list = text(&run(home.path(), &["recipes"], 0).stdout);
-    for name in ["tiny", "starter", "medium", "2026-12"] {
+    for name in ["tiny", "starter", "medium", "frontier", "2026-12"] {
         assert_eq!(list.lines().filter(|line| line.starts_with(name)).count(), 1, "{list}");
     }
     let shown = run(home.path(), &["recipes", "show", "starter"], 0).stdout;

@@ -254,6 +254,31 @@ mod tests {
         lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(()))
     }
 
+    /// Puzzles are of the tiers that the recipe asks for, told in the cards; witnesses have a traced seed.
+    #[test]
+    fn puzzles_are_minted_to_tiers() {
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'tiers'\n[puzzles]\ngames = 1\nlevels = 2\n\
+                    level_tries = 12\ncandidates = 1.0\ncolumns = [8, 9]\nrows = [8, 8]\n[tiers]\n2 = 1.0\n[criteria]\n\
+                    ask = ['not-idle', 'not-random', 'winnable']\nbudget = 1000000\nshortest = 1.0\nmcts_plays = 1\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let store = Memory::default();
+        make_jobs(&plan, plan.jobs(), &store, &()).unwrap();
+        for &job in plan.jobs() {
+            let game = &store.get(&plan.name(job)).unwrap().unwrap().games[0];
+            assert!(game.paths.iter().all(|path| !path.is_empty()), "{job:?}");
+        }
+        let Minted { cards, card, .. } = minted(&recipe, &corpus).unwrap();
+        assert_eq!((cards.len(), card.tiers.get("2")), (1, Some(&2)));
+        assert!(cards[0].origin.mechanics().iter().all(|name| name.starts_with("puzzle/")));
+        for level in cards.iter().flat_map(|card| &card.levels) {
+            let demand = level.demand.as_ref().unwrap();
+            assert_eq!((level.tier, demand.ticks), (Some(demand.tier()), level.witness_ticks));
+            assert!(demand.pushes >= 12 && demand.shortest, "{demand:?}");
+        }
+    }
+
     #[test]
     fn a_corpus_game_without_new_levels_makes_room_for_the_next_of_the_draw() {
         let hopeless = FETCH
