@@ -117,6 +117,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
         new_games: 0,
         planned: Vec::new(),
         difficulty: BTreeMap::new(),
+        tiers: BTreeMap::new(),
         goals: one("reach"),
         avatars: one("walks"),
         generators: one("corpus"),
