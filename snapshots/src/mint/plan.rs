@@ -58,12 +58,13 @@ pub enum Job {
 const ISLAND: u32 = 4;
 
 /// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
-/// `starter`, with both as in `medium`. Those of archives and searches without `skill` are guesses.
+/// `starter`, with both as in `medium`; that of puzzles as in `frontier`, to the highest tiers. Those of archives and searches
+/// without `skill` are guesses.
 const ARCHIVE: [f64; 3] = [0.1, 5.4, 16.0];
 const SEARCH: [f64; 3] = [0.1, 5.4, 16.0];
 const CONSTRUCTIVE: [f64; 3] = [0.03, 5.4, 16.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
-const PUZZLE: [f64; 3] = [150.0, 150.0, 150.0];
+const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 /// The calls of a search for a win for which the costs with gates hold.
 const GATED_BUDGET: f64 = 1e6;
 /// The maximum number of fictions to draw for a puzzle, to find one of its theme.
