@@ -95,7 +95,7 @@ pub struct LevelCard {
     /// `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// What a win demands of a player, if the recipe asks for tiers.
+    /// The demands of a win on a player, if the recipe asks for tiers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
     /// The tier that follows from it.

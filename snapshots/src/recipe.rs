@@ -292,7 +292,8 @@ impl Recipe {
             }
             _ => {}
         }
-        if self.games() == 0 {
+        let puzzles = self.puzzles.as_ref().map_or(0, |part| part.games);
+        if [self.corpus.games, self.generated.games, puzzles] == [0; 3] {
             return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
         }
         self.tiers.check()?;
@@ -475,12 +476,13 @@ impl Recipe {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    const GOOD: &str = "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[generated]\ngames = 2\n";
+    pub(crate) const GOOD: &str =
+        "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[generated]\ngames = 2\n";
 
-    fn check(text: &str, expect: &str) {
+    pub(crate) fn check(text: &str, expect: &str) {
         let error = Recipe::from_toml(text).unwrap_err().to_string();
         assert!(error.contains(expect), "{error}");
     }

@@ -99,7 +99,7 @@ impl PuzzlePart {
             );
         }
         for (key, (least, most)) in [("puzzles.columns", self.columns), ("puzzles.rows", self.rows)] {
-            if least < LEAST_SIDE || most < least || self.columns.1 * self.rows.1 > MOST_CELLS {
+            if least < LEAST_SIDE || most < least || self.columns.1.saturating_mul(self.rows.1) > MOST_CELLS {
                 let help = "takes two numbers from 8, the smaller first; a board has at most 128 cells";
                 return wrong(key, help);
             }
@@ -114,13 +114,7 @@ impl PuzzlePart {
 #[cfg(test)]
 mod tests {
     use crate::recipe::Recipe;
-
-    const GOOD: &str = "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[generated]\ngames = 2\n";
-
-    fn check(text: &str, expect: &str) {
-        let error = Recipe::from_toml(text).unwrap_err().to_string();
-        assert!(error.contains(expect), "{error}");
-    }
+    use crate::recipe::tests::{GOOD, check};
 
     #[test]
     fn puzzles_are_made_to_tiers() {
@@ -129,6 +123,8 @@ mod tests {
         check(&format!("{puzzles}[tiers]\n4 = 0.5"), "adds up to 0.5");
         check(&format!("{puzzles}[tiers]\n5 = 1.0"), "unknown field `5`");
         check(&format!("{puzzles}columns = [10, 16]\n[tiers]\n4 = 1.0"), "at most 128 cells");
+        let endless = "columns = [8, 4294967296]\nrows = [8, 4294967296]\n[tiers]\n4 = 1.0";
+        check(&format!("{puzzles}{endless}"), "at most 128 cells");
         check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "it takes 1 to 15");
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));

@@ -29,7 +29,7 @@ pub struct FoundLevel {
     pub candidate: u32,
     /// The seed of its judges.
     pub seed: Seed,
-    /// What it demands, if it was made to a tier.
+    /// Its demands on a player, if it was made to a tier.
     pub demand: Option<Demand>,
 }
 
@@ -395,7 +395,7 @@ impl Levels<'_> {
         None
     }
 
-    /// A puzzle of the tier of its place: won, judged, and measured. Cost: a proof of the shortest win within the share of the
+    /// A puzzle of the tier of its place: won, judged, and measured; the search for its shortest win is that of `winnable`. Cost: a proof of the shortest win within the share of the
     /// budget for it, the judges, and [`Demand::of`].
     fn puzzle(
         &self,
@@ -411,10 +411,16 @@ impl Levels<'_> {
         let calls = (self.criteria.budget as f64 * self.criteria.shortest) as u64;
         let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win)?;
         tally.calls(calls);
-        let place = ((difficulty, candidate), Some(win));
-        let found = self.judged(self.panel, game, level, place, seed, tally)?;
-        let witness = found.report.witness.as_ref()?;
-        let demand = Demand::of(&analysis, &found.level, witness, shortest, seed.child("demand", 0))?;
+        let ask = self.criteria.ask.iter().filter(|name| *name != "winnable").cloned().collect();
+        let panel =
+            Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
+        let place = ((difficulty, candidate), Some(win.clone()));
+        let mut found = self.judged(&panel, game, level, place, seed, tally)?;
+        let demand = Demand::of(&analysis, &found.level, &win, shortest, seed.child("demand", 0))?;
+        let optimal = shortest.then_some(win.actions.len());
+        let verdict = Verdict::Pass { witness: Some(win) };
+        let finding = Finding { searched: Some(calls), optimal, ..Finding::from(verdict) };
+        found.report.judgements.insert(0, Judgement { criterion: "winnable", finding });
         if demand.tier() != puzzles.tier(number) {
             tally.level_taken_back("tier");
             return None;
@@ -515,10 +521,7 @@ impl FoundLevel {
             candidate: self.candidate,
             witness_ticks: witness.actions.len(),
             witness_score: witness.score,
-            optimal_ticks: match &self.demand {
-                Some(demand) => demand.shortest.then_some(demand.ticks),
-                None => report.finding("winnable").and_then(|finding| finding.optimal),
-            },
+            optimal_ticks: report.finding("winnable").and_then(|finding| finding.optimal),
             search_calls: report.finding("winnable").map_or(0, Finding::calls),
             mcts: mcts.clone(),
             random: rate("not-random")?,
