@@ -33,16 +33,22 @@ pub fn workspace_root() -> PathBuf {
 
 /// Returns every file that belongs to the repository, relative to [`workspace_root`], sorted.
 ///
-/// Left out: build output (`target`, and any folder with cargo's `CACHEDIR.TAG`), unfinished releases (`*.partial`),
-/// links, and hidden files, except `.cargo` and `.ci`.
+/// Left out: folders of the root that `.gitignore` names, such as `releases`; build output (any folder with cargo's
+/// `CACHEDIR.TAG`, and `target`), unfinished releases (`*.partial`), links, and hidden folders, except `.cargo` and `.ci`.
 ///
 /// # Panics
 ///
 /// If a folder cannot be read.
 pub fn workspace_files() -> Vec<PathBuf> {
-    let root = workspace_root();
+    files_below(&workspace_root())
+}
+
+fn files_below(root: &Path) -> Vec<PathBuf> {
+    let ignored = fs::read_to_string(root.join(".gitignore")).unwrap_or_default();
+    let ignored: Vec<&Path> =
+        ignored.lines().filter_map(|line| line.strip_prefix('/')).map(Path::new).collect();
     let mut files = Vec::new();
-    collect(&root, Path::new(""), &mut files);
+    collect(root, Path::new(""), &ignored, &mut files);
     files.sort();
     files
 }
@@ -109,7 +115,7 @@ pub fn read(file: impl AsRef<Path>) -> String {
 }
 
 /// Adds every file below `folder` (relative to `root`) to `files`, in no particular order.
-fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) {
+fn collect(root: &Path, folder: &Path, ignored: &[&Path], files: &mut Vec<PathBuf>) {
     let here = root.join(folder);
     let entries = fs::read_dir(&here).unwrap_or_else(|error| panic!("{}: {error}", here.display()));
     for entry in entries {
@@ -121,11 +127,33 @@ fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) {
             let name = name.to_string_lossy();
             let hidden = name.starts_with('.') && name != ".cargo" && name != ".ci";
             let built = name == "target" || entry.path().join("CACHEDIR.TAG").exists();
-            if !hidden && !built && !name.ends_with(".partial") {
-                collect(root, &path, files);
+            let left_out = ignored.contains(&path.as_path());
+            if !hidden && !built && !left_out && !name.ends_with(".partial") {
+                collect(root, &path, ignored, files);
             }
         } else if kind.is_file() {
             files.push(path);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Minted releases and results do not belong to the repository, wherever tests look for its files.
+    #[test]
+    fn ignored_folders_of_the_root_are_left_out() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join(".gitignore"), "/target\n*.partial\n/releases\n").unwrap();
+        for file in
+            ["docs/page.md", "docs/releases/page.md", "releases/starter/README.md", "half.partial/README.md"]
+        {
+            let path = root.path().join(file);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "").unwrap();
+        }
+        let found = files_below(root.path());
+        assert_eq!(found, [".gitignore", "docs/page.md", "docs/releases/page.md"].map(PathBuf::from));
     }
 }
