@@ -3,6 +3,7 @@
 use crate::goal_guide::{Distances, GoalGuide};
 use crate::planner::{Budget, Planner, Streams};
 use engine::{Action, Game, Outcome, Seed, State};
+use serde::{Deserialize, Serialize};
 
 /// A greedy player: takes the action after which most is done towards a win, and the nearest thing that a win needs is
 /// closest. It looks one tick ahead, so it neither plans nor waits, and it sees a danger only when it is next to it. A level
@@ -11,12 +12,15 @@ use engine::{Action, Game, Outcome, Seed, State};
 /// With `slips`, it presses a random key in that share of the ticks: a careless player.
 ///
 /// Cost: one call for each action, whatever the budget.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NearestGoal {
     slips: f64,
     streams: Streams,
+    #[serde(skip)]
     guide: Option<GoalGuide>,
+    #[serde(skip)]
     distances: Distances,
+    #[serde(skip)]
     scratch: Option<State>,
 }
 

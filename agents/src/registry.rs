@@ -1,9 +1,9 @@
 //! Planners by name, for recipes and the command line.
 
 use crate::{
-    Budget, DoNothing, GuidedMcts, GuidedMctsConfig, Heuristic, Mcts, MctsConfig, Olets, OletsConfig,
-    OneStep, OneStepConfig, Planner, Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig, Width,
-    WidthConfig,
+    Budget, DoNothing, GuidedMcts, GuidedMctsConfig, Heuristic, Mcts, MctsConfig, NearestGoal, Olets,
+    OletsConfig, OneStep, OneStepConfig, Planner, Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig,
+    Width, WidthConfig,
 };
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
@@ -52,6 +52,7 @@ planners! {
         OneStep::new(OneStepConfig { heuristic: Heuristic::WinScore, ..OneStepConfig::default() }, seed)
     };
     "one-step" OneStep(OneStep) |seed| OneStep::new(OneStepConfig::default(), seed);
+    "nearest-goal" NearestGoal(NearestGoal) |seed| NearestGoal::new(0.0, seed);
     "random-search" RandomSearch(RandomSearch) |seed| RandomSearch::new(RandomSearchConfig::default(), seed);
     "rhea" Rhea(Rhea) |seed| Rhea::new(RheaConfig::default(), seed);
     "mcts" Mcts(Mcts) |seed| Mcts::new(MctsConfig::default(), seed);
