@@ -18,6 +18,7 @@ mod evaluation_report;
 mod input;
 mod interrupt;
 mod manual;
+mod marks;
 mod page;
 mod paths;
 mod play;

@@ -1,5 +1,6 @@
 //! A game with its levels, ready to be played.
 
+use crate::commitment::Commitment;
 use engine::{Analysis, Diagnostics, Game, Level, Seed, StateHash, describe};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
@@ -96,4 +97,25 @@ pub struct SubjectFacts {
     /// `true` if its faults are tolerated, as in the reference engine.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub as_reference: bool,
+    /// The marks that its release keeps of the levels played.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<LevelMark>,
+}
+
+/// The result of a player that never changes on a level, as a release keeps it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LevelMark {
+    /// The number of the level.
+    pub level: usize,
+    /// The tier of the level: what it demands, from 1 to 4.
+    pub tier: u8,
+    /// The player.
+    pub player: String,
+    /// The number of actions that it commits to at each look.
+    pub commit: Commitment,
+    /// The episodes that it won.
+    pub wins: u64,
+    /// The episodes that it played.
+    pub plays: u64,
 }

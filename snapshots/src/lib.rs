@@ -57,6 +57,7 @@ pub mod export;
 pub mod folder;
 mod integrity;
 mod manifest;
+pub mod marks;
 pub mod merkle;
 pub mod mint;
 mod papers;

@@ -1,5 +1,6 @@
 //! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
+use crate::marks::MarksPart;
 use crate::sealed::{self, Secret};
 use crate::tiers::{PuzzlePart, Tiers};
 use engine::{Digest, Game, Seed};
@@ -50,6 +51,9 @@ pub struct Recipe {
     /// The share of all levels that is of each tier; if empty, tiers are not measured.
     #[serde(default, skip_serializing_if = "Tiers::is_empty")]
     pub tiers: Tiers,
+    /// The marks: players that never change, whose results on each level are kept in the release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marks: Option<MarksPart>,
     /// The quotas for kinds of games.
     #[serde(default)]
     pub taxonomy: Taxonomy,
@@ -299,6 +303,9 @@ impl Recipe {
         self.tiers.check()?;
         if let Some(puzzles) = &self.puzzles {
             puzzles.check(&self.tiers)?;
+        }
+        if let Some(marks) = &self.marks {
+            marks.check()?;
         }
         let (old, new) = (&self.corpus, &self.generated);
         for (key, value, least, most) in [

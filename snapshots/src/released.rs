@@ -3,6 +3,7 @@
 use crate::contents::Contents;
 use crate::integrity::Integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
+use crate::marks::Marks;
 use crate::verify::{Verification, verify};
 use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
@@ -18,6 +19,8 @@ pub struct Released {
     pub manifest: Manifest,
     /// The games, sorted by the bytes of their folders' names.
     pub games: Vec<ReleasedGame>,
+    /// The marks, if the release has some that are not withheld, in a form that is known.
+    pub marks: Option<Marks>,
 }
 
 /// A game of a release.
@@ -78,7 +81,10 @@ impl Released {
         let folders: Vec<String> = manifest.items.iter().filter_map(|item| folder_of(&item.path)).collect();
         let games = folders.into_par_iter().map(|folder| read_game(&contents, &manifest, &folder));
         let games = games.collect::<Result<_, _>>()?;
-        Ok(Released { manifest, games })
+        let path = Marks::path_in(&manifest);
+        let text = path.map(|path| contents.find(&path)).transpose()?.flatten();
+        let marks = text.and_then(|text| Marks::read(&text).ok());
+        Ok(Released { manifest, games, marks })
     }
 
     /// The number of levels of all games.

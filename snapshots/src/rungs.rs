@@ -54,29 +54,83 @@ impl RungRate {
     }
 
     fn of(first: &PlayerResult, held_out: bool, games: &[Vec<&PlayerResult>]) -> RungRate {
-        let share = |result: &&PlayerResult| result.rate.wins as f64 / result.rate.plays as f64;
-        let sum = |levels: &Vec<&PlayerResult>| (levels.iter().map(share).sum::<f64>(), levels.len() as f64);
-        let sums: Vec<(f64, f64)> = games.iter().map(sum).collect();
-        let all = || games.iter().flatten();
-        let levels = all().count() as u64;
-        let won: f64 = sums.iter().map(|game| game.0).sum();
-        let mean = (won / levels as f64).clamp(0.0, 1.0);
-        // Of a single game, nothing is known about games like it.
-        let found = share_over_games(&sums, 0.95);
-        let interval = found.map_or(Interval { low: 0.0, high: 1.0 }, |found| found.interval);
+        let counts = |levels: &Vec<&PlayerResult>| {
+            levels.iter().map(|result| (result.rate.wins, result.rate.plays)).collect::<Vec<_>>()
+        };
+        let of_games: Vec<Vec<(u64, u64)>> = games.iter().map(counts).collect();
+        let Clustered { games, plays, wins, mean, interval, error } = Clustered::of(&of_games);
         RungRate {
             player: first.player.clone(),
             looks_ahead: first.looks_ahead,
             held_out,
+            games,
+            levels: of_games.iter().map(Vec::len).sum::<usize>() as u64,
+            plays,
+            wins,
+            mean,
+            interval,
+            error,
+        }
+    }
+}
+
+/// A win rate over levels, which all have the same weight, with its interval over games like these.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Clustered {
+    /// The number of games.
+    pub games: u64,
+    /// The number of plays of all levels.
+    pub plays: u64,
+    /// The number of plays won.
+    pub wins: u64,
+    /// The mean over levels of the share of plays won, from 0 to 1.
+    pub mean: f64,
+    /// The 95 % interval of the mean, clustered by game.
+    pub interval: [f64; 2],
+    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as with a single
+    /// game.
+    pub error: Option<f64>,
+}
+
+impl Clustered {
+    /// The rate over the levels of games, each given by its wins and plays; there is at least one level.
+    pub(crate) fn of(games: &[Vec<(u64, u64)>]) -> Clustered {
+        let share = |&(wins, plays): &(u64, u64)| wins as f64 / plays as f64;
+        let sum = |levels: &Vec<(u64, u64)>| (levels.iter().map(share).sum::<f64>(), levels.len() as f64);
+        let sums: Vec<(f64, f64)> = games.iter().map(sum).collect();
+        let all = || games.iter().flatten();
+        let won: f64 = sums.iter().map(|game| game.0).sum();
+        let mean = (won / all().count() as f64).clamp(0.0, 1.0);
+        // Of a single game, nothing is known about games like it.
+        let found = share_over_games(&sums, 0.95);
+        let interval = found.map_or(Interval { low: 0.0, high: 1.0 }, |found| found.interval);
+        Clustered {
             games: games.len() as u64,
-            levels,
-            plays: all().map(|result| result.rate.plays).sum(),
-            wins: all().map(|result| result.rate.wins).sum(),
+            plays: all().map(|(_, plays)| plays).sum(),
+            wins: all().map(|(wins, _)| wins).sum(),
             mean,
             interval: [interval.low.clamp(0.0, mean), interval.high.clamp(mean, 1.0)],
             error: found.and_then(|found| found.error),
         }
     }
+
+    /// The difference of the means of this one and another, as of independent samples of games, with its interval.
+    pub(crate) fn minus(&self, other: &Clustered) -> (f64, [f64; 2]) {
+        difference((self.mean, self.interval), (other.mean, other.interval))
+    }
+}
+
+/// The difference of two rates with their intervals, and its interval.
+fn difference((ours, own): (f64, [f64; 2]), (theirs, other): (f64, [f64; 2])) -> (f64, [f64; 2]) {
+    let below = apart(ours - own[0], other[1] - theirs);
+    let above = apart(own[1] - ours, theirs - other[0]);
+    let difference = ours - theirs;
+    (difference, [(difference - below).max(-1.0), (difference + above).min(1.0)])
+}
+
+fn apart(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// The win rates of each player of the ladders over some games: rungs from the weakest to the strongest, as the first
@@ -136,14 +190,11 @@ impl RungDifference {
     }
 
     fn of(ours: RungRate, theirs: RungRate) -> RungDifference {
-        let apart = |x: f64, y: f64| (x * x + y * y).sqrt();
-        let difference = ours.mean - theirs.mean;
-        let below = apart(ours.mean - ours.interval[0], theirs.interval[1] - theirs.mean);
-        let above = apart(ours.interval[1] - ours.mean, theirs.mean - theirs.interval[0]);
+        let (difference, interval) = difference((ours.mean, ours.interval), (theirs.mean, theirs.interval));
         let errors = ours.error.zip(theirs.error);
         RungDifference {
             difference,
-            interval: [(difference - below).max(-1.0), (difference + above).min(1.0)],
+            interval,
             detectable: errors.map(|(ours, theirs)| DETECTABLE_ERRORS * apart(ours, theirs)),
             ours,
             theirs,

@@ -2,7 +2,8 @@
 
 use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
-use crate::manifest::{MANIFEST_FILE, Manifest};
+use crate::manifest::{MANIFEST_FILE, Manifest, ReleaseKind};
+use crate::marks::Marks;
 use crate::papers::{self, IGNORED_NAMES, PAPERS_LIMITS};
 use crate::witness::{Witness, descendant};
 use crate::{Draft, SnapshotError};
@@ -258,7 +259,8 @@ fn unrelated_witnesses(
     files: &BTreeSet<&str>,
 ) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
-    for path in files.iter().filter(|path| **path != SECRET_FILE) {
+    let marks = Marks::path(ReleaseKind::Sealed);
+    for path in files.iter().filter(|path| **path != SECRET_FILE && **path != marks) {
         let file = path.strip_prefix(HELD).expect("it is held");
         let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
         match serde_json::from_slice::<Witness>(&bytes) {

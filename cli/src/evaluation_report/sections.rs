@@ -49,6 +49,14 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     horizons.tables = of(&["horizons"]);
     let horizons = Some(horizons).filter(|section| !section.tables.is_empty());
 
+    let mut marks = Section::new(
+        "marks",
+        "Beside the marks of the release",
+        "By what the levels demand and by commitment, beside players that never change.",
+    );
+    marks.tables = of(&["marks"]);
+    let marks = Some(marks).filter(|section| !section.tables.is_empty());
+
     let heats = Heats::of(study);
     let rules = heats.rules();
     let mut levels = Section::new(
@@ -110,7 +118,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut answers = Section::new("answers", "Answers, failures and times", "");
     answers.tables = of(&["answers", "times"]);
 
-    let first = std::iter::once(leaders).chain(horizons);
+    let first = std::iter::once(leaders).chain(horizons).chain(marks);
     let others = [kinds, losses, levels, games, pairs, modes, aids, walked, correlations, answers];
     (first.chain(others).collect(), rules)
 }

@@ -8,6 +8,7 @@ use crate::verbs::release::in_pool;
 use crate::verbs::verify::remark_unreplayed;
 use report::Quantiles;
 use snapshots::diff::{Change, Changes, Diff, Neighbours, NumberShift, Share, Shift, Side, Status};
+use snapshots::marks::MarkDifference;
 use snapshots::released::Released;
 use snapshots::rungs::RungDifference;
 use std::path::PathBuf;
@@ -59,7 +60,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 fn say(diff: &Diff, console: &Console) {
-    let Diff { before, after, games, items, shifts, numbers, rungs, neighbours } = diff;
+    let Diff { before, after, games, items, shifts, numbers, rungs, marks, neighbours } = diff;
     console.say(side("before", before));
     console.say(side("after ", after));
     if before.root == after.root {
@@ -89,6 +90,7 @@ fn say(diff: &Diff, console: &Console) {
     console.say("");
     numbers.iter().for_each(|found| number(found, console));
     ladder(rungs, console);
+    marked(marks, console);
     near(neighbours, console);
 }
 
@@ -167,6 +169,27 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
             points(rung.ours.mean),
             points(rung.difference),
             if rung.includes_zero() { "" } else { ", not 0" },
+        ));
+    }
+}
+
+/// Lists the marks by tier, those of all levels last.
+fn marked(marks: &[MarkDifference], console: &Console) {
+    if marks.is_empty() {
+        return;
+    }
+    console.say("\nmarks, in percent, all levels weighted equally, with 95 % intervals clustered by game:");
+    for mark in marks {
+        let points = |share: f64| 100.0 * share;
+        let [low, high] = mark.interval.map(points);
+        let tier = mark.tier.map_or("all levels".to_owned(), |tier| format!("tier {tier}"));
+        console.say(format_args!(
+            "  {tier:<10} {:<16} {:>3} actions  {:>5.1} → {:>5.1}   difference {:+.1} ({low:+.1} to {high:+.1})",
+            mark.player,
+            mark.commit.name(),
+            points(mark.theirs.mean),
+            points(mark.ours.mean),
+            points(mark.difference),
         ));
     }
 }

@@ -5,6 +5,7 @@ use crate::counted::count;
 use crate::embedded;
 use crate::failure::Answer;
 use crate::interrupt;
+use crate::marks;
 use crate::protected;
 use crate::shell;
 use crate::verbs::release::{LONG, ProgressBars, commit, in_pool};
@@ -55,7 +56,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     {
         return answer(args, &Answered { manifest: &manifest, compared: &compared, minted: false }, console);
     }
-    let plan = release.plan(&corpus)?;
+    let plan = release.plan(&corpus)?.with_players(&marks::Players)?;
     let open = if args.resume { Draft::resume } else { Draft::create };
     let draft = args.out.as_deref().map(open).transpose()?;
     let store: Box<dyn JobStore> = match &draft {

@@ -8,6 +8,7 @@ mod export;
 mod generate;
 mod generate_games;
 mod mailbox;
+mod marks;
 mod pictures;
 mod regenerate;
 mod release;

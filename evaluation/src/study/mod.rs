@@ -18,6 +18,7 @@ mod endings;
 mod failures;
 mod horizon;
 mod leaderboard;
+mod marks;
 mod matrix;
 mod mirror;
 mod person;
@@ -37,6 +38,7 @@ pub use endings::{EndingRow, EndingSummary};
 pub use failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
 pub use horizon::{CommitmentRate, Foresight, HorizonRow};
 pub use leaderboard::LeaderRow;
+pub use marks::MarkRow;
 pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
 pub use player::{CONTEXTUAL, Player, ZERO_SHOT};
 pub use power::{PowerRow, power, table as power_table};
@@ -47,7 +49,7 @@ pub use taxonomy::TaxonomyRow;
 pub use times::TimeRow;
 
 use crate::metrics::EpisodeMetrics;
-use crate::subject::Subject;
+use crate::subject::{LevelMark, Subject};
 use itertools::Itertools;
 use report::Table;
 use serde::Serialize;
@@ -101,6 +103,9 @@ pub struct Study {
     pub taxonomy: Vec<TaxonomyRow>,
     /// The horizons of the players with several commitments, by kind of game.
     pub horizons: Vec<HorizonRow>,
+    /// The marks of the releases that the levels are from, and the players on these levels; empty if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<MarkRow>,
     /// The statistical power of the episodes.
     pub power: Vec<PowerRow>,
 }
@@ -122,6 +127,9 @@ pub struct StudyGame {
     pub is_stochastic: Option<bool>,
     /// Its levels.
     pub levels: Vec<StudyLevel>,
+    /// The marks that its release keeps of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<LevelMark>,
 }
 
 /// A level of a game of a study.
@@ -145,6 +153,7 @@ impl From<&Subject> for StudyGame {
             levels: levels
                 .map(|level| StudyLevel { number: level.number, optimal_ticks: level.optimal_ticks })
                 .collect(),
+            marks: subject.facts.marks.clone(),
         }
     }
 }
@@ -186,6 +195,7 @@ impl Study {
         study.kinds = taxonomy::kinds(&study);
         study.taxonomy = taxonomy::taxonomy(&study);
         study.horizons = horizon::horizons(&study);
+        study.marks = marks::rows(&study);
         study.power = power::of_study(&study);
         study
     }
@@ -264,6 +274,7 @@ impl Study {
     pub fn tables(&self) -> Vec<Table> {
         let mut tables = leaderboard::tables(self);
         tables.extend(horizon::table(self));
+        tables.extend(marks::table(self));
         tables.extend(endings::tables(self));
         for (matrices, grain) in [(&self.by_game, "game"), (&self.by_level, "level")] {
             for measure in Measure::ALL {

@@ -210,6 +210,11 @@ impl Names {
             }
         }
         known.game.levels.sort_by_key(|level| level.number);
+        for mark in &subject.facts.marks {
+            if !known.game.marks.contains(mark) {
+                known.game.marks.push(mark.clone());
+            }
+        }
         Ok(surface)
     }
 

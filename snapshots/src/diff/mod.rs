@@ -9,6 +9,7 @@ pub use items::{Change, Changes, Status};
 pub use neighbours::{Neighbours, Pair};
 pub use shifts::{DEALS, NumberShift, Share, Shift};
 
+use crate::marks::{MarkDifference, mark_differences};
 use crate::released::{Released, ReleasedGame};
 use crate::rungs::{RungDifference, differences};
 use engine::{Analysis, Digest};
@@ -53,6 +54,9 @@ pub struct Diff {
     pub numbers: Vec<NumberShift>,
     /// The change in the results of each player of the ladders: later minus earlier.
     pub rungs: Vec<RungDifference>,
+    /// The change in the results of each mark that both have; none if the recipes ask for none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<MarkDifference>,
     /// The distances from the later games to the earlier ones.
     pub neighbours: Neighbours,
 }
@@ -97,9 +101,15 @@ impl Diff {
             shifts: shifts::shifts(&old, &new),
             numbers: shifts::numbers(&old, &new),
             rungs: differences(&cards(after), &cards(before)),
+            marks: marks(before, after),
             neighbours: Neighbours::of(&old, &new, closest),
         }
     }
+}
+
+fn marks(before: &Released, after: &Released) -> Vec<MarkDifference> {
+    let both = after.marks.as_ref().zip(before.marks.as_ref());
+    both.map_or_else(Vec::new, |(after, before)| mark_differences(after, before))
 }
 
 fn side(released: &Released, games: &[Compared<'_>]) -> Side {

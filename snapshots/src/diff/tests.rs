@@ -31,7 +31,7 @@ fn game(id: &str, source: &str, levels: &[&str], generated: bool) -> ReleasedGam
 }
 
 fn release(games: Vec<ReleasedGame>) -> Released {
-    Released { manifest: example(&[]), games }
+    Released { manifest: example(&[]), games, marks: None }
 }
 
 const LEVEL: &str = "wwwww\nwA gw\nw f w\nwwwww\n";

@@ -4,15 +4,17 @@ use super::card::ReleaseCard;
 use super::job::FrozenGame;
 use super::{MintError, Plan};
 use crate::manifest::{FORMAT, Item, Manifest, ReleaseKind};
+use crate::marks::{GameMarks, LevelMarks, Marks, Wins};
 use crate::recipe::Recipe;
 use crate::sealed::{SECRET_FILE, Secret};
 use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
 use engine::syntax;
-use forge::card::{Card, Origin};
+use forge::card::{Card, LevelCard, Origin};
 use forge::games::marked;
 use report::canonical::to_canonical_json;
 use std::fmt::Write;
+use validators::Tier;
 
 /// The file that describes a release as a whole, for programs.
 pub const RELEASE_CARD_FILE: &str = "CARD.json";
@@ -27,6 +29,7 @@ pub(super) struct Folder<'a, 'b> {
     kind: ReleaseKind,
     items: Vec<Item>,
     pub(super) cards: Vec<Card>,
+    marks: Vec<GameMarks>,
 }
 
 impl<'a, 'b> Folder<'a, 'b> {
@@ -37,6 +40,7 @@ impl<'a, 'b> Folder<'a, 'b> {
             kind: if plan.is_sealed() { ReleaseKind::Sealed } else { ReleaseKind::Open },
             items: Vec::new(),
             cards: Vec::new(),
+            marks: Vec::new(),
         }
     }
 
@@ -48,7 +52,7 @@ impl<'a, 'b> Folder<'a, 'b> {
 
     /// Writes the files of a game.
     pub(super) fn game(&mut self, frozen: FrozenGame) -> Result<(), SnapshotError> {
-        let FrozenGame { text, mut card, levels, witnesses, paths, .. } = frozen;
+        let FrozenGame { text, mut card, levels, witnesses, paths, marks, .. } = frozen;
         let folder = format!("games/{}", card.id);
         card.canary = self.canary.clone();
         let text = marked(&syntax::parse(&text).0, &self.canary);
@@ -62,6 +66,12 @@ impl<'a, 'b> Folder<'a, 'b> {
             let witness = Witness { canary: self.canary.clone(), episode, path };
             self.file(witness_path(self.kind, &card.id, number), &json(&witness)?)?;
         }
+        if !marks.is_empty() {
+            let of_level =
+                |(card, wins): (&LevelCard, Wins)| LevelMarks { tier: card.tier.unwrap_or(Tier::One), wins };
+            let levels = card.levels.iter().zip(marks).map(of_level).collect();
+            self.marks.push(GameMarks { id: card.id.clone(), levels });
+        }
         self.cards.push(card);
         Ok(())
     }
@@ -74,7 +84,14 @@ impl<'a, 'b> Folder<'a, 'b> {
         lockfile: Digest,
         card: &ReleaseCard,
     ) -> Result<(Manifest, Vec<Card>), MintError> {
-        let text = readme(recipe, &self.canary, &self.cards, card);
+        let mut text = readme(recipe, &self.canary, &self.cards, card);
+        if let Some(asked) = &recipe.marks {
+            let marks = Marks::of(&self.canary, asked, std::mem::take(&mut self.marks));
+            self.file(Marks::path(self.kind), &json(&marks)?)?;
+            if self.kind == ReleaseKind::Open {
+                text = format!("{text}\n{}", marks.in_words());
+            }
+        }
         self.file("README.md".to_owned(), text.as_bytes())?;
         self.file(RELEASE_CARD_FILE.to_owned(), &json(card)?)?;
         if let (ReleaseKind::Sealed, Some(secret)) = (self.kind, secret) {

@@ -1,5 +1,6 @@
 //! The result of a job, as data that can be stored and shipped.
 
+use crate::marks::Wins;
 use crate::witness::descendant;
 use engine::{Analysis, Episode, Seed};
 use forge::Tally;
@@ -36,6 +37,9 @@ pub struct FrozenGame {
     pub witnesses: Vec<Episode>,
     /// For each episode, the steps from the release's root seed to its seed.
     pub paths: Vec<Vec<Step>>,
+    /// For each level, the plays that its marks won; empty if the recipe asks for none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<Wins>,
 }
 
 impl FrozenGame {
@@ -62,7 +66,7 @@ impl FrozenGame {
         let paths = paths.map(Option::unwrap_or_default).collect();
         let MadeGame { text, card, levels, witnesses, .. } = made;
         let levels = levels.iter().map(|found| found.level.to_string()).collect();
-        FrozenGame { text, card, difficulties, levels, witnesses, paths }
+        FrozenGame { text, card, difficulties, levels, witnesses, paths, marks: Vec::new() }
     }
 }
 

@@ -100,6 +100,9 @@ pub enum MintError {
         /// The requirements that the nearest selection misses.
         missed: String,
     },
+    /// The marks of a game cannot be played.
+    #[error("marks: {0}")]
+    Marks(String),
     /// The files or the manifest cannot be made.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),

@@ -3,7 +3,8 @@
 use super::MintError;
 use super::job::{FrozenGame, JobResult};
 use crate::corpus::Corpus;
-use crate::recipe::Recipe;
+use crate::marks::{MarkPlayers, MarksPart};
+use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::Secret;
 use crate::witness::descendant;
 use crate::{Digest, SnapshotError, canary};
@@ -36,6 +37,8 @@ pub struct Plan<'a> {
     /// The new games of previous releases.
     pub(super) before: Vec<GameForm>,
     jobs: Vec<Job>,
+    /// The players of the marks.
+    players: Option<&'a dyn MarkPlayers>,
 }
 
 /// A job: a part of the work that depends on no other.
@@ -90,9 +93,22 @@ impl<'a> Plan<'a> {
         let games: Vec<Game> = corpus.games.iter().map(compile).collect::<Result<_, _>>()?;
         let forms = games.iter().map(GameForm::of).collect();
         let before = recipe.known.forms()?;
-        let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs: Vec::new() };
+        let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs: Vec::new(), players: None };
         plan.jobs = plan.puzzles().chain(plan.generated()).chain(plan.of_corpus()?).collect();
         Ok(plan)
+    }
+
+    /// Gives the players of the marks that the recipe asks for; without them no job can be made.
+    ///
+    /// # Errors
+    /// The recipe names a player that is not among them.
+    pub fn with_players(mut self, players: &'a dyn MarkPlayers) -> Result<Plan<'a>, MintError> {
+        for player in self.recipe.marks.iter().flat_map(|asked| &asked.players) {
+            let wrong = |message| RecipeError::Value { key: "marks.players", message };
+            players.check(player).map_err(wrong)?;
+        }
+        self.players = Some(players);
+        Ok(self)
     }
 
     /// Returns `true` if seed and witnesses are withheld.
@@ -130,6 +146,15 @@ impl<'a> Plan<'a> {
             f64::from(levels) * (base * thought + (skill - base) * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
+        let marks = |job: &Job| {
+            let (levels, is_certain) = match *job {
+                Job::Archive(_) => (ISLAND * new, false),
+                Job::Search(_) | Job::Constructive(_) => (new, false),
+                Job::Corpus(_) => (old, false),
+                Job::Puzzle(_) => (self.recipe.puzzles.as_ref().map_or(0, |part| part.levels), true),
+            };
+            f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain))
+        };
         let cost = |job: &Job| match *job {
             Job::Archive(_) => of(ARCHIVE, ISLAND * new, &self.recipe.criteria),
             Job::Search(_) => of(SEARCH, new, &self.recipe.criteria),
@@ -139,7 +164,7 @@ impl<'a> Plan<'a> {
                 of(PUZZLE, self.recipe.puzzles.as_ref().map_or(0, |part| part.levels), &self.recipe.criteria)
             }
         };
-        jobs.iter().map(cost).sum()
+        jobs.iter().map(|job| cost(job) + marks(job)).sum()
     }
 
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
@@ -183,6 +208,7 @@ impl<'a> Plan<'a> {
         let decisive = serde_json::json!({
             "puzzles": puzzles,
             "tiers": self.recipe.tiers,
+            "marks": self.recipe.marks,
             "generation": generators::GENERATION,
             "semantics": engine::SEMANTICS,
             "seed": seed,
@@ -309,9 +335,20 @@ impl<'a> Plan<'a> {
             Job::Corpus(_) => self.corpus_criteria(),
             _ => &self.recipe.criteria,
         };
-        let measured = !self.recipe.tiers.is_empty();
+        let measured = !self.recipe.tiers.is_empty() || self.recipe.marks.is_some();
         let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria, measured));
-        Ok(JobResult { games: games.collect(), tally })
+        let mut games: Vec<FrozenGame> = games.collect();
+        if let Some(asked) = &self.recipe.marks {
+            games.iter_mut().try_for_each(|game| self.mark(game, asked))?;
+        }
+        Ok(JobResult { games, tally })
+    }
+
+    /// Has the marks play the levels of a game.
+    fn mark(&self, game: &mut FrozenGame, asked: &MarksPart) -> Result<(), MintError> {
+        let players = self.players.ok_or_else(|| MintError::Marks("there are no players".to_owned()))?;
+        game.marks = players.play(&game.text, &game.levels, asked).map_err(MintError::Marks)?;
+        Ok(())
     }
 
     /// The steps from the root seed to that of a job, or to that of its kind if jobs of the kind count their own.

@@ -13,6 +13,7 @@ use super::job_store::{JobFolder, JobStore};
 use super::plan::{Job, Plan};
 use crate::folder::{self, Limits};
 use crate::manifest::{Item, MANIFEST_LIMIT};
+use crate::marks::{MarksPart, shape_problem};
 use crate::recipe::Recipe;
 use crate::verify::{number_problems, replay_problem};
 use crate::version::{CURRENT, MintedBy};
@@ -269,7 +270,8 @@ impl Shards {
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
             let job = self.get(name)?.ok_or_else(|| place("not a job of this plan: mint it again".into()))?;
-            let wrong = job.games.iter().find_map(|game| problem(game, plan.seed));
+            let asked = plan.recipe.marks.as_ref();
+            let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, asked));
             wrong.map_or(Ok(()), |what| {
                 Err(place(format!("{what}; minting makes no such job: mint it again")))
             })
@@ -288,8 +290,8 @@ impl Shards {
 }
 
 /// The first fault of a game in a result of a plan with this root seed.
-fn problem(frozen: &FrozenGame, root: Seed) -> Option<String> {
-    let FrozenGame { text, card, difficulties, levels, witnesses, paths } = frozen;
+fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option<String> {
+    let FrozenGame { text, card, difficulties, levels, witnesses, paths, marks } = frozen;
     let id = card.id.escape_debug();
     let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
@@ -300,6 +302,9 @@ fn problem(frozen: &FrozenGame, root: Seed) -> Option<String> {
     }
     if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
         return Some(format!("`{id}` does not have a difficulty for each ladder"));
+    }
+    if let Some(what) = shape_problem(marks, levels.len(), asked) {
+        return Some(format!("`{id}` has {what}"));
     }
     let is_foreign =
         |(path, episode): (&Vec<Step>, &Episode)| !path.is_empty() && descendant(root, path) != episode.seed;
@@ -435,6 +440,7 @@ mod tests {
             same,
             Some("does not have a difficulty for each ladder"),
         );
+        check(|game| game.marks.push(Vec::new()), same, Some("marks that the recipe does not ask for"));
         check(|game| game.card.levels[0].difficulty = 1e300, same, Some("level 0: a difficulty of 1"));
         check(|game| game.card.levels[0].random.wins = 99, same, Some("`random` has 99 wins"));
         check(|game| game.card.levels[0].witness_ticks += 1, same, Some("not the ticks and score"));

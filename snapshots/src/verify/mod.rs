@@ -8,6 +8,7 @@ pub(crate) mod version;
 
 use crate::contents::Contents;
 use crate::manifest::{Manifest, ReleaseKind};
+use crate::marks::{self, Marks};
 use crate::mint::RELEASE_CARD_FILE;
 use crate::recipe::Known;
 use crate::sealed::{HELD, SECRET_FILE, Secret};
@@ -141,6 +142,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         // Compared only if no game is left out: missing ones have been reported.
         if let Some(cards) = cards {
             problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
+            problems.extend(marks::problems(&contents, &manifest, &cards)?);
         }
     }
     let levels = games.iter().map(|game| game.levels).sum();
@@ -242,7 +244,8 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
         return;
     }
     let witnesses = games.iter().flat_map(|game| &game.held).map(String::as_str);
-    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).collect();
+    let marks = Marks::path_in(manifest);
+    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(marks.as_deref()).collect();
     let listed = manifest.held();
     let absent = awaited.difference(&listed).map(|path| format!("{path}: not committed to"));
     let foreign = listed.difference(&awaited).map(|path| format!("{path}: not a file of a sealed release"));
@@ -250,7 +253,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
 }
 
 /// Tests whether a file contains the release's canary.
-fn carries(content: &[u8], canary: &str) -> bool {
+pub(crate) fn carries(content: &[u8], canary: &str) -> bool {
     content.windows(canary.len()).any(|part| part == canary.as_bytes())
 }
 
@@ -271,12 +274,14 @@ pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
 /// The files of each game folder, by path below it.
 fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
     let mut folders: BTreeMap<String, Files> = BTreeMap::new();
+    let marks = Marks::path_in(manifest);
     for item in &manifest.items {
         match item.path.strip_prefix("games/").and_then(|rest| rest.split_once('/')) {
             Some((folder, file)) => {
                 folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
             }
             None if [readme_and_card::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
+            None if marks.as_ref() == Some(&item.path) => {}
             None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),
         }

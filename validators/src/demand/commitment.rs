@@ -59,8 +59,8 @@ impl Commitment {
         longest
     }
 
-    /// The actions of a plan.
-    fn actions(self) -> Option<u64> {
+    /// The actions of a plan; `None` for [`Commitment::None`].
+    pub fn actions(self) -> Option<u64> {
         Some(match self {
             Commitment::None => return None,
             Commitment::One => 1,

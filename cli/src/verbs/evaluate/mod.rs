@@ -8,6 +8,7 @@ mod subjects;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
+use crate::marks;
 use crate::protected;
 use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
@@ -77,7 +78,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K", default_value_t = Commitment::ONE, allow_hyphen_values = true)]
     commit: Commitment,
     /// Text to derive the games' randomness from: the same for every player, so that runs are paired
-    #[arg(long, value_name = "TEXT", default_value = "evaluate")]
+    #[arg(long, value_name = "TEXT", default_value = marks::SEED)]
     seed: String,
     /// Folder for the results, absent or empty; default: results/ and the player's name
     #[arg(long, value_name = "DIR")]
@@ -252,7 +253,8 @@ impl RequestedPlayer {
             RequestedPlayer::Model(model) => return model.entrant(subjects, args.commit),
             RequestedPlayer::Planner(spec) => {
                 let budget = spec.budget().unwrap_or(Budget(args.budget));
-                let looks_ahead = !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil");
+                let looks_ahead =
+                    !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil" | "nearest-goal");
                 let name = match looks_ahead {
                     true => format!("{}:{}", spec.name(), budget.0),
                     false => spec.name().to_owned(),

@@ -5,10 +5,12 @@ use crate::diagnostics;
 use crate::embedded;
 use crate::failure::Failure;
 use crate::input::{self, GameInput, Named, read_text};
+use crate::marks;
 use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
 use evaluation::{Subject, SubjectFacts, Unreadable};
 use forge::card::Card;
 use snapshots::archive::{Archive, is_archive};
+use snapshots::marks::Marks;
 use snapshots::{Integrity, MANIFEST_FILE, check_integrity};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -18,6 +20,9 @@ const MAX_LISTED: usize = 12;
 
 /// The largest card: one of a game with many levels has some hundred kilobytes.
 const MAX_CARD: usize = 1 << 24;
+
+/// The largest file of marks.
+const MAX_MARKS: usize = 1 << 26;
 
 /// The games, and the root digest of the snapshot if all of them come from one.
 pub(crate) struct Subjects {
@@ -126,6 +131,14 @@ impl<'a> Files<'a> {
         Ok((archive.integrity.clone(), Files::Archive(Box::new(archive))))
     }
 
+    /// Returns `true` if there is a file at the path.
+    fn has(&self, path: &str) -> bool {
+        match self {
+            Files::Folder(root) => root.join(path).is_file(),
+            Files::Archive(archive) => archive.file(path).is_some(),
+        }
+    }
+
     /// Reads a text of the release, of at most `limit` bytes.
     fn text(&self, path: &str, limit: usize) -> Result<String, Failure> {
         let archive = match self {
@@ -152,6 +165,10 @@ fn of_snapshot(place: &Path, args: &Args) -> Result<(Digest, Vec<Subject>), Fail
         let (id, file) = item.path.strip_prefix("games/")?.split_once('/')?;
         (file == "card.json").then_some(id)
     });
+    // Those of a sealed release are withheld, and those of another version are unknown: then there are none.
+    let path = Marks::path_in(manifest);
+    let marks = path.filter(|path| files.has(path)).map(|path| files.text(&path, MAX_MARKS)).transpose()?;
+    let marks = marks.and_then(|text| Marks::read(text.as_bytes()).ok());
     let mut games = Vec::new();
     for id in ids {
         let path = |file: &str| format!("games/{id}/{file}");
@@ -165,8 +182,10 @@ fn of_snapshot(place: &Path, args: &Args) -> Result<(Digest, Vec<Subject>), Fail
             let text = files.text(&path(&level.file), MAX_LEVEL_TEXT)?;
             levels.push((number, text, level.optimal_ticks));
         }
-        let facts =
+        let mut facts =
             SubjectFacts { title: card.title.clone(), kind: card.kind.clone(), ..SubjectFacts::default() };
+        facts.marks = marks.iter().flat_map(|marks| marks::of_game(marks, id)).collect();
+        facts.marks.retain(|mark| args.wants(mark.level));
         let subject = Subject::read(id, &source, &levels, facts);
         games.push(subject.map_err(|Unreadable { level, problems }| {
             let file = level.map_or("game.vgdl", |number| &card.levels[number].file);

@@ -10,6 +10,7 @@ use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::interrupt;
+use crate::marks;
 use crate::paths;
 use crate::protected;
 use crate::shell;
@@ -120,7 +121,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.dry_run && recipe.seed.is_none() && secret.is_none() {
         return outline::without_secret(&recipe, console);
     }
-    let plan = Plan::new(&recipe, secret.as_ref(), &corpus)?;
+    let plan = Plan::new(&recipe, secret.as_ref(), &corpus)?.with_players(&marks::Players)?;
     let jobs = args.shard.map_or_else(|| plan.jobs().to_vec(), |shard| shard.jobs(&plan));
     if args.resume && complete(&plan, &recipe, args.shard, &out)? {
         let place = out.display().to_string();

@@ -1,0 +1,124 @@
+//! Players that never change, played in memory: what a release keeps to compare others with.
+
+use crate::commitment::Commitment;
+use crate::error::EvaluationError;
+use crate::log::Journal;
+use crate::player::Contestant;
+use crate::prompt::{PromptSettings, Prompter};
+use crate::run::{PlayResult, Task, play};
+use crate::serve::{PromptPlayer, Prompted};
+use crate::subject::{Subject, SubjectLevel};
+use agents::{Budget, PlannerSpec};
+use engine::{Outcome, Seed};
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+/// A player of the suite that depends on nothing but its name: a planner, in open loop, or a player that reads prompts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MarkPlayer {
+    /// A planner.
+    Planner(PlannerSpec),
+    /// A player that reads the default prompts.
+    Prompted(PromptPlayer),
+}
+
+impl FromStr for MarkPlayer {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<MarkPlayer, String> {
+        // Like `arcade evaluate`: `random` is the planner of that name.
+        match name.parse() {
+            Ok(planner) => Ok(MarkPlayer::Planner(planner)),
+            Err(unknown) => match name.parse() {
+                Ok(PromptPlayer::Planner(_)) | Err(_) => Err(unknown.to_string()),
+                Ok(player) => Ok(MarkPlayer::Prompted(player)),
+            },
+        }
+    }
+}
+
+impl fmt::Display for MarkPlayer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MarkPlayer::Planner(planner) => planner.fmt(f),
+            MarkPlayer::Prompted(player) => player.fmt(f),
+        }
+    }
+}
+
+/// The plays of a mark on a level.
+#[derive(Clone, Copy, Debug)]
+pub struct MarkPlays {
+    /// The seed of the evaluation whose episodes are played.
+    pub seed: Seed,
+    /// The number of episodes with each commitment.
+    pub runs: u64,
+    /// The maximum number of actions of an episode.
+    pub max_steps: u64,
+}
+
+impl MarkPlays {
+    /// Returns the number of episodes won with each commitment: those of an evaluation of the player with the same seed,
+    /// runs and limit of steps. Without chance a planner plans what looks would choose, so that its episodes with one
+    /// commitment are those with all.
+    ///
+    /// # Errors
+    /// The player cannot play the game.
+    pub fn wins(
+        &self,
+        subject: &Subject,
+        level: &SubjectLevel,
+        player: &MarkPlayer,
+        commits: &[Commitment],
+    ) -> Result<Vec<u64>, EvaluationError> {
+        let start = subject.game.start(&level.level, self.seed);
+        let is_certain = subject.analysis.is_deterministic_from(&start);
+        let mut wins: Vec<u64> = Vec::new();
+        for &commit in commits {
+            let known =
+                wins.first().copied().filter(|_| is_certain && matches!(player, MarkPlayer::Planner(_)));
+            wins.push(match known {
+                Some(wins) => wins,
+                None => self.wins_of(subject, level, player, commit)?,
+            });
+        }
+        Ok(wins)
+    }
+
+    fn wins_of(
+        &self,
+        subject: &Subject,
+        level: &SubjectLevel,
+        player: &MarkPlayer,
+        commit: Commitment,
+    ) -> Result<u64, EvaluationError> {
+        let prompter = match player {
+            MarkPlayer::Planner(_) => None,
+            MarkPlayer::Prompted(_) => {
+                let prompter = Prompter::within(subject, PromptSettings::default(), self.max_steps, commit)?;
+                Some(Arc::new(prompter))
+            }
+        };
+        let mut wins = 0;
+        for run in 0..self.runs {
+            let task = Task { subject, level, run, seed: self.seed, max_steps: self.max_steps, commit };
+            let mut contestant = match (player, &prompter) {
+                (MarkPlayer::Prompted(player), Some(prompter)) => {
+                    Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter.clone())))
+                }
+                (MarkPlayer::Planner(spec), _) => {
+                    Contestant::Planner { spec: spec.clone(), budget: Budget(0) }
+                }
+                (MarkPlayer::Prompted(_), None) => unreachable!("it has been made above"),
+            };
+            match play(&task, &mut contestant, &mut Journal::in_memory())? {
+                PlayResult::Ended(outcome) => wins += u64::from(outcome == Outcome::Won),
+                PlayResult::Halted(halt) => {
+                    return Err(EvaluationError::Malformed(format!("`{player}`: {halt}")));
+                }
+            }
+        }
+        Ok(wins)
+    }
+}

@@ -1,0 +1,87 @@
+//! Marks as Markdown, for the README of an open release.
+
+use super::{Fall, MarkRate, Marks};
+use itertools::Itertools;
+use std::fmt::{Display, Write};
+
+impl Marks {
+    /// The win rates by tier and commitment, and how they fall.
+    pub(crate) fn in_words(&self) -> String {
+        let mut text = format!(
+            "## Marks\n\nPlayers that never change, with {} plays of each commitment on each level, of at most {} actions; planners in \
+             open loop. Win rates in percent, with 95 % intervals for games like these.\n\n",
+            self.asked.plays, self.asked.max_steps
+        );
+        let tiers: Vec<_> = self.rates.iter().map(|rate| rate.tier).dedup().collect();
+        let _ = write!(text, "| player | actions a look |");
+        for tier in &tiers {
+            let levels = self.rates.iter().find(|rate| rate.tier == *tier).map_or(0, |rate| rate.levels);
+            let name = tier.map_or("all".to_owned(), |tier| format!("tier {tier}"));
+            let _ = write!(text, " {name}, {levels} levels |");
+        }
+        let _ = writeln!(text, "\n|---|---|{}", "---|".repeat(tiers.len()));
+        for player in &self.asked.players {
+            for &commit in &self.asked.commits {
+                let _ = write!(text, "| `{player}` | {} |", commit.name());
+                let of = |rate: &&MarkRate| rate.player == *player && rate.commit == commit;
+                for MarkRate { rate, .. } in self.rates.iter().filter(of) {
+                    let [low, high] = rate.interval.map(|bound| 100.0 * bound);
+                    let _ = write!(text, " {:.0} ({low:.0} to {high:.0}) |", 100.0 * rate.mean);
+                }
+                text.push('\n');
+            }
+        }
+        let named = |commit: validators::Commitment| format!("{} actions", commit.name());
+        falls(&mut text, "tier", self.falls.tiers.iter(), |tier| format!("tier {tier}"));
+        falls(&mut text, "commitment", self.falls.commits.iter(), named);
+        text
+    }
+}
+
+fn falls<'a, T: Copy + 'a>(
+    text: &mut String,
+    what: &str,
+    falls: impl Iterator<Item = &'a Fall<T>>,
+    name: impl Fn(T) -> String,
+) {
+    let mut falls = falls.peekable();
+    if falls.peek().is_none() {
+        return;
+    }
+    let _ = writeln!(
+        text,
+        "\nSteps from each {what} to the next, paired over the games that have both:\n\n\
+         | player | step | games | win rates | fall in points |\n|---|---|---|---|---|"
+    );
+    for Fall { player, from, to, games, rates, fall, interval } in falls {
+        let player: &dyn Display = player.as_ref().map_or(&"mean of all", |player| player);
+        let ([from_rate, to_rate], [low, high]) =
+            (rates.map(|rate| 100.0 * rate), interval.map(|bound| 100.0 * bound));
+        let (fall, from, to) = (100.0 * fall, name(*from), name(*to));
+        let _ = writeln!(
+            text,
+            "| {player} | {from} to {to} | {games} | {from_rate:.0} to {to_rate:.0} | {fall:.0} ({low:.0} to {high:.0}) |"
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::marks;
+    use validators::Tier;
+
+    #[test]
+    fn every_rate_and_fall_is_told() {
+        let ids = ["a", "b", "c", "d", "e", "f"];
+        let marks = marks(&ids, |_, tier| vec![vec![u64::from(tier == Tier::One), 0], vec![2, 2]]);
+        let words = marks.in_words();
+        for line in [
+            "| player | actions a look | tier 1, 6 levels | tier 4, 6 levels | all, 12 levels |",
+            "| `random` | 1 | 50 (19 to 81) | 0 (0 to 52) | 25 (6 to 63) |",
+            "| mean of all | tier 1 to tier 4 | 6 | 62 to 50 | 12 (",
+            "| random | 1 actions to all actions | 6 | 25 to 0 | 25 (",
+        ] {
+            assert!(words.contains(line), "{line}\n{words}");
+        }
+    }
+}
