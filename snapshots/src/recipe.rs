@@ -2,7 +2,7 @@
 
 use crate::marks::MarksPart;
 use crate::sealed::{self, Secret};
-use crate::tiers::{PuzzlePart, Tiers};
+use crate::tiers::{PuzzlePart, PuzzleSection, Tiers};
 use engine::{Digest, Game, Seed};
 use forge::games::Board;
 use generators::games::Kind;
@@ -42,6 +42,9 @@ pub struct Recipe {
     /// New puzzles of pushed things.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub puzzles: Option<PuzzlePart>,
+    /// New puzzles of locks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub locks: Option<PuzzlePart>,
     /// The sizes of the boards.
     #[serde(default)]
     pub board: Board,
@@ -296,13 +299,13 @@ impl Recipe {
             }
             _ => {}
         }
-        let puzzles = self.puzzles.as_ref().map_or(0, |part| part.games);
-        if [self.corpus.games, self.generated.games, puzzles] == [0; 3] {
+        if self.games() == 0 {
             return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
         }
         self.tiers.check()?;
-        if let Some(puzzles) = &self.puzzles {
-            puzzles.check(&self.tiers)?;
+        for (part, section) in [(&self.puzzles, PuzzleSection::PUZZLES), (&self.locks, PuzzleSection::LOCKS)]
+        {
+            part.as_ref().map_or(Ok(()), |part| part.check(&section, &self.tiers))?;
         }
         if let Some(marks) = &self.marks {
             marks.check()?;
@@ -467,7 +470,7 @@ impl Recipe {
 
     /// The number of levels of all games.
     pub fn levels(&self) -> u32 {
-        let puzzles = self.puzzles.as_ref().map_or(0, |part| part.games * part.levels);
+        let puzzles: u32 = self.puzzle_parts().map(|part| part.games * part.levels).sum();
         self.corpus.games * self.corpus.levels + self.generated.games * self.generated.levels + puzzles
     }
 
@@ -478,7 +481,12 @@ impl Recipe {
 
     /// The number of games from generators.
     pub fn new_games(&self) -> u32 {
-        self.generated.games + self.puzzles.as_ref().map_or(0, |part| part.games)
+        self.generated.games + self.puzzle_parts().map(|part| part.games).sum::<u32>()
+    }
+
+    /// The puzzles, of pushed things and of locks.
+    fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
+        self.puzzles.iter().chain(&self.locks)
     }
 }
 

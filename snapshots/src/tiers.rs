@@ -1,16 +1,46 @@
-//! The parts of a recipe that ask for tiers: shares of levels by what they demand, and puzzles that are made to them.
+//! The parts of a recipe that ask for tiers: shares of levels by what they demand, and puzzles that are made to them, of
+//! pushed things or of locks.
 
 use crate::recipe::{RecipeError, wrong};
-use generators::games::PushRules;
+use generators::games::{LockRules, PushRules};
 use serde::{Deserialize, Serialize};
 
-/// The minimum side of a puzzle, and the maximum number of its cells.
+/// The minimum side of a puzzle.
 const LEAST_SIDE: usize = 8;
-const MOST_CELLS: usize = 128;
+
+/// What depends on the kind of the puzzles: the keys of their section, the number of different rules, and the maximum
+/// number of cells of a board.
+pub(crate) struct PuzzleSection {
+    keys: [&'static str; 6],
+    rules: usize,
+    cells: usize,
+}
+
+macro_rules! keys {
+    ($section:literal) => {
+        [
+            concat!($section, ".games"),
+            concat!($section, ".levels"),
+            concat!($section, ".level_tries"),
+            concat!($section, ".candidates"),
+            concat!($section, ".columns"),
+            concat!($section, ".rows"),
+        ]
+    };
+}
+
+impl PuzzleSection {
+    /// Puzzles of pushed things.
+    pub(crate) const PUZZLES: PuzzleSection =
+        PuzzleSection { keys: keys!("puzzles"), rules: PushRules::ALL.len(), cells: 128 };
+    /// Puzzles of locks.
+    pub(crate) const LOCKS: PuzzleSection =
+        PuzzleSection { keys: keys!("locks"), rules: LockRules::ALL.len(), cells: 256 };
+}
 
 engine::with_defaults! {
     /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
-    /// of the recipe.
+    /// of the recipe; or, in a section of their own, games of locks.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PuzzlePart {
@@ -81,31 +111,30 @@ impl PuzzlePart {
     ///
     /// # Errors
     /// The first value that is out of its range; no tier is asked for.
-    pub(crate) fn check(&self, tiers: &Tiers) -> Result<(), RecipeError> {
-        let known = PushRules::ALL.len() as u32;
+    pub(crate) fn check(&self, section: &PuzzleSection, tiers: &Tiers) -> Result<(), RecipeError> {
+        let [games, levels, level_tries, candidates, columns, rows] = section.keys;
         for (key, value, most) in [
-            ("puzzles.games", self.games, known),
-            ("puzzles.levels", self.levels, 20),
-            ("puzzles.level_tries", self.level_tries, 100),
+            (games, self.games, section.rules as u32),
+            (levels, self.levels, 20),
+            (level_tries, self.level_tries, 100),
         ] {
             if !(1..=most).contains(&value) {
                 return wrong(key, format!("is {value}; it takes 1 to {most}"));
             }
         }
         if !(1.0..=20.0).contains(&self.candidates) {
-            return wrong(
-                "puzzles.candidates",
-                format!("is {}; it takes 1 to 20 for each game", self.candidates),
-            );
+            return wrong(candidates, format!("is {}; it takes 1 to 20 for each game", self.candidates));
         }
-        for (key, (least, most)) in [("puzzles.columns", self.columns), ("puzzles.rows", self.rows)] {
-            if least < LEAST_SIDE || most < least || self.columns.1.saturating_mul(self.rows.1) > MOST_CELLS {
-                let help = "takes two numbers from 8, the smaller first; a board has at most 128 cells";
+        let cells = section.cells;
+        for (key, (least, most)) in [(columns, self.columns), (rows, self.rows)] {
+            if least < LEAST_SIDE || most < least || self.columns.1.saturating_mul(self.rows.1) > cells {
+                let help =
+                    format!("takes two numbers from 8, the smaller first; a board has at most {cells} cells");
                 return wrong(key, help);
             }
         }
         if tiers.is_empty() {
-            return wrong("puzzles", "needs `tiers`, the shares of levels that are made to each");
+            return wrong(games, "needs `tiers`, the shares of levels that are made to each");
         }
         Ok(())
     }
@@ -119,17 +148,24 @@ mod tests {
     #[test]
     fn puzzles_are_made_to_tiers() {
         let puzzles = "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[puzzles]\ngames = 2\n";
-        check(puzzles, "`puzzles` needs `tiers`");
+        check(puzzles, "`puzzles.games` needs `tiers`");
         check(&format!("{puzzles}[tiers]\n4 = 0.5"), "adds up to 0.5");
         check(&format!("{puzzles}[tiers]\n5 = 1.0"), "unknown field `5`");
         check(&format!("{puzzles}columns = [10, 16]\n[tiers]\n4 = 1.0"), "at most 128 cells");
         let endless = "columns = [8, 4294967296]\nrows = [8, 4294967296]\n[tiers]\n4 = 1.0";
         check(&format!("{puzzles}{endless}"), "at most 128 cells");
         check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "it takes 1 to 15");
+        let locks = format!("{}[tiers]\n4 = 1.0", puzzles.replace("[puzzles]", "[locks]"));
+        check(&locks.replace("= 2", "= 5"), "`locks.games` is 5; it takes 1 to 3");
+        check(
+            &locks.replace("games = 2", "games = 2\nrows = [16, 17]\ncolumns = [16, 16]"),
+            "at most 256 cells",
+        );
+        assert_eq!(Recipe::from_toml(&locks).unwrap().games(), 2);
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
         // Recipes that ask for neither keep their bytes.
         let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
-        assert!(plain.get("tiers").is_none() && plain.get("puzzles").is_none());
+        assert!(["tiers", "puzzles", "locks"].iter().all(|key| plain.get(key).is_none()));
     }
 }

@@ -1,11 +1,11 @@
 //! Levels for one game: candidates of the level generator until enough pass.
 
-use super::puzzles::{self, PuzzleLevels};
+use super::puzzles::{self, PuzzleGenerator, PuzzleLevels};
 use crate::card::LevelCard;
 use crate::tally::Tally;
 use engine::{Action, Analysis, Digest, Episode, Game, Level, Outcome, Seed};
 use generators::kernels::{Course, CourseLevel, Slot};
-use generators::levels::{ConstructiveLevels, LevelConfig, PuzzleVariation};
+use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use std::slice;
 use validators::{
@@ -51,7 +51,7 @@ pub enum LevelSource<'a> {
     Rules(&'a LevelConfig),
     /// The maps of a kernel; each place has a slot.
     Course(&'a Course),
-    /// Puzzles of pushed things; each place has a tier.
+    /// Puzzles of pushed things or of locks; each place has a tier.
     Puzzles(&'a PuzzleLevels),
 }
 
@@ -70,7 +70,7 @@ impl LevelSource<'_> {
 enum PlaceGenerator<'a> {
     Rules(Box<ConstructiveLevels<'a>>),
     Course(&'a Course, Slot),
-    Puzzles(Box<PuzzleVariation<'a>>),
+    Puzzles(PuzzleGenerator<'a>),
 }
 
 /// A level, its question to the player if it is one of a course, and actions that win it if they are known.
@@ -82,8 +82,8 @@ impl PlaceGenerator<'_> {
             PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None, None)),
             PlaceGenerator::Puzzles(puzzles) => {
                 let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
-                let solved = puzzles.create_solved(seed).ok_or_else(far)?;
-                Ok((solved.level, None, solved.solution))
+                let (level, known) = puzzles.create_solved(game, seed).ok_or_else(far)?;
+                Ok((level, None, Some(known)))
             }
             PlaceGenerator::Course(course, slot) => {
                 let CourseLevel { text, asks, .. } = course.level(*slot, seed)?;
@@ -331,9 +331,7 @@ impl Levels<'_> {
                 let slot = Slot::ALL[(difficulty * last as f64).round() as usize];
                 Ok(PlaceGenerator::Course(course, slot))
             }
-            LevelSource::Puzzles(puzzles) => {
-                puzzles.generator(game, number).map(|levels| PlaceGenerator::Puzzles(Box::new(levels)))
-            }
+            LevelSource::Puzzles(puzzles) => puzzles.generator(game, number).map(PlaceGenerator::Puzzles),
         };
         let generator = match generator {
             Ok(generator) => generator,

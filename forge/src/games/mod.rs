@@ -24,4 +24,4 @@ pub use kept::{Kept, KeptGame};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{GameSet, GamesError, Progress, Shortfall, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};
-pub use puzzles::PuzzleLevels;
+pub use puzzles::{Locks, PuzzleLevels};

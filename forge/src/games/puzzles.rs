@@ -1,9 +1,10 @@
-//! Puzzles of pushed things for one game, made to a tier.
+//! Puzzles for one game, of pushed things or of locks, made to a tier.
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
-use engine::{Action, Analysis, Episode, Level, Outcome, Seed};
+use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
 use generators::GenerateError;
-use generators::levels::{LevelConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation};
+use generators::games::{LockRules, Rethemed};
+use generators::levels::{LevelConfig, LockConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation};
 use validators::Tier;
 
 /// The request for the puzzles of a game.
@@ -13,6 +14,54 @@ pub struct PuzzleLevels {
     pub config: LevelConfig,
     /// The tier of each level.
     pub tiers: Vec<Tier>,
+    /// The rules, if the puzzles are of locks; otherwise they are of pushed things.
+    pub locks: Option<Locks>,
+}
+
+/// The rules of a game of locks, and the characters of its levels under its own theme.
+#[derive(Clone, Debug)]
+pub struct Locks {
+    rules: LockRules,
+    /// The characters of [`LockRules::game`], each with that of the game.
+    symbols: Vec<(char, char)>,
+}
+
+impl Locks {
+    /// The locks of a game that is these rules under another theme.
+    pub fn of(rules: LockRules, retold: &Rethemed) -> Locks {
+        let own = retold.level(LockRules::SYMBOLS);
+        Locks { rules, symbols: LockRules::SYMBOLS.chars().zip(own.chars()).collect() }
+    }
+
+    /// A level in the characters of the game.
+    fn translate(&self, text: &str) -> String {
+        let own = |symbol: char| {
+            self.symbols.iter().find(|(plain, _)| *plain == symbol).map_or(symbol, |pair| pair.1)
+        };
+        text.chars().map(own).collect()
+    }
+}
+
+/// A generator of puzzles for one place.
+pub(super) enum PuzzleGenerator<'a> {
+    Pushing(Box<PuzzleVariation<'a>>),
+    Locks(LockConfig, &'a Locks),
+}
+
+impl PuzzleGenerator<'_> {
+    /// The level of a seed, with actions that win it.
+    pub(super) fn create_solved(&self, game: &Game, seed: Seed) -> Option<(Level, Vec<Action>)> {
+        match self {
+            PuzzleGenerator::Pushing(puzzles) => {
+                let solved = puzzles.create_solved(seed)?;
+                Some((solved.level, solved.solution?))
+            }
+            PuzzleGenerator::Locks(config, locks) => {
+                let made = config.level(locks.rules, seed)?;
+                Some((game.level(&locks.translate(&made.text)).ok()?, made.solution))
+            }
+        }
+    }
 }
 
 /// The maximum number of floor plans to examine for a level.
@@ -26,16 +75,37 @@ impl PuzzleLevels {
 
     /// The generator for a place.
     pub(super) fn generator<'a>(
-        &self,
-        game: &'a engine::Game,
+        &'a self,
+        game: &'a Game,
         number: u32,
-    ) -> Result<PuzzleVariation<'a>, GenerateError> {
+    ) -> Result<PuzzleGenerator<'a>, GenerateError> {
+        if let Some(locks) = &self.locks {
+            let (columns, rows) = (self.config.columns, self.config.rows);
+            let tier = self.tier(number);
+            let decisions = tier.bounds().decisions;
+            let dead_ends = dead_ends(tier);
+            return Ok(PuzzleGenerator::Locks(
+                LockConfig { columns, rows, decisions, dead_ends, ..LockConfig::default() },
+                locks,
+            ));
+        }
         let puzzle = PuzzleConfig {
             floor_plans: FLOOR_PLANS,
             target: Some(target(self.tier(number))),
             ..PuzzleConfig::default()
         };
         PuzzleVariation::new(game, self.config.clone(), puzzle)
+            .map(|levels| PuzzleGenerator::Pushing(Box::new(levels)))
+    }
+}
+
+/// The share of dead ends that a game of locks is made for, above the bar of the tier: a bounded search does not prove all of
+/// them.
+fn dead_ends(tier: Tier) -> f64 {
+    match tier {
+        Tier::One | Tier::Two => 0.0,
+        Tier::Three => 0.03,
+        Tier::Four => 0.09,
     }
 }
 
@@ -77,17 +147,46 @@ pub(super) fn win(
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use generators::games::PushRules;
     use validators::GameForm;
 
     /// No two games of a release are duplicates.
     #[test]
-    fn rules_of_pushing_differ() {
-        let forms: Vec<GameForm> = PushRules::ALL.iter().map(|rules| GameForm::of(&rules.game())).collect();
-        for (at, form) in forms.iter().enumerate() {
-            let near = forms[..at].iter().position(|other| form.is_near(other));
-            let name = PushRules::ALL[at].name();
-            assert_eq!(near.map(|other| PushRules::ALL[other].name()), None, "{name}");
+    fn rules_of_puzzles_differ() {
+        let pushing = PushRules::ALL.iter().map(|rules| (rules.name(), rules.game()));
+        let all = pushing.chain(LockRules::ALL.iter().map(|rules| (rules.name(), rules.game())));
+        let forms: Vec<(String, GameForm)> = all.map(|(name, game)| (name, GameForm::of(&game))).collect();
+        for (at, (name, form)) in forms.iter().enumerate() {
+            let near = forms[..at].iter().find(|(_, other)| form.is_near(other));
+            assert_eq!(near.map(|(other, _)| other), None, "{name}");
+        }
+    }
+
+    /// Under another theme a level of locks is the same, and the actions that win it win it still.
+    #[test]
+    fn locks_are_won_under_every_theme() {
+        for rules in LockRules::ALL {
+            let retold = Rethemed::of(&rules.game(), Seed::from_text("locks")).unwrap();
+            let game = Game::from_source(&engine::syntax::print(&retold.description)).unwrap();
+            let config = LevelConfig { columns: (9, 9), rows: (9, 9), ..LevelConfig::default() };
+            let puzzles =
+                PuzzleLevels { config, tiers: vec![Tier::Two], locks: Some(Locks::of(rules, &retold)) };
+            let generator = puzzles.generator(&game, 0).unwrap();
+            let made = (0..8)
+                .find_map(|draw| generator.create_solved(&game, Seed::from_text("x").child("draw", draw)));
+            let (level, known) = made.unwrap_or_else(|| panic!("a level of {}", rules.name()));
+            let analysis = Analysis::of(&game);
+            let ticks = known.len();
+            let (won, shortest, _) = win(&analysis, &level, known.clone(), 0, Seed::from_text("x")).unwrap();
+            assert_eq!((won.actions.len(), shortest), (ticks, false), "{}", rules.name());
+            let (won, shortest, _) = win(&analysis, &level, known, 2_000_000, Seed::from_text("x")).unwrap();
+            assert_eq!(
+                (won.actions.len(), shortest),
+                (ticks, true),
+                "{}: the search proves it",
+                rules.name()
+            );
         }
     }
 }

@@ -6,6 +6,7 @@
 mod casting;
 pub(crate) mod english;
 mod kind;
+mod lock;
 mod masked;
 pub(crate) mod palette;
 mod push;
@@ -16,6 +17,7 @@ mod theme;
 mod themes;
 
 pub use kind::Kind;
+pub use lock::LockRules;
 pub use masked::Masked;
 pub use push::PushRules;
 pub use rethemed::Rethemed;

@@ -1,4 +1,4 @@
-//! Checks of marks: against their request, the cards of the games and their own numbers. None of them is played again.
+//! Checks of marks: against their request, the cards of the games and their own numbers. None of them is replayed.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
 use crate::SnapshotError;

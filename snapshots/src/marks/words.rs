@@ -31,9 +31,10 @@ impl Marks {
                 text.push('\n');
             }
         }
-        let named = |commit: validators::Commitment| format!("{} actions", commit.name());
-        falls(&mut text, "tier", self.falls.tiers.iter(), |tier| format!("tier {tier}"));
-        falls(&mut text, "commitment", self.falls.commits.iter(), named);
+        falls(&mut text, "tier", self.falls.tiers.iter(), |tier| tier.to_string());
+        falls(&mut text, "number of actions a look", self.falls.commits.iter(), |commit| {
+            commit.name().to_owned()
+        });
         text
     }
 }
@@ -77,9 +78,9 @@ mod tests {
         let words = marks.in_words();
         for line in [
             "| player | actions a look | tier 1, 6 levels | tier 4, 6 levels | all, 12 levels |",
-            "| `random` | 1 | 50 (19 to 81) | 0 (0 to 52) | 25 (6 to 63) |",
-            "| mean of all | tier 1 to tier 4 | 6 | 62 to 50 | 12 (",
-            "| random | 1 actions to all actions | 6 | 25 to 0 | 25 (",
+            "| `random` | 1 | 50 (14 to 86) | 0 (0 to 52) | 25 (4 to 72) |",
+            "| mean of all | 1 to 4 | 6 | 62 to 50 | 12 (-43 to 59) |",
+            "| random | 1 to all | 6 | 25 to 0 | 25 (-31 to 72) |",
         ] {
             assert!(words.contains(line), "{line}\n{words}");
         }

@@ -6,6 +6,7 @@ use crate::corpus::Corpus;
 use crate::marks::{MarkPlayers, MarksPart};
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::Secret;
+use crate::tiers::PuzzlePart;
 use crate::witness::descendant;
 use crate::{Digest, SnapshotError, canary};
 use engine::{Game, Level, Sampler, Seed, syntax};
@@ -13,11 +14,11 @@ use forge::Tally;
 use forge::card::Origin;
 use forge::games::Step;
 use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, PuzzleLevels, make_games,
-    make_one,
+    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, Locks, MadeGame, PuzzleLevels,
+    make_games, make_one,
 };
 use forge::levels::Method;
-use generators::games::{PushRules, Rethemed};
+use generators::games::{LockRules, PushRules, Rethemed};
 use generators::levels::{Examples, LevelConfig};
 use report::canonical::canonical_digest;
 use std::sync::Arc;
@@ -54,6 +55,8 @@ pub enum Job {
     Corpus(usize),
     /// A new puzzle of pushed things, by its number.
     Puzzle(u32),
+    /// A new puzzle of locks, by its number.
+    Locks(u32),
 }
 
 /// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
@@ -68,6 +71,7 @@ const SEARCH: [f64; 3] = [0.1, 5.4, 16.0];
 const CONSTRUCTIVE: [f64; 3] = [0.03, 5.4, 16.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
+const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
 /// The calls of a search for a win for which the costs with gates hold.
 const GATED_BUDGET: f64 = 1e6;
 /// The maximum number of fictions to draw for a puzzle, to find one of its theme.
@@ -151,7 +155,7 @@ impl<'a> Plan<'a> {
                 Job::Archive(_) => (ISLAND * new, false),
                 Job::Search(_) | Job::Constructive(_) => (new, false),
                 Job::Corpus(_) => (old, false),
-                Job::Puzzle(_) => (self.recipe.puzzles.as_ref().map_or(0, |part| part.levels), true),
+                Job::Puzzle(_) | Job::Locks(_) => (self.puzzle_part(job).map_or(0, |part| part.levels), true),
             };
             f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain))
         };
@@ -160,8 +164,9 @@ impl<'a> Plan<'a> {
             Job::Search(_) => of(SEARCH, new, &self.recipe.criteria),
             Job::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
             Job::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
-            Job::Puzzle(_) => {
-                of(PUZZLE, self.recipe.puzzles.as_ref().map_or(0, |part| part.levels), &self.recipe.criteria)
+            Job::Puzzle(_) | Job::Locks(_) => {
+                let each = if matches!(job, Job::Locks(_)) { LOCKS } else { PUZZLE };
+                of(each, self.puzzle_part(job).map_or(0, |part| part.levels), &self.recipe.criteria)
             }
         };
         jobs.iter().map(|job| cost(job) + marks(job)).sum()
@@ -182,6 +187,7 @@ impl<'a> Plan<'a> {
             Job::Constructive(number) => format!("constructive-{number}"),
             Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
             Job::Puzzle(number) => format!("puzzle-{number}"),
+            Job::Locks(number) => format!("locks-{number}"),
         }
     }
 
@@ -203,9 +209,10 @@ impl<'a> Plan<'a> {
     /// Never for a checked recipe.
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
-        let puzzles = self.recipe.puzzles.as_ref();
-        let puzzles = puzzles.map(|part| (part.levels, part.level_tries, part.columns, part.rows));
-        let decisive = serde_json::json!({
+        let decisive = |part: &PuzzlePart| (part.levels, part.level_tries, part.columns, part.rows);
+        let (puzzles, locks) = (self.recipe.puzzles.as_ref(), self.recipe.locks.as_ref());
+        let (puzzles, locks) = (puzzles.map(decisive), locks.map(decisive));
+        let mut decisive = serde_json::json!({
             "puzzles": puzzles,
             "tiers": self.recipe.tiers,
             "marks": self.recipe.marks,
@@ -221,6 +228,9 @@ impl<'a> Plan<'a> {
             "board": board,
             "criteria": criteria,
         });
+        if let Some(locks) = locks {
+            decisive["locks"] = serde_json::json!(locks);
+        }
         Ok(canonical_digest(&decisive)?)
     }
 
@@ -236,20 +246,36 @@ impl<'a> Plan<'a> {
 
     /// The candidates for puzzles.
     fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
-        let part = self.recipe.puzzles.as_ref();
-        let all = part.map_or(0, |part| candidates(part.games, part.candidates));
-        (0..all.min(PushRules::ALL.len() as u32)).map(Job::Puzzle)
+        let all = |part: &Option<PuzzlePart>, rules: usize| {
+            let all = part.as_ref().map_or(0, |part| candidates(part.games, part.candidates));
+            0..all.min(rules as u32)
+        };
+        let pushing = all(&self.recipe.puzzles, PushRules::ALL.len()).map(Job::Puzzle);
+        pushing.chain(all(&self.recipe.locks, LockRules::ALL.len()).map(Job::Locks))
+    }
+
+    /// The part of the recipe that a puzzle is of.
+    fn puzzle_part(&self, job: &Job) -> Option<&PuzzlePart> {
+        if matches!(job, Job::Locks(_)) { self.recipe.locks.as_ref() } else { self.recipe.puzzles.as_ref() }
     }
 
     /// A puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
-    fn puzzle(&self, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
+    fn puzzle(&self, job: Job, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
         let mut tally = Tally::default();
-        let Some(part) = &self.recipe.puzzles else { return (Vec::new(), tally) };
-        let rules = PushRules::ALL[number as usize % PushRules::ALL.len()];
+        let Some(part) = self.puzzle_part(&job) else { return (Vec::new(), tally) };
+        let locks =
+            matches!(job, Job::Locks(_)).then(|| LockRules::ALL[number as usize % LockRules::ALL.len()]);
+        let pushing = PushRules::ALL[number as usize % PushRules::ALL.len()];
+        let (plain, name) = match locks {
+            Some(rules) => (rules.game(), rules.name()),
+            None => (pushing.game(), pushing.name()),
+        };
         let mut themes: Vec<&str> = Rethemed::themes().collect();
         self.seed.child("themes", 0).sampler().shuffle(&mut themes);
-        let theme = themes[number as usize % themes.len()];
-        let fictions = (0..FICTIONS).map(|draw| Rethemed::of(&rules.game(), seed.child("fiction", draw)));
+        // Locks take theirs from the other end.
+        let at = number as usize % themes.len();
+        let theme = themes[if locks.is_some() { themes.len() - 1 - at } else { at }];
+        let fictions = (0..FICTIONS).map(|draw| Rethemed::of(&plain, seed.child("fiction", draw)));
         let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
         let Some(retold) = retold else {
             tally.game_rejected("no fiction fits");
@@ -259,6 +285,7 @@ impl<'a> Plan<'a> {
             tally.game_rejected("the rules do not compile");
             return (Vec::new(), tally);
         };
+        let locks = locks.map(|rules| Locks::of(rules, &retold));
         let candidate = Candidate {
             title: retold.title,
             description: retold.summary,
@@ -267,7 +294,7 @@ impl<'a> Plan<'a> {
             real_time: false,
             origin: Origin::Generated {
                 generator: "puzzle".to_owned(),
-                patterns: vec![format!("puzzle/{}", rules.name())],
+                patterns: vec![format!("puzzle/{name}")],
                 candidate: 0,
             },
             game,
@@ -275,7 +302,7 @@ impl<'a> Plan<'a> {
         let of_tiers = Tier::ALL.into_iter().zip(apportion(part.levels, &self.recipe.tiers.shares()));
         let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
         let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
-        let puzzles = PuzzleLevels { config, tiers };
+        let puzzles = PuzzleLevels { config, tiers, locks };
         let panel = Panel::new(&self.recipe.criteria).expect("the recipe was checked");
         let levels = Levels {
             count: part.levels,
@@ -318,7 +345,7 @@ impl<'a> Plan<'a> {
         let seed = descendant(self.seed, &steps);
         let (games, tally) = match job {
             Job::Corpus(at) => self.new_levels(at, seed),
-            Job::Puzzle(number) => self.puzzle(number, seed),
+            Job::Puzzle(number) | Job::Locks(number) => self.puzzle(job, number, seed),
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
             Job::Archive(_) => {
@@ -360,6 +387,7 @@ impl<'a> Plan<'a> {
             Job::Search(_) => vec![step("search", 0)],
             Job::Archive(number) => vec![step("archive", number)],
             Job::Puzzle(number) => vec![step("puzzle", number)],
+            Job::Locks(number) => vec![step("locks", number)],
         }
     }
 

@@ -41,17 +41,19 @@ pub(super) fn outline(
             count(new.levels as usize, "level")
         ));
     }
-    let puzzles = recipe.puzzles.as_ref().filter(|part| part.games > 0);
-    if let Some(part) = puzzles {
-        let would = if new.games > 0 { "and" } else { "would mint" };
+    let puzzles = [(&recipe.puzzles, "new puzzle"), (&recipe.locks, "new lock puzzle")];
+    let puzzles: Vec<_> =
+        puzzles.into_iter().filter_map(|(part, what)| Some((part.as_ref()?, what))).collect();
+    for (at, (part, what)) in puzzles.iter().enumerate() {
+        let would = if new.games > 0 || at > 0 { "and" } else { "would mint" };
         console.say(format_args!(
             "{would} {} of {}",
-            count(part.games as usize, "new puzzle"),
+            count(part.games as usize, what),
             count(part.levels as usize, "level")
         ));
     }
     if old.games > 0 {
-        let would = if new.games > 0 || puzzles.is_some() { "and" } else { "would mint" };
+        let would = if new.games > 0 || !puzzles.is_empty() { "and" } else { "would mint" };
         console.say(format_args!(
             "{would} {} for each of {}",
             count(old.levels as usize, "new level"),

@@ -1,0 +1,166 @@
+//! A layout of locks, and its changes.
+
+use crate::Variation;
+use crate::levels::grid::Grid;
+use engine::{Sampler, Seed};
+
+/// The content of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tile {
+    Floor,
+    Wall,
+    /// Floor that carries once.
+    Plank,
+    /// A key, by kind.
+    Key(usize),
+    /// A door, by kind.
+    Door(usize),
+    /// The exit, or a gem.
+    Goal,
+}
+
+/// A board. Its border is wall.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    pub(super) grid: Grid,
+    pub(super) tiles: Vec<Tile>,
+    /// The cell of the avatar, which is floor.
+    pub(super) start: usize,
+}
+
+/// The numbers of things of a layout.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Furniture {
+    pub(super) kinds: usize,
+    /// Keys, and doors, of each kind.
+    pub(super) locks: usize,
+    pub(super) planks: usize,
+    pub(super) goals: usize,
+}
+
+/// Layouts of one size with the same things.
+pub(super) struct Layouts {
+    pub(super) grid: Grid,
+    pub(super) furniture: Furniture,
+}
+
+/// The share of inner cells that a new layout has as walls, beside those of its corridors.
+const CARVED: f64 = 0.62;
+
+impl Layouts {
+    fn inner(&self) -> Vec<usize> {
+        (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
+    }
+
+    /// Corridors: floor is dug where it joins no two cells that are joined already, then in a few places more.
+    fn dig(&self, sampler: &mut Sampler) -> Vec<Tile> {
+        let mut tiles = vec![Tile::Wall; self.grid.len()];
+        let mut inner = self.inner();
+        let first = *sampler.choose(&inner);
+        tiles[first] = Tile::Floor;
+        let most = (inner.len() as f64 * CARVED) as usize;
+        let mut dug = 1;
+        for _ in 0..12 {
+            sampler.shuffle(&mut inner);
+            for &cell in &inner {
+                let beside = self.grid.beside(cell).filter(|&next| tiles[next] == Tile::Floor).count();
+                if dug < most && tiles[cell] == Tile::Wall && beside == 1 {
+                    tiles[cell] = Tile::Floor;
+                    dug += 1;
+                }
+            }
+        }
+        for &cell in inner.iter().take(3) {
+            tiles[cell] = Tile::Floor;
+        }
+        tiles
+    }
+
+    /// The things to place: the goals first.
+    fn things(&self) -> Vec<Tile> {
+        let Furniture { kinds, locks, planks, goals } = self.furniture;
+        let of_kinds =
+            (0..kinds).flat_map(|kind| (0..locks).flat_map(move |_| [Tile::Key(kind), Tile::Door(kind)]));
+        std::iter::repeat_n(Tile::Goal, goals)
+            .chain(of_kinds)
+            .chain(std::iter::repeat_n(Tile::Plank, planks))
+            .collect()
+    }
+}
+
+/// A cell of corridor: two opposite neighbours are floor, and the others wall.
+fn is_corridor(grid: Grid, tiles: &[Tile], cell: usize) -> bool {
+    let is_wall = |way| grid.shift(cell, way).is_none_or(|next| tiles[next] == Tile::Wall);
+    let [up, left, down, right] = [(0, -1), (-1, 0), (0, 1), (1, 0)].map(is_wall);
+    (up && down && !left && !right) || (left && right && !up && !down)
+}
+
+impl Variation for Layouts {
+    type Candidate = Layout;
+
+    fn create(&self, seed: Seed) -> Option<Layout> {
+        let mut sampler = seed.sampler();
+        let mut tiles = self.dig(&mut sampler);
+        let mut free: Vec<usize> = (0..tiles.len()).filter(|&cell| tiles[cell] == Tile::Floor).collect();
+        sampler.shuffle(&mut free);
+        let start = free.pop()?;
+        for thing in self.things() {
+            // Doors and planks stand in corridors, where nothing leads around them.
+            let at = match thing {
+                Tile::Door(_) | Tile::Plank => {
+                    free.iter().position(|&cell| is_corridor(self.grid, &tiles, cell)).unwrap_or(0)
+                }
+                _ => 0,
+            };
+            if free.is_empty() {
+                return None;
+            }
+            tiles[free.remove(at)] = thing;
+        }
+        Some(Layout { grid: self.grid, tiles, start })
+    }
+
+    fn mutate(&self, parent: &Layout, sampler: &mut Sampler) -> Layout {
+        let mut child = parent.clone();
+        let inner = self.inner();
+        for _ in 0..1 + sampler.below(3) {
+            let cell = *sampler.choose(&inner);
+            let other = *sampler.choose(&inner);
+            let is_ground = |layout: &Layout, cell: usize| {
+                matches!(layout.tiles[cell], Tile::Floor | Tile::Wall) && cell != layout.start
+            };
+            match sampler.below(8) {
+                // A thing and what is elsewhere change places.
+                0..=2 => {
+                    let is_thing = |cell: usize| !matches!(child.tiles[cell], Tile::Floor | Tile::Wall);
+                    let things: Vec<usize> = inner.iter().copied().filter(|&cell| is_thing(cell)).collect();
+                    let from = *sampler.choose(&things);
+                    if other != child.start {
+                        child.tiles.swap(from, other);
+                    }
+                }
+                // A cell and its neighbour change places.
+                3 => {
+                    let beside: Vec<usize> =
+                        self.grid.beside(cell).filter(|&next| !self.grid.on_border(next)).collect();
+                    let next = *sampler.choose(&beside);
+                    if cell != child.start && next != child.start {
+                        child.tiles.swap(cell, next);
+                    }
+                }
+                // The avatar starts elsewhere.
+                4 if child.tiles[other] == Tile::Floor => child.start = other,
+                _ if is_ground(&child, cell) => {
+                    let is_wall = child.tiles[cell] == Tile::Wall;
+                    child.tiles[cell] = if is_wall { Tile::Floor } else { Tile::Wall };
+                }
+                _ => {}
+            }
+        }
+        child
+    }
+
+    fn cross(&self, one: &Layout, _: &Layout, sampler: &mut Sampler) -> Layout {
+        self.mutate(one, sampler)
+    }
+}

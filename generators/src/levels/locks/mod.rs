@@ -1,0 +1,119 @@
+//! Levels of locks to a target: long orders of keys, doors and floor that carries once, with tempting wrong orders.
+
+mod layout;
+mod walk;
+
+use crate::games::LockRules;
+use crate::levels::grid::Grid;
+use crate::{Annealing, AnnealingConfig, Evaluation, Search};
+use engine::{Action, Seed};
+use layout::{Furniture, Layout, Layouts, Tile};
+use walk::Walk;
+
+engine::with_defaults! {
+    /// The configuration of levels of locks.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct LockConfig {
+        /// The least and the most columns.
+        pub columns: (usize, usize) = (10, 11),
+        /// The least and the most rows.
+        pub rows: (usize, usize) = (10, 11),
+        /// The actions of a shortest win, at least.
+        pub decisions: usize = 60,
+        /// The share of states one step off it from which no win exists, at least.
+        pub dead_ends: f64 = 0.05,
+        /// Layouts to examine for a level, at most.
+        pub layouts: usize = 20_000,
+    }
+}
+
+/// The maximum number of states of a layout: a level can be searched to its end.
+const MOST_STATES: usize = 15_000;
+/// Layouts asked for at once; they are rated one after the other.
+const BATCH: usize = 8;
+/// The size of a board whose things are those of [`furniture`], in inner cells.
+const USUAL: f64 = 64.0;
+
+/// A level of locks in the characters of [`LockRules::game`], and actions that win it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LockLevel {
+    /// The level.
+    pub text: String,
+    /// A win with the fewest actions.
+    pub solution: Vec<Action>,
+}
+
+impl LockConfig {
+    /// Makes the level of a seed: layouts are annealed until all ways through one show that it meets the target; `None` if
+    /// none does. Cost: about a millisecond for each layout.
+    pub fn level(&self, rules: LockRules, seed: Seed) -> Option<LockLevel> {
+        let mut sampler = seed.child("size", 0).sampler();
+        let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
+        let grid = Grid { columns: side(self.columns), rows: side(self.rows) };
+        let layouts = Layouts { grid, furniture: furniture(rules, grid) };
+        let config = AnnealingConfig::of(self.layouts);
+        let mut search = Annealing::new(&layouts, config, seed.child("layouts", 0));
+        loop {
+            let asked = search.ask(BATCH);
+            if asked.is_empty() {
+                return None;
+            }
+            let rated: Vec<(Layout, Evaluation)> = asked
+                .into_iter()
+                .map(|layout| {
+                    let rated = self.rate(&layout);
+                    (layout, rated)
+                })
+                .collect();
+            if let Some((layout, _)) = rated.iter().find(|(_, rated)| rated.objective >= 1.0) {
+                let walk = Walk::of(layout, MOST_STATES)?;
+                return Some(LockLevel {
+                    text: text(layout),
+                    solution: walk.ways.iter().map(|&way| ACTIONS[way]).collect(),
+                });
+            }
+            search.tell(rated);
+        }
+    }
+
+    /// The rating of a layout: 1 where it meets the target.
+    fn rate(&self, layout: &Layout) -> Evaluation {
+        let Some(walk) = Walk::of(layout, MOST_STATES) else {
+            return Evaluation { feasibility: 0.5, objective: 0.0, measures: Vec::new() };
+        };
+        let long = (walk.ways.len() as f64 / self.decisions.max(1) as f64).min(1.0);
+        let dead = (walk.dead_share() / self.dead_ends.max(1e-9)).min(1.0);
+        Evaluation { feasibility: 1.0, objective: 0.8 * long + 0.2 * dead, measures: Vec::new() }
+    }
+}
+
+/// The actions of the steps up, left, down and right.
+const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
+
+/// The things of a board of this size.
+fn furniture(rules: LockRules, grid: Grid) -> Furniture {
+    let share = ((grid.columns - 2) * (grid.rows - 2)) as f64 / USUAL;
+    let of = |number: f64| (number * share).round() as usize;
+    Furniture {
+        kinds: rules.kinds(),
+        locks: of(if rules.kinds() == 1 { 6.0 } else { 4.0 }),
+        planks: if rules.has_planks() { of(6.0) } else { 0 },
+        goals: if rules.has_gems() { 3 } else { 1 },
+    }
+}
+
+fn text(layout: &Layout) -> String {
+    let symbol = |cell: usize| match layout.tiles[cell] {
+        _ if cell == layout.start => LockRules::AVATAR,
+        Tile::Floor => LockRules::FLOOR,
+        Tile::Wall => LockRules::WALL,
+        Tile::Plank => LockRules::PLANK,
+        Tile::Key(kind) => LockRules::KEYS[kind],
+        Tile::Door(kind) => LockRules::DOORS[kind],
+        Tile::Goal => LockRules::GOAL,
+    };
+    let row = |row: usize| -> String {
+        (0..layout.grid.columns).map(|column| symbol(layout.grid.at(column, row))).collect()
+    };
+    (0..layout.grid.rows).map(|at| row(at) + "\n").collect()
+}
