@@ -5,6 +5,7 @@ use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
 use generators::GenerateError;
 use generators::games::{LockRules, Rethemed};
 use generators::levels::{LevelConfig, LockConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation};
+use std::ops::Range;
 use validators::Tier;
 
 /// The request for the puzzles of a game.
@@ -44,7 +45,10 @@ impl Locks {
 
 /// A generator of puzzles for one place.
 pub(super) enum PuzzleGenerator<'a> {
+    /// Puzzles of pushed things to a target.
     Pushing(Box<PuzzleVariation<'a>>),
+    /// The same without one, and the numbers of actions of a win that the tier takes.
+    Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Locks),
 }
 
@@ -56,6 +60,13 @@ impl PuzzleGenerator<'_> {
                 let solved = puzzles.create_solved(seed)?;
                 Some((solved.level, solved.solution?))
             }
+            PuzzleGenerator::Easy(puzzles, actions) => {
+                let made = |draw| {
+                    let solved = puzzles.create_solved(seed.child("draw", draw))?;
+                    Some((solved.level, solved.solution?))
+                };
+                (0..DRAWS).filter_map(made).find(|(_, win)| actions.contains(&win.len()))
+            }
             PuzzleGenerator::Locks(config, locks) => {
                 let made = config.level(locks.rules, seed)?;
                 Some((game.level(&locks.translate(&made.text)).ok()?, made.solution))
@@ -66,6 +77,9 @@ impl PuzzleGenerator<'_> {
 
 /// The maximum number of floor plans to examine for a level.
 const FLOOR_PLANS: usize = 20_000;
+/// The same without a target, and the levels drawn until one takes as many actions as the tier.
+const FEW_FLOOR_PLANS: usize = 60;
+const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
     /// The tier of a place.
@@ -89,13 +103,25 @@ impl PuzzleLevels {
                 locks,
             ));
         }
-        let puzzle = PuzzleConfig {
-            floor_plans: FLOOR_PLANS,
-            target: Some(target(self.tier(number))),
-            ..PuzzleConfig::default()
+        let tier = self.tier(number);
+        let target = target(tier);
+        let puzzle = match target {
+            Some(_) => PuzzleConfig { floor_plans: FLOOR_PLANS, target, ..PuzzleConfig::default() },
+            // The farthest position of a good floor plan is too far for the lower tiers.
+            None => PuzzleConfig {
+                things: Some(2),
+                floor_plans: FEW_FLOOR_PLANS,
+                way: Some((0.0, 1.0)),
+                ..PuzzleConfig::default()
+            },
         };
-        PuzzleVariation::new(game, self.config.clone(), puzzle)
-            .map(|levels| PuzzleGenerator::Pushing(Box::new(levels)))
+        let next =
+            Tier::ALL.get(usize::from(u8::from(tier))).map_or(usize::MAX, |next| next.bounds().decisions);
+        let levels = Box::new(PuzzleVariation::new(game, self.config.clone(), puzzle)?);
+        Ok(match target {
+            Some(_) => PuzzleGenerator::Pushing(levels),
+            None => PuzzleGenerator::Easy(levels, tier.bounds().decisions..next),
+        })
     }
 }
 
@@ -109,17 +135,16 @@ fn dead_ends(tier: Tier) -> f64 {
     }
 }
 
-/// The target for a tier. The generator counts the actions of a win with the fewest pushes; the shortest win has fewer, so
-/// there is a margin.
-fn target(tier: Tier) -> PuzzleTarget {
+/// The target for a tier; `None` for those that need none. The generator counts the actions of a win with the fewest pushes;
+/// the shortest win has fewer, so there is a margin.
+fn target(tier: Tier) -> Option<PuzzleTarget> {
     let pushes = match tier {
-        Tier::One => 4,
-        Tier::Two => 12,
+        Tier::One | Tier::Two => return None,
         Tier::Three => 30,
         Tier::Four => 60,
     };
     let decisions = tier.bounds().decisions;
-    PuzzleTarget { pushes, decisions: decisions + decisions / 8 }
+    Some(PuzzleTarget { pushes, decisions: decisions + decisions / 8 })
 }
 
 /// The win of a puzzle: the shortest, if `calls` forward-model calls suffice to prove it, or else the one that the generator

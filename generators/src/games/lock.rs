@@ -120,7 +120,9 @@ mod tests {
         let play = |level: &str, actions: &[Action]| {
             let level = game.level(level).unwrap();
             let mut state = game.start(&level, Seed::from_text("locks"));
-            actions.iter().for_each(|&action| drop(game.step(&mut state, action)));
+            for &action in actions {
+                game.step(&mut state, action);
+            }
             (state.outcome(), state.avatar_place().map(|(x, _)| x / state.block()))
         };
         use Action::{Left, Right};
