@@ -4,9 +4,11 @@ mod builtin;
 pub mod mailbox;
 mod model;
 pub mod process;
+mod touching;
 
 pub use builtin::{Contestant, Replay};
 pub use model::ModelPlayer;
+pub use touching::Touching;
 
 use crate::log::{Event, Journal};
 use crate::turn::Turn;

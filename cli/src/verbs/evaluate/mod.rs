@@ -16,7 +16,7 @@ use engine::{Outcome, SEMANTICS};
 use evaluation::client::Spent;
 use evaluation::player::mailbox::Mailbox;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
-use evaluation::player::{Contestant, Replay};
+use evaluation::player::{Contestant, Replay, Touching};
 use evaluation::prompt::PromptSettings;
 use evaluation::run::{self, Answers, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
@@ -50,7 +50,8 @@ pub(crate) struct Args {
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
     /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see
-    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`); a program of yours,
+    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`), `touch-everything`; a
+    /// program of yours,
     /// `"cmd:python3 my_agent.py"` (see `arcade docs agents`); or whoever answers the files in a folder, `mailbox:DIR`
     /// (see `arcade docs mailbox`)
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
@@ -104,6 +105,7 @@ pub(crate) struct Args {
 enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
+    Touching,
     Human(PromptSettings),
     Mailbox(RequestedMailbox),
     Prompted(PromptPlayer, PromptSettings),
@@ -260,6 +262,7 @@ impl RequestedPlayer {
                 (name, json!({ "planner": spec.name(), "budget": budget }))
             }
             RequestedPlayer::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
+            RequestedPlayer::Touching => (Touching::NAME.to_owned(), json!({ "player": Touching::NAME })),
             RequestedPlayer::Human(prompts) => {
                 (args.name.clone().unwrap_or("human".to_owned()), json!({ "prompt": prompts }))
             }
@@ -293,6 +296,9 @@ impl RequestedPlayer {
             RequestedPlayer::Replay(replay) => {
                 let replay = replay.clone();
                 Box::new(move |_| Contestant::Agent(Box::new(replay.clone())))
+            }
+            RequestedPlayer::Touching => {
+                Box::new(|task| Contestant::Agent(Box::new(Touching::new(task.chance()))))
             }
             RequestedPlayer::Human(prompts) => {
                 let prompters = model::prompters(subjects, prompts, args.max_steps, args.commit)?;
@@ -409,6 +415,9 @@ fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
     if let Some(file) = player.strip_prefix("replay:") {
         let episode = crate::episodes::read(Path::new(file))?;
         return Ok(RequestedPlayer::Replay(Replay::of(&episode)));
+    }
+    if player == Touching::NAME {
+        return Ok(RequestedPlayer::Touching);
     }
     if player == "human" {
         return Ok(RequestedPlayer::Human(args.model.prompt.settings()?));
