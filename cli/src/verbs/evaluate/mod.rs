@@ -4,6 +4,7 @@ mod human;
 mod mailbox;
 mod model;
 mod subjects;
+mod track;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -20,7 +21,7 @@ use evaluation::player::{Contestant, Replay, Touching};
 use evaluation::prompt::PromptSettings;
 use evaluation::run::{self, Answers, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
-use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
+use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, Track, study};
 use human::Human;
 use indicatif::ProgressBar;
 use itertools::Itertools;
@@ -137,9 +138,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         bail!("--jobs takes a number of episodes at a time, at least 1");
     }
     let requested = requested_player(args)?;
+    track::check(args, &requested)?;
     reject_unused_flags(args, &requested)?;
     let subjects = subjects::read(args)?;
-    let settings = Settings {
+    let mut settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
@@ -149,8 +151,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         runs: args.runs,
         max_steps: args.max_steps,
         commit: args.commit,
+        track: None,
+        series: 1,
         games: Evaluation::entries(&subjects.games),
     };
+    if let Some(track) = args.model.prompt.track {
+        settings = settings.on_track(track).map_err(Failure::malformed)?;
+    }
     settings
         .check()
         .map_err(|problem| malformed!("{problem}; see --runs, --max-steps, --games and --levels"))?;
@@ -251,7 +258,7 @@ impl RequestedPlayer {
     /// Returns the player as results name it.
     fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let (name, details) = match self {
-            RequestedPlayer::Model(model) => return model.entrant(subjects, args.commit),
+            RequestedPlayer::Model(model) => return model.entrant(subjects, args),
             RequestedPlayer::Planner(spec) => {
                 let budget = spec.budget().unwrap_or(Budget(args.budget));
                 let looks_ahead = !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil");
@@ -274,7 +281,9 @@ impl RequestedPlayer {
             }
         };
         let aids = match self {
-            RequestedPlayer::Human(prompts) | RequestedPlayer::Prompted(_, prompts) => prompts.aids(),
+            RequestedPlayer::Human(prompts) | RequestedPlayer::Prompted(_, prompts) => {
+                args.model.prompt.aids(prompts)
+            }
             _ => Vec::new(),
         };
         Ok(Entrant { name, mode: None, aids, details })
@@ -298,7 +307,12 @@ impl RequestedPlayer {
                 Box::new(move |_| Contestant::Agent(Box::new(replay.clone())))
             }
             RequestedPlayer::Touching => {
-                Box::new(|task| Contestant::Agent(Box::new(Touching::new(task.chance()))))
+                let is_blind = args.model.prompt.track == Some(Track::Discover);
+                let player = move |task: &Task<'_>| match is_blind {
+                    true => Touching::new(task.chance()).without_score(),
+                    false => Touching::new(task.chance()),
+                };
+                Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Human(prompts) => {
                 let prompters = model::prompters(subjects, prompts, args.max_steps, args.commit)?;
@@ -393,7 +407,7 @@ fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), F
         );
     }
     let is_shown_prompts = is_named || matches!(requested, RequestedPlayer::Prompted(..));
-    if !is_shown_prompts && args.model.prompt.settings()? != PromptSettings::default() {
+    if !is_shown_prompts && args.model.prompt.has_flags()? {
         bail!(
             "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
              player `{player}`"

@@ -67,6 +67,7 @@ impl Board {
                 reward: *reward,
             }),
             actions: &actions,
+            series: None,
         };
         use_it(&mut self.agent, &mut self.journal, &turn)
     }
