@@ -35,7 +35,12 @@ fn prompter(subject: &Subject, track: Track) -> Prompter {
 fn series(subject: &Subject, steps: usize) -> Vec<ChatMessage> {
     let prompter = prompter(subject, Track::Discover);
     let (mut past, mut previous, mut messages) = (Vec::new(), None::<LevelEnd>, Vec::new());
-    let kinds: Vec<String> = ["wall"].map(str::to_owned).to_vec();
+    // Kinds of the game, by its own names.
+    let first = Walk::new(subject, 0);
+    let own = |name: &String| first.now.avatar.as_ref().is_some_and(|avatar| avatar.name == *name);
+    let kinds: BTreeSet<String> =
+        first.now.cells.iter().flatten().filter(|name| !own(name)).cloned().collect();
+    let kinds: Vec<String> = kinds.into_iter().collect();
     for index in 0..2 {
         let mut walk = Walk::new(subject, index as usize);
         let place = SeriesPlace { index, of: 2 };
@@ -176,6 +181,90 @@ fn truths_of_the_corpus() {
         }
     }
     golden("touch_facts.txt", &lines);
+}
+
+/// In play, who holds nothing neither shares a cell with what stops it, nor survives a tick in one that had what kills it.
+#[test]
+fn truths_hold_in_play() {
+    let mut contacts = 0;
+    for subject in corpus() {
+        for level in 0..subject.levels.len().min(3) {
+            let mut walk = Walk::new(&subject, level);
+            for _ in 0..200 {
+                let goes_on = walk.step();
+                let now = &walk.now;
+                let Some(avatar) = &now.avatar else { break };
+                let (before, ..) = walk.before.as_ref().unwrap();
+                let holds_nothing =
+                    |seen: &engine::Observation| seen.resources.iter().all(|(_, amount)| *amount == 0);
+                let from = before.avatar.as_ref().map(|avatar| (avatar.column, avatar.row));
+                let has_entered = from != Some((avatar.column, avatar.row));
+                let cell = avatar.row as usize * now.columns + avatar.column as usize;
+                if !(has_entered && holds_nothing(now) && holds_nothing(before)) || cell >= now.cells.len() {
+                    continue;
+                }
+                // What appears only then is not what was touched.
+                for name in before.cells[cell].iter().filter(|name| now.cells[cell].contains(name)) {
+                    let kind = subject.game.sprite_type(name).unwrap();
+                    contacts += 1;
+                    for fact in [TouchFact::Kills, TouchFact::Stops] {
+                        let is_true = truth(&subject.analysis, kind, fact) == Some(true);
+                        assert!(!is_true, "{} {level}: {name} {}", subject.id, fact.name());
+                    }
+                }
+                if !goes_on {
+                    break;
+                }
+            }
+        }
+    }
+    assert!(contacts > 1000, "{contacts}");
+}
+
+/// A program is told what a model is told: neutral names, no rules, no score, and it is asked at the end.
+#[cfg(unix)]
+#[test]
+fn a_program_plays_a_series() {
+    use evaluation::player::process::{Process, ProcessConfig};
+    let (home, subjects) = (tempfile::tempdir().unwrap(), vec![three_levels()]);
+    let settings = Settings { runs: 1, ..settings("cmd", Track::Discover, &subjects) };
+    let script = format!(
+        "echo start >> {0}.starts; tee {0} | while read line; do case $line in *'\"type\":\"turn\"'*) echo '{{\"action\":\"right\"}}';; \
+         *'\"type\":\"predict\"'*) echo '{{\"turn\":8,\"kills\":[],\"stops\":[],\"goes\":[],\"scores\":[]}}';; esac; done",
+        home.path().join("heard").display()
+    );
+    let command = format!("sh -c {}", shell_quoted(&script));
+    let evaluation = Evaluation::create(&home.path().join("results"), settings, subjects).unwrap();
+    let player = |_: &Task<'_>| {
+        let process = Process::new(&command, ProcessConfig::default()).unwrap().on_track(Track::Discover);
+        Ok(Contestant::Agent(Box::new(process)))
+    };
+    assert_eq!(evaluation.run(player, &Silent).unwrap().ended, 3);
+    assert_eq!(fs::read_to_string(home.path().join("heard.starts")).unwrap(), "start\n");
+    let heard = fs::read_to_string(home.path().join("heard")).unwrap();
+    let types: Vec<String> = heard
+        .lines()
+        .map(|line| {
+            serde_json::from_str::<serde_json::Value>(line).unwrap()["type"].as_str().unwrap().to_owned()
+        })
+        .filter(|kind| kind != "turn")
+        .collect();
+    assert_eq!(types, ["hello", "end", "hello", "end", "hello", "predict", "end"]);
+    for name in ["bug", "floor", "wall", "door", "Door"] {
+        assert!(!heard.contains(name), "{name}: {heard}");
+    }
+    assert!(heard.contains("\"score\":null,\"reward\":null") && heard.contains("\"rules\":\"\""), "{heard}");
+    assert!(heard.contains("\"series\":{\"index\":0,\"of\":3}"), "{heard}");
+    let last = evaluation.tasks()[2];
+    let log = evaluation.events(&last).unwrap();
+    assert!(
+        log.iter().any(|event| matches!(event, Event::Predictions { predicted: Some(_), .. })),
+        "{log:?}"
+    );
+}
+
+fn shell_quoted(text: &str) -> String {
+    format!("'{}'", text.replace('\'', "'\\''"))
 }
 
 struct Silent;

@@ -330,8 +330,10 @@ impl RequestedPlayer {
             RequestedPlayer::Process(read) => {
                 let (command, timeout) = (read.command().to_owned(), args.model.timeout());
                 let remark = console.remarks();
+                let track = args.model.prompt.track.unwrap_or(Track::Told);
                 let process = move || {
-                    process(&command, timeout).expect("it was read before").with_notices(remark.clone())
+                    let process = process(&command, timeout).expect("it was read before");
+                    process.with_notices(remark.clone()).on_track(track)
                 };
                 Box::new(move |_| Contestant::Agent(Box::new(process())))
             }
@@ -484,8 +486,12 @@ fn print_results(
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
-    let Tally { episodes, ended, won, answers, open, halted, infrastructure } = tally;
-    console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won", entrant.name));
+    let Tally { episodes, ended, won, answers, open, halted, infrastructure, practice } = tally;
+    let practice = match practice {
+        0 => String::new(),
+        _ => format!("; {practice} of the episodes are for practice, and {} count", episodes - practice),
+    };
+    console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won{practice}", entrant.name));
     if let Some((Spent { requests, tokens, .. }, cost)) = spent {
         let cost = cost.map_or("cost unknown".to_owned(), |cost| format!("{cost:.4} USD"));
         console.say(format_args!("{requests} requests, {tokens} tokens, {cost}"));

@@ -52,9 +52,9 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
         (RequestedPlayer::Prompted(..), Track::Vision) => {
             refuse("it reads the board as text, not as a picture; it plays on `told` and `masked`")
         }
-        (RequestedPlayer::Process(_), Track::Masked | Track::Discover | Track::Vision) => refuse(
-            "programs are sent the rules and names of the game as lines of JSON; a program that reads prompts plays through `mailbox:DIR`, \
-             or as a server with --model and --base-url",
+        (RequestedPlayer::Process(_), Track::Vision) => refuse(
+            "programs are sent the board as lines of JSON; a program that sees plays through `mailbox:DIR`, or as a server with --model and \
+             --base-url",
         ),
         _ => Ok(()),
     }
