@@ -92,7 +92,8 @@ pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Gr
 }
 
 /// Reads the answer to the question: the last line of each fact, `KILLS: t1, t4` or `STOPS: none`. `names` are the names that the
-/// question used, each with the game's own. Marks of emphasis and lists are overlooked, and so is text outside the lines.
+/// question used, each with the game's own. Marks of emphasis and lists are overlooked, and so is text outside the lines; a semicolon
+/// ends a line too.
 ///
 /// # Errors
 /// A line is missing, or names something that was not asked about. The message is a clause about the answer.
@@ -104,7 +105,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
             let (word, rest) = line.split_once(':')?;
             word.trim_matches(is_mark).eq_ignore_ascii_case(fact.name()).then(|| rest.to_owned())
         };
-        answer.lines().filter_map(own).last()
+        answer.split(['\n', ';']).filter_map(own).last()
     };
     let mut predicted = Predicted::new();
     for fact in TouchFact::ALL {
@@ -183,6 +184,7 @@ mod tests {
 
     #[test]
     fn answers_are_graded() {
+        check("KILLS: t3; STOPS: t2; GOES: t1, t2, t4; SCORES: t2, t4.", Ok((15, 15, Some(1.0))));
         check("KILLS: t3\nSTOPS: t2\nGOES: t1, t2, t4\nSCORES: t2, t4", Ok((15, 15, Some(1.0))));
         // The same for all kinds is no insight.
         check("KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none", Ok((8, 15, Some(0.0))));

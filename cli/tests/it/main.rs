@@ -17,5 +17,6 @@ mod served;
 #[path = "../../../evaluation/tests/it/server.rs"]
 mod server;
 mod shards;
+mod tracks;
 mod usage;
 mod validate;
