@@ -1,5 +1,7 @@
 //! Predictions about a game's rules: what touching each kind of sprite does, and their grades.
 
+use crate::prompt::kinds_at_start;
+use crate::subject::Subject;
 use engine::analysis::{Harm, Removal, Touch};
 use engine::{Analysis, SpriteType};
 use itertools::Itertools;
@@ -36,6 +38,39 @@ pub struct Grade {
     /// that kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub insight: Option<f64>,
+}
+
+/// What a game holds for players who have to find out its rules by touching: the kinds, other than avatars and floors, by what a touch
+/// of them is to somebody who does not know.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Trials {
+    /// A touch hurts, or takes points.
+    pub costly: Vec<String>,
+    /// A touch does something only for an avatar that holds what it takes.
+    pub gated: Vec<String>,
+    /// A touch does nothing, although the kind is neither wall nor floor: decoys.
+    pub idle: Vec<String>,
+}
+
+impl Trials {
+    /// Returns the trials among the kinds that stand at the start of a game's levels.
+    pub fn of(subject: &Subject) -> Trials {
+        let analysis = &subject.analysis;
+        let mut trials = Trials::default();
+        for kind in kinds_at_start(analysis, subject.levels.iter().map(|level| &level.level)) {
+            let Some(stype) = analysis.game().sprite_type(&kind) else { continue };
+            let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+            let is_costly = |touch: &Touch| touch.harm != Harm::None || touch.score < 0;
+            if touches().any(is_costly) {
+                trials.costly.push(kind);
+            } else if touches().any(|touch| matches!(touch.removal, Removal::IfHolds(..))) {
+                trials.gated.push(kind);
+            } else if touches().all(|touch| !touch.any) {
+                trials.idle.push(kind);
+            }
+        }
+        trials
+    }
 }
 
 /// Returns a fact of a kind by the rules: `None` if it depends on more than what the avatar is and holds.
@@ -105,7 +140,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
             let (word, rest) = line.split_once(':')?;
             word.trim_matches(is_mark).eq_ignore_ascii_case(fact.name()).then(|| rest.to_owned())
         };
-        answer.split(['\n', ';']).filter_map(own).last()
+        answer.split(['\n', ';']).filter_map(own).next_back()
     };
     let mut predicted = Predicted::new();
     for fact in TouchFact::ALL {

@@ -187,7 +187,7 @@ pub(crate) fn levels_of<'a>(
 /// Fills in normalised rewards and maximum steps.
 pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
     let place = |episode: &StudyEpisode| (episode.metrics.track.clone(), episode.game, episode.metrics.level);
-    let mut ranges: BTreeMap<(Option<String>, usize, usize), (f64, f64, u64)> = BTreeMap::new();
+    let mut ranges: BTreeMap<_, (f64, f64, u64)> = BTreeMap::new();
     for episode in episodes.iter().filter(|episode| episode.metrics.counts()) {
         let (score, steps) = (episode.metrics.score, episode.metrics.steps);
         let range = ranges.entry(place(episode)).or_insert((score, score, steps));

@@ -13,7 +13,7 @@ use evaluation::client::{
 use evaluation::log::{read, without_times};
 use evaluation::metrics::EpisodeMetrics;
 use evaluation::player::{Contestant, ModelPlayer, Touching};
-use evaluation::predictions::{TouchFact, truth};
+use evaluation::predictions::{TouchFact, Trials, truth};
 use evaluation::prompt::{Attempt, Past, PromptSettings, Prompter, sections};
 use evaluation::run::{FORMAT, PlayResult, Progress, Tally, Task};
 use evaluation::study::{Player, Study};
@@ -179,6 +179,10 @@ fn truths_of_the_corpus() {
             });
             writeln!(lines, "{} {}: {}", subject.id, subject.game.name(stype), told.join(" ")).unwrap();
         }
+        let trials = Trials::of(&subject);
+        let kinds = [&trials.costly, &trials.gated, &trials.idle].map(|kinds| kinds.join(" "));
+        writeln!(lines, "{}: costly {}; gated {}; idle {}", subject.id, kinds[0], kinds[1], kinds[2])
+            .unwrap();
     }
     golden("touch_facts.txt", &lines);
 }

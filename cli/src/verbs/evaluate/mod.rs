@@ -161,6 +161,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     settings
         .check()
         .map_err(|problem| malformed!("{problem}; see --runs, --max-steps, --games and --levels"))?;
+    track::advise(args.model.prompt.track, &subjects.games, console);
     if args.dry_run {
         return forecast(&requested, &settings, &subjects.games, console);
     }

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
 use evaluation::run::Task;
-use evaluation::{Commitment, Entrant, Observed, Subject, Track};
+use evaluation::{Commitment, Entrant, Observed, SeriesPlace, Subject, Track};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::json;
@@ -441,6 +441,8 @@ impl RequestedModel {
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
         let mut batches = Vec::new();
+        // The decisions of the levels before in the same conversation.
+        let mut earlier = 0;
         for task in tasks {
             let prompter = self.prompter(task.subject, task.max_steps, task.commit)?;
             let decisions = task.most_decisions();
@@ -448,10 +450,21 @@ impl RequestedModel {
             let prompt = prompter.prompt(&first.turn(task), &[], &[]);
             let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());
             let room = self.prompts.history_tokens.saturating_sub(fixed + turn);
+            if task.series.is_none_or(|place| place.index == 0) {
+                earlier = 0;
+            }
+            // The last question is a decision too.
+            let asked =
+                u64::from(prompter.asks_predictions() && task.series.is_some_and(SeriesPlace::is_last));
+            let decisions = decisions + asked;
             let past = match self.prompts.mode {
                 Mode::ZeroShot => 0,
-                Mode::Contextual => history(decisions, turn + answer, room),
+                Mode::Contextual => {
+                    let until = |steps: u64| history(steps, turn + answer, room);
+                    until(earlier + decisions) - until(earlier)
+                }
             };
+            earlier += decisions;
             batches.push(Batch {
                 requests: decisions,
                 stable_tokens: fixed,

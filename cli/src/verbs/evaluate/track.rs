@@ -1,9 +1,11 @@
 //! The players of each track.
 
 use super::{Args, RequestedPlayer};
+use crate::console::Console;
 use crate::failure::Failure;
-use evaluation::Track;
+use evaluation::predictions::Trials;
 use evaluation::serve::PromptPlayer;
+use evaluation::{Subject, Track};
 
 /// Refuses a player that cannot play on the track, with the players that can.
 ///
@@ -57,5 +59,20 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
              --base-url",
         ),
         _ => Ok(()),
+    }
+}
+
+/// Says which games can be found out without a risk.
+pub(super) fn advise(track: Option<Track>, subjects: &[Subject], console: &Console) {
+    if track != Some(Track::Discover) {
+        return;
+    }
+    let is_free = |subject: &&Subject| Trials::of(subject).costly.is_empty();
+    let free: Vec<&str> = subjects.iter().filter(is_free).map(|subject| subject.id.as_str()).collect();
+    if !free.is_empty() {
+        console.remark(format_args!(
+            "no touch hurts or takes points in {}: who touches everything risks nothing there (`arcade docs tracks` says what suits `discover`)",
+            free.join(", ")
+        ));
     }
 }
