@@ -111,3 +111,32 @@ pub(crate) fn without_pictures(description: &Description) -> Description {
     strip(&mut description, &["img"]);
     description
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Action;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    t3 > Immovable\n    bug > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    g > t3\n    b > bug\n  InteractionSet\n    avatar wall > stepBack\n    t3 avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=t3 win=True\n";
+
+    /// Neutral names reach all types, also one that has such a name, and change nothing else.
+    #[test]
+    fn neutral_names_change_nothing_else() {
+        let game = Game::from_source(GAME).unwrap();
+        let mask = Mask::neutral(&game);
+        let names: Vec<&str> = game.sprite_types().map(|stype| mask.game.name(stype)).sorted().collect();
+        assert_eq!(names, ["t1", "t2", "t3", "t4"]);
+        let level = game.level("wwwww\nwA bw\nw  gw\nwwwww\n").unwrap();
+        let [mut own, mut other] =
+            [&game, &mask.game].map(|game| game.start(&level, Seed::from_text("mask")));
+        for action in Action::ALL.into_iter().cycle().take(30) {
+            game.step(&mut own, action);
+            mask.game.step(&mut other, action);
+            assert_eq!(own.state_hash(), other.state_hash());
+            let mut masked = mask.game.observe(&other);
+            masked.resources.sort();
+            assert_eq!(mask.observation(&game.observe(&own)), masked);
+        }
+        assert_eq!(mask.game.digest(), game.digest());
+    }
+}

@@ -403,6 +403,32 @@ fn rayon_one<T: Send>(run: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(run)
 }
 
+/// A player that remembers earlier levels is resumed at any byte of any log, with the same logs in the end.
+#[test]
+fn series_are_resumed_anywhere() {
+    let (home, subjects) = (tempfile::tempdir().unwrap(), vec![three_levels()]);
+    let settings = Settings { runs: 1, ..settings("touch-everything", Track::Discover, &subjects) };
+    let player = |task: &Task<'_>| Ok(Contestant::Agent(Box::new(Touching::new(task.chance()))));
+    let whole = home.path().join("whole");
+    Evaluation::create(&whole, settings.clone(), subjects.clone()).unwrap().run(player, &Silent).unwrap();
+    let undisturbed = logs(&whole);
+    let names: Vec<String> = undisturbed.keys().cloned().collect();
+    for kept in 0..names.len() {
+        let bytes = fs::read(whole.join("episodes").join(&names[kept])).unwrap();
+        for cut in (0..bytes.len()).step_by(211) {
+            let folder = home.path().join(format!("{kept}-{cut}"));
+            Evaluation::create(&folder, settings.clone(), subjects.clone()).unwrap();
+            for name in &names[..kept] {
+                fs::copy(whole.join("episodes").join(name), folder.join("episodes").join(name)).unwrap();
+            }
+            fs::write(folder.join("episodes").join(&names[kept]), &bytes[..cut]).unwrap();
+            let evaluation = Evaluation::resume(&folder, &settings).unwrap();
+            assert_eq!(evaluation.run(player, &Silent).unwrap().ended, 3);
+            assert_eq!(logs(&folder), undisturbed, "{} cut at byte {cut}", names[kept]);
+        }
+    }
+}
+
 /// A changed grade is found when the log is read.
 #[test]
 fn grades_follow_from_the_rules() {
