@@ -490,6 +490,7 @@ fn print_results(
     let Tally { episodes, ended, won, answers, open, halted, infrastructure, practice } = tally;
     let practice = match practice {
         0 => String::new(),
+        1 => format!("; 1 of the episodes is for practice, and {} count", episodes - 1),
         _ => format!("; {practice} of the episodes are for practice, and {} count", episodes - practice),
     };
     console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won{practice}", entrant.name));
