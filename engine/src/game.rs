@@ -11,6 +11,7 @@ use crate::state::State;
 use crate::syntax::Description;
 use crate::world::Models;
 use crate::{Digest, causes};
+use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -132,6 +133,18 @@ impl Game {
     /// The name of a type; `#-1` for an undeclared type, which games loaded as the reference does may count.
     pub fn name(&self, stype: SpriteType) -> &str {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
+    }
+
+    /// The same game with other names in observations and texts; types without another name keep theirs. Its
+    /// [`description`](Game::description) and digest stay as they are. Cost: a copy of the rules.
+    pub fn under_names(&self, names: &BTreeMap<String, String>) -> Game {
+        let mut compiled = (*self.0).clone();
+        for info in &mut compiled.rules.types {
+            if let Some(name) = names.get(&info.name) {
+                info.name.clone_from(name);
+            }
+        }
+        Game(Arc::new(compiled))
     }
 
     /// The type of that name.

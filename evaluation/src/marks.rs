@@ -3,7 +3,7 @@
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::log::Journal;
-use crate::player::Contestant;
+use crate::player::{Contestant, Touching};
 use crate::prompt::{PromptSettings, Prompter};
 use crate::run::{PlayResult, Task, play};
 use crate::serve::{PromptPlayer, Prompted};
@@ -21,12 +21,17 @@ pub enum MarkPlayer {
     Planner(PlannerSpec),
     /// A player that reads the default prompts.
     Prompted(PromptPlayer),
+    /// The player that knows no rules and touches everything.
+    Touching,
 }
 
 impl FromStr for MarkPlayer {
     type Err = String;
 
     fn from_str(name: &str) -> Result<MarkPlayer, String> {
+        if name == Touching::NAME {
+            return Ok(MarkPlayer::Touching);
+        }
         // Like `arcade evaluate`: `random` is the planner of that name.
         match name.parse() {
             Ok(planner) => Ok(MarkPlayer::Planner(planner)),
@@ -43,6 +48,7 @@ impl fmt::Display for MarkPlayer {
         match self {
             MarkPlayer::Planner(planner) => planner.fmt(f),
             MarkPlayer::Prompted(player) => player.fmt(f),
+            MarkPlayer::Touching => f.write_str(Touching::NAME),
         }
     }
 }
@@ -94,7 +100,7 @@ impl MarkPlays {
         commit: Commitment,
     ) -> Result<u64, EvaluationError> {
         let prompter = match player {
-            MarkPlayer::Planner(_) => None,
+            MarkPlayer::Planner(_) | MarkPlayer::Touching => None,
             MarkPlayer::Prompted(_) => {
                 let prompter = Prompter::within(subject, PromptSettings::default(), self.max_steps, commit)?;
                 Some(Arc::new(prompter))
@@ -102,7 +108,16 @@ impl MarkPlays {
         };
         let mut wins = 0;
         for run in 0..self.runs {
-            let task = Task { subject, level, run, seed: self.seed, max_steps: self.max_steps, commit };
+            let task = Task {
+                subject,
+                level,
+                run,
+                seed: self.seed,
+                max_steps: self.max_steps,
+                commit,
+                track: None,
+                series: None,
+            };
             let mut contestant = match (player, &prompter) {
                 (MarkPlayer::Prompted(player), Some(prompter)) => {
                     Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter.clone())))
@@ -110,6 +125,7 @@ impl MarkPlays {
                 (MarkPlayer::Planner(spec), _) => {
                     Contestant::Planner { spec: spec.clone(), budget: Budget(0) }
                 }
+                (MarkPlayer::Touching, _) => Contestant::Agent(Box::new(Touching::new(task.chance()))),
                 (MarkPlayer::Prompted(_), None) => unreachable!("it has been made above"),
             };
             match play(&task, &mut contestant, &mut Journal::in_memory())? {

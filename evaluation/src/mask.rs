@@ -14,6 +14,8 @@ const RESERVED: [&str; 2] = ["wall", "avatar"];
 pub(crate) struct Mask {
     /// The renamed game. Its types keep their places in the registry.
     pub(crate) game: Game,
+    /// `true` if the order of names is hidden as well.
+    is_neutral: bool,
     names: BTreeMap<String, String>,
 }
 
@@ -36,7 +38,29 @@ impl Mask {
         let game = Game::compile(&masked).map_err(|problems| {
             EvaluationError::Malformed(format!("the names of the game cannot be masked: {problems}"))
         })?;
-        Ok(Mask { game, names })
+        Ok(Mask { game, is_neutral: false, names })
+    }
+
+    /// Gives all types new names, those that the engine knows included: `t1`, `t2` and so on, in an order decided by the game's
+    /// digest. Levels of the game stay its levels.
+    pub(crate) fn neutral(game: &Game) -> Mask {
+        let own = game.sprite_types().map(|stype| game.name(stype).to_owned()).collect_vec();
+        let mut numbers: Vec<usize> = (1..=own.len()).collect();
+        let seed = Seed::from_text(&game.digest().to_string());
+        seed.child("neutral names", 0).sampler().shuffle(&mut numbers);
+        let names: BTreeMap<String, String> =
+            own.into_iter().zip(numbers).map(|(name, number)| (name, format!("t{number}"))).collect();
+        Mask { game: game.under_names(&names), is_neutral: true, names }
+    }
+
+    /// Returns the number by which neutral characters are drawn, another one for each game.
+    pub(crate) fn neutral_characters(game: &Game) -> u64 {
+        Seed::from_text(&game.digest().to_string()).child("neutral characters", 0).sampler().bits()
+    }
+
+    /// Returns the name that stands for one of the game's own.
+    pub(crate) fn name<'a>(&'a self, own: &'a str) -> &'a str {
+        self.names.get(own).map_or(own, String::as_str)
     }
 
     /// Returns an observation with the names replaced.
@@ -49,6 +73,9 @@ impl Mask {
             if let Some(other) = self.names.get(name) {
                 name.clone_from(other);
             }
+        }
+        if self.is_neutral {
+            masked.resources.sort();
         }
         masked
     }
@@ -83,4 +110,33 @@ pub(crate) fn without_pictures(description: &Description) -> Description {
     let mut description = description.clone();
     strip(&mut description, &["img"]);
     description
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Action;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    t3 > Immovable\n    bug > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    g > t3\n    b > bug\n  InteractionSet\n    avatar wall > stepBack\n    t3 avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=t3 win=True\n";
+
+    /// Neutral names reach all types, also one that has such a name, and change nothing else.
+    #[test]
+    fn neutral_names_change_nothing_else() {
+        let game = Game::from_source(GAME).unwrap();
+        let mask = Mask::neutral(&game);
+        let names: Vec<&str> = game.sprite_types().map(|stype| mask.game.name(stype)).sorted().collect();
+        assert_eq!(names, ["t1", "t2", "t3", "t4"]);
+        let level = game.level("wwwww\nwA bw\nw  gw\nwwwww\n").unwrap();
+        let [mut own, mut other] =
+            [&game, &mask.game].map(|game| game.start(&level, Seed::from_text("mask")));
+        for action in Action::ALL.into_iter().cycle().take(30) {
+            game.step(&mut own, action);
+            mask.game.step(&mut other, action);
+            assert_eq!(own.state_hash(), other.state_hash());
+            let mut masked = mask.game.observe(&other);
+            masked.resources.sort();
+            assert_eq!(mask.observation(&game.observe(&own)), masked);
+        }
+        assert_eq!(mask.game.digest(), game.digest());
+    }
 }

@@ -3,6 +3,7 @@
 use crate::commitment::Commitment;
 use crate::run::Task;
 use crate::subject::Subject;
+use crate::track::SeriesPlace;
 use engine::analysis::Avatar;
 use engine::{Action, Analysis, Game, Observation, State};
 
@@ -28,6 +29,28 @@ pub struct Turn<'a> {
     pub played: &'a [Played],
     /// The available actions, [`Action::Nil`] first.
     pub actions: &'a [Action],
+    /// The place of the level in a series that is played in one conversation; `None` for a level by itself.
+    pub series: Option<SeriesView<'a>>,
+}
+
+/// The place of a level in a series, and what came before it.
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesView<'a> {
+    /// The place.
+    pub place: SeriesPlace,
+    /// The end of the level before, unless this is the first.
+    pub previous: Option<&'a LevelEnd>,
+}
+
+/// The end of a level of a series, as the player has seen it.
+#[derive(Clone, Debug)]
+pub struct LevelEnd {
+    /// The last observation.
+    pub last: Observation,
+    /// The observation before it, and the action between the two.
+    pub before: Option<(Observation, Action)>,
+    /// The number of actions played.
+    pub steps: u64,
 }
 
 /// The preceding action.
@@ -71,6 +94,7 @@ impl<'a> Turn<'a> {
         observation: &'a Observation,
         recent: &'a Recent,
         actions: &'a [Action],
+        previous: Option<&'a LevelEnd>,
     ) -> Turn<'a> {
         let before = recent.last.as_ref().map(|(observation, action, reward)| Before {
             observation,
@@ -79,7 +103,8 @@ impl<'a> Turn<'a> {
         });
         let Task { subject, max_steps: limit, commit, .. } = *task;
         let (level, played) = (task.level.number, recent.played.as_slice());
-        Turn { subject, level, number, limit, commit, observation, before, played, actions }
+        let series = task.series.map(|place| SeriesView { place, previous });
+        Turn { subject, level, number, limit, commit, observation, before, played, actions, series }
     }
 
     /// Returns the number of actions that the decision covers, at least one.
@@ -106,7 +131,7 @@ impl Observed {
     /// Returns the first turn.
     pub fn turn<'a>(&'a self, task: &Task<'a>) -> Turn<'a> {
         const NONE: &Recent = &Recent { last: None, played: Vec::new() };
-        Turn::of(task, 0, &self.observation, NONE, &self.actions)
+        Turn::of(task, 0, &self.observation, NONE, &self.actions, None)
     }
 }
 

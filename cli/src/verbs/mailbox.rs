@@ -208,7 +208,11 @@ impl Session<'_> {
     fn invite(&self, open: &OpenPrompt) {
         if std::io::stdin().is_terminal() {
             let mut stderr = std::io::stderr();
-            let _ = write!(stderr, "\n{} (help)> ", open.prompt.actions.join(", "));
+            let asked = match open.prompt.actions.join(", ") {
+                actions if actions.is_empty() => "KILLS: …; STOPS: …; GOES: …; SCORES: …".to_owned(),
+                actions => actions,
+            };
+            let _ = write!(stderr, "\n{asked} (help)> ");
             let _ = stderr.flush();
         }
     }
@@ -219,7 +223,8 @@ impl Session<'_> {
         if word == "say" {
             return self.deliver(open, rest.trim());
         }
-        if is_formatted(line) {
+        // A question without actions is answered in words.
+        if is_formatted(line) || (actions.is_empty() && line.contains(':')) {
             return self.deliver(open, line);
         }
         match (line.to_lowercase().as_str(), action(line, actions)) {

@@ -18,5 +18,6 @@ mod served;
 #[path = "../../../evaluation/tests/it/server.rs"]
 mod server;
 mod shards;
+mod tracks;
 mod usage;
 mod validate;

@@ -100,6 +100,8 @@ fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
         runs: 2,
         max_steps: 12,
         commit: evaluation::Commitment::ONE,
+        track: None,
+        series: 1,
         games: Evaluation::entries(&subjects),
     };
     let evaluation = Evaluation::create(folder, settings, subjects).unwrap();

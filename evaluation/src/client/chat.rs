@@ -88,7 +88,7 @@ pub struct ChatReply {
 
 impl ChatReply {
     /// Creates an answer of which nothing else is known.
-    pub(crate) fn new(text: String, finish: Finish) -> ChatReply {
+    pub fn new(text: String, finish: Finish) -> ChatReply {
         ChatReply { text, finish, ..ChatReply::default() }
     }
 }

@@ -3,6 +3,7 @@
 //! Cells are written as `(x,y)`: the column from 0 at the left, the row from 0 at the top.
 
 mod coordinates;
+mod events;
 mod grid;
 mod grounding;
 mod json;
@@ -10,6 +11,7 @@ mod picture;
 mod scene;
 
 pub use coordinates::coordinates;
+pub use events::{events, ruled};
 pub use grid::{grid, rotated, stacks};
 pub use grounding::{directions, grounding};
 pub use json::json;

@@ -3,6 +3,8 @@
 use crate::client::{ChatReply, Failure, Finish, Role, Usage};
 use crate::commitment::Commitment;
 use crate::player::Validity;
+use crate::predictions::{Grade, Predicted};
+use crate::track::SeriesPlace;
 use engine::{Action, Digest, Outcome, Seed, StateHash};
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +39,12 @@ pub enum Event {
         /// The number of actions that the player commits to at each look.
         #[serde(default, skip_serializing_if = "Commitment::is_one")]
         commit: Commitment,
+        /// The track with its version, such as `masked@1`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        track: Option<String>,
+        /// The place of the level in a series that is played in one conversation.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        series: Option<SeriesPlace>,
         /// The state hash before the first tick.
         hash: StateHash,
         /// Column and row of the avatar, if there is one.
@@ -98,6 +106,19 @@ pub enum Event {
         calls: Option<u64>,
         /// The duration of the decision, ms.
         took_ms: f64,
+    },
+    /// The player has answered the question about the rules after the last level of a series.
+    Predictions {
+        /// The number of steps before it.
+        step: u64,
+        /// The kinds that were asked about, by the game's own names.
+        kinds: Vec<String>,
+        /// The kinds of which the player expects each fact; `None` if no answer could be read.
+        predicted: Option<Predicted>,
+        /// The origin of the answer.
+        validity: Validity,
+        /// The comparison with the rules. Without a usable answer, nothing is right.
+        grade: Grade,
     },
     /// The episode was aborted; a later `--resume` continues after this line.
     Halt {

@@ -7,7 +7,9 @@ use crate::metrics::choices::{Choices, Spending};
 use crate::metrics::ending::Ending;
 use crate::metrics::movement::Movement;
 use crate::metrics::replay::{Replayed, replay};
+use crate::predictions::Grade;
 use crate::subject::Subject;
+use crate::track::SeriesPlace;
 use engine::{Digest, Outcome};
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -37,6 +39,15 @@ pub struct EpisodeMetrics {
     /// The number of actions that the player commits to at each look.
     #[serde(skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
+    /// The track with its version.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub track: Option<String>,
+    /// The place of the level in a series that was played in one conversation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub series: Option<SeriesPlace>,
+    /// The grade of the predictions after the last level of a series.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub predictions: Option<Grade>,
     /// The ticks of the level's shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
     /// The meaningful step ratio: meaningful steps divided by steps.
@@ -87,7 +98,7 @@ impl EpisodeMetrics {
     /// The same as those of [`replay`].
     pub fn of(subject: &Subject, log: &[Event]) -> Result<EpisodeMetrics, EvaluationError> {
         let replayed = replay(subject, log)?;
-        let Some(Event::Start { level, run, max_steps, commit, .. }) = log.first() else {
+        let Some(Event::Start { level, run, max_steps, commit, track, series, .. }) = log.first() else {
             unreachable!("the replay began with it")
         };
         let Replayed { meaningful, meaningful_as_code, cells, .. } = &replayed;
@@ -110,6 +121,12 @@ impl EpisodeMetrics {
             steps: replayed.actions.len() as u64,
             max_steps: *max_steps,
             commit: *commit,
+            track: track.clone(),
+            series: *series,
+            predictions: log.iter().find_map(|event| match event {
+                Event::Predictions { grade, .. } => Some(grade.clone()),
+                _ => None,
+            }),
             optimal_ticks: replayed.optimal_ticks,
             meaningful: fraction(meaningful),
             meaningful_as_code: fraction(meaningful_as_code),
@@ -138,6 +155,9 @@ impl EpisodeMetrics {
             steps: 0,
             max_steps: 0,
             commit: Commitment::ONE,
+            track: None,
+            series: None,
+            predictions: None,
             optimal_ticks: None,
             meaningful: None,
             meaningful_as_code: None,
@@ -155,6 +175,11 @@ impl EpisodeMetrics {
     /// Returns `true` if the game was won. All other outcomes are no win: lost, over without a winner, or not over.
     pub fn won(&self) -> bool {
         self.outcome == Outcome::Won
+    }
+
+    /// Returns `true` if the level was played to learn the rules of a series, which counts in no result.
+    pub fn is_practice(&self) -> bool {
+        self.series.is_some_and(SeriesPlace::is_practice)
     }
 
     /// Returns `true` if the episode counts: it ended with the game or at the step limit.

@@ -7,6 +7,8 @@ use crate::metrics::as_code::{AsCode, flags_as_code};
 use crate::metrics::commit::Commit;
 use crate::metrics::ending::{Ending, LastTick};
 use crate::metrics::meaningful::{Effect, meaningful};
+use crate::player::Validity;
+use crate::run::graded;
 use crate::subject::{Subject, SubjectLevel};
 use engine::{Action, Digest, Game, Outcome, SEMANTICS, State};
 
@@ -114,6 +116,9 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                     answers.step(event).map_err(malformed)?;
                 }
             }
+            Event::Predictions { .. } => {
+                compare_predictions(event, subject, replayed.actions.len()).map_err(malformed)?;
+            }
             Event::End { .. } => {
                 compare_end(event, &replayed, *max_steps).map_err(malformed)?;
                 if line < log.len() {
@@ -189,6 +194,21 @@ fn compare(event: &Event, state: &State, replayed: &Replayed) -> Result<(), Stri
     match replayed.cells.last().copied().flatten() {
         found if found != *avatar => differs("an avatar", place(found), place(*avatar)),
         _ => Ok(()),
+    }
+}
+
+/// Compares the grade of predictions with the rules.
+fn compare_predictions(event: &Event, subject: &Subject, steps: usize) -> Result<(), String> {
+    let Event::Predictions { step, kinds, predicted, validity, grade } = event else { return Ok(()) };
+    if *step != steps as u64 {
+        return Err(format!("the predictions after step {steps} are recorded after step {step}"));
+    }
+    if predicted.is_some() != (*validity == Validity::Valid) {
+        return Err(format!("the predictions are recorded as {}, which they are not", validity.name()));
+    }
+    match graded(&subject.analysis, kinds, predicted.as_ref()) == *grade {
+        true => Ok(()),
+        false => Err("the grade of the predictions differs from that by the rules".to_owned()),
     }
 }
 

@@ -4,11 +4,15 @@ mod builtin;
 pub mod mailbox;
 mod model;
 pub mod process;
+mod touching;
 
 pub use builtin::{Contestant, Replay};
 pub use model::ModelPlayer;
+pub use touching::Touching;
 
 use crate::log::{Event, Journal};
+use crate::predictions::Predicted;
+use crate::run::Task;
 use crate::turn::Turn;
 use engine::Action;
 
@@ -28,8 +32,34 @@ pub trait Agent: Send {
     /// The agent cannot resume the episode.
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt>;
 
+    /// Begins an episode: the only one, or the next level of a series, of which the agent remembers the levels before.
+    fn begin(&mut self, _task: &Task<'_>) {}
+
+    /// Answers the question after the last level of a series: which of these kinds kill, stop, go or score when they are touched. `None`
+    /// from players that cannot be asked. Recorded answers are used as in [`act`](Agent::act).
+    ///
+    /// # Errors
+    /// There is no answer, and the player is not at fault: the episode is aborted.
+    fn predict(
+        &mut self,
+        _last: &Turn<'_>,
+        _kinds: &[String],
+        _journal: &mut Journal,
+    ) -> Result<Option<Said>, Halt> {
+        Ok(None)
+    }
+
     /// Shows the final observation after the end of the episode. No answer is expected, and nothing can fail.
     fn end(&mut self, _last: &Turn<'_>) {}
+}
+
+/// The answer of an agent to the last question of a series.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Said {
+    /// The predictions; `None` if no answer could be read.
+    pub predicted: Option<Predicted>,
+    /// The origin of the answer.
+    pub validity: Validity,
 }
 
 /// The decision of an agent.

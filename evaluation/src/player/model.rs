@@ -1,11 +1,13 @@
 //! A language model as a player: its prompts, its answers, and their interpretation.
 
 use crate::answer::Reading;
-use crate::client::{ChatErrorKind, ChatMessage, ChatRequest, Decoding, Finish, Model};
+use crate::client::{ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model};
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, Reply, ReplyClass};
-use crate::player::{Agent, Choice, Halt, Validity};
+use crate::player::{Agent, Choice, Halt, Said, Validity};
+use crate::predictions::Predicted;
 use crate::prompt::{Attempt, Past, Prompt, Prompter};
+use crate::run::Task;
 use crate::turn::Turn;
 use engine::{Action, Digest, Seed};
 use std::collections::BTreeMap;
@@ -57,6 +59,11 @@ impl ModelPlayer {
         ModelPlayer { model, prompter, decoding, reasks, samples, past, texts, read: 0 }
     }
 
+    /// Lets another model answer from now on.
+    pub(super) fn set_model(&mut self, model: Arc<dyn Model>) {
+        self.model = model;
+    }
+
     /// Goes through the attempts of a turn. Answers in the log are not requested again.
     fn turn(&mut self, turn: &Turn<'_>, mut log: Log<'_>) -> Result<Choice, Halt> {
         let prompter = self.prompter.clone();
@@ -89,7 +96,7 @@ impl ModelPlayer {
         Ok(choice)
     }
 
-    /// Requests an answer. The request is logged before it is sent, and the answer as soon as it arrives.
+    /// Requests an answer to a turn.
     fn ask(
         &mut self,
         turn: &Turn<'_>,
@@ -97,7 +104,60 @@ impl ModelPlayer {
         attempt: u32,
         prompt: &Prompt,
     ) -> Result<Reply, Halt> {
-        let step = turn.number;
+        let answer = self.request(turn.number, journal, attempt, prompt)?;
+        let (class, actions, _) = classify(&self.prompter, turn, &answer.text, answer.finish);
+        let stage = match self.prompter.read(&answer.text, turn) {
+            Reading::Tolerant { stage, .. } if actions.is_some() => Some(stage.name().to_owned()),
+            _ => None,
+        };
+        let (action, plan) = match turn.commit.is_one() {
+            true => (actions.and_then(|actions| actions.first().copied()), None),
+            false => (None, actions),
+        };
+        let reply = Reply { action, plan, stage, ..Reply::of(turn.number, attempt, class, answer) };
+        push(journal, Event::Reply(reply.clone()))?;
+        Ok(reply)
+    }
+
+    /// Goes through the attempts of the last question of a series. Answers in the log are not requested again.
+    fn question(&mut self, last: &Turn<'_>, kinds: &[String], journal: &mut Journal) -> Result<Said, Halt> {
+        let prompter = self.prompter.clone();
+        let mut attempts = Vec::new();
+        let mut attempt = 0;
+        loop {
+            let prompt = prompter.question(last, kinds, &self.past, &attempts);
+            let classified = |text: &str, finish| classify_predictions(&prompter, kinds, text, finish);
+            let reply = match recorded(journal, attempt) {
+                Some(reply) => reply,
+                None => {
+                    let answer = self.request(last.number, journal, attempt, &prompt)?;
+                    let (class, ..) = classified(&answer.text, answer.finish);
+                    let reply = Reply::of(last.number, attempt, class, answer);
+                    push(journal, Event::Reply(reply.clone()))?;
+                    reply
+                }
+            };
+            let (class, predicted, why) = classified(&reply.text, reply.finish);
+            if let Some(predicted) = predicted {
+                return Ok(Said { predicted: Some(predicted), validity: Validity::Valid });
+            }
+            if attempt >= self.reasks {
+                return Ok(Said { predicted: None, validity: validity_of(class) });
+            }
+            let complaint = Some(prompter.question_complaint(&why, kinds));
+            attempts.push(Attempt { answer: reply.text, complaint });
+            attempt += 1;
+        }
+    }
+
+    /// Requests an answer. The request is logged before it is sent.
+    fn request(
+        &mut self,
+        step: u64,
+        journal: &mut Journal,
+        attempt: u32,
+        prompt: &Prompt,
+    ) -> Result<ChatReply, Halt> {
         let messages = prompt.messages.iter().map(|message| self.number(message, journal));
         let messages = messages.collect::<Result<Vec<u32>, Halt>>()?;
         let was_requested =
@@ -111,23 +171,11 @@ impl ModelPlayer {
             decoding: self.decoding.clone(),
             sample: self.samples.child("step", step).child("attempt", u64::from(attempt)),
         };
-        let answer = self.model.chat(&request).map_err(|error| match error.kind {
+        self.model.chat(&request).map_err(|error| match error.kind {
             ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
             ChatErrorKind::Budget => Halt::Budget(error.message),
             ChatErrorKind::Rejected => Halt::Rejected(error.message),
-        })?;
-        let (class, actions, _) = classify(&self.prompter, turn, &answer.text, answer.finish);
-        let stage = match self.prompter.read(&answer.text, turn) {
-            Reading::Tolerant { stage, .. } if actions.is_some() => Some(stage.name().to_owned()),
-            _ => None,
-        };
-        let (action, plan) = match turn.commit.is_one() {
-            true => (actions.and_then(|actions| actions.first().copied()), None),
-            false => (None, actions),
-        };
-        let reply = Reply { action, plan, stage, ..Reply::of(step, attempt, class, answer) };
-        push(journal, Event::Reply(reply.clone()))?;
-        Ok(reply)
+        })
     }
 
     /// Returns the number of a message in the log, after adding it at its first use.
@@ -152,6 +200,27 @@ impl ModelPlayer {
 }
 
 impl Agent for ModelPlayer {
+    fn begin(&mut self, task: &Task<'_>) {
+        // Each level has a log of its own, in which texts are numbered anew; answers of later levels are drawn anew.
+        if !task.is_practice() && task.series.is_some() {
+            self.samples = task.chance().child("answers", 0);
+        }
+        self.texts.clear();
+        self.read = 0;
+    }
+
+    fn predict(
+        &mut self,
+        last: &Turn<'_>,
+        kinds: &[String],
+        journal: &mut Journal,
+    ) -> Result<Option<Said>, Halt> {
+        match self.prompter.asks_predictions() {
+            true => self.question(last, kinds, journal).map(Some),
+            false => Ok(None),
+        }
+    }
+
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
         self.turn(turn, Log::Open(journal))
     }
@@ -184,6 +253,23 @@ fn classify(
         (_, Finish::Length) => (ReplyClass::Truncated, None, CUT_OFF.to_owned()),
         (Reading::Tolerant { choice, .. }, _) => (ReplyClass::Tolerant, Some(choice), String::new()),
         (Reading::Invalid { why }, _) => (ReplyClass::Invalid, None, why),
+    }
+}
+
+/// Returns the class of an answer to the last question, its predictions, and the reason as a clause about it if there are none.
+fn classify_predictions(
+    prompter: &Prompter,
+    kinds: &[String],
+    text: &str,
+    finish: Finish,
+) -> (ReplyClass, Option<Predicted>, String) {
+    if finish == Finish::Refusal {
+        return (ReplyClass::Refused, None, DECLINED.to_owned());
+    }
+    match (prompter.read_predictions(text, kinds), finish) {
+        (Ok(predicted), _) => (ReplyClass::Strict, Some(predicted), String::new()),
+        (Err(_), Finish::Length) => (ReplyClass::Truncated, None, CUT_OFF.to_owned()),
+        (Err(why), _) => (ReplyClass::Invalid, None, why),
     }
 }
 

@@ -4,12 +4,14 @@
 //! of all levels; the observation follows. The texts are in `templates/`; [`Prompter::digest`] covers them and the settings.
 //! [`docs/prompts.md`](../../../docs/prompts.md) shows an example, part by part.
 
+mod discover;
 mod history;
 mod limit;
 mod sections;
 mod settings;
 mod turn;
 
+pub(crate) use discover::kinds_at_start;
 pub use history::{Attempt, Past};
 pub(crate) use limit::limited;
 pub use sections::{TASK, sections};
@@ -44,6 +46,14 @@ const TEMPLATES: [(&str, &str); 6] = [
     ("reference_turn.j2", include_str!("templates/reference_turn.j2")),
     ("ending.j2", include_str!("templates/ending.j2")),
     ("complaint.j2", include_str!("templates/complaint.j2")),
+];
+
+/// The templates of [`PromptStyle::Discover`]. They are apart, because the digests of the other styles cover all of theirs.
+const DISCOVER: [(&str, &str); 4] = [
+    ("discover_static.j2", include_str!("templates/discover_static.j2")),
+    ("discover_turn.j2", include_str!("templates/discover_turn.j2")),
+    ("discover_question.j2", include_str!("templates/discover_question.j2")),
+    ("discover_complaint.j2", include_str!("templates/discover_complaint.j2")),
 ];
 
 /// The actions in the order of the reference's numbers.
@@ -143,15 +153,25 @@ impl Prompter {
             let message = format!("`image_cell` is {cell}, but must be from 4 to 40 pixels");
             return Err(EvaluationError::Malformed(message));
         }
-        let mask = if settings.masked_names { Some(Mask::of(&subject.game)?) } else { None };
+        if settings.style == PromptStyle::Discover && !commit.is_one() {
+            let message = "the prompts of `discover` tell what each action does: they ask for one action at a time; leave out --commit";
+            return Err(EvaluationError::Malformed(message.to_owned()));
+        }
+        let is_neutral = settings.neutral_names || settings.style == PromptStyle::Discover;
+        let mask = match settings.masked_names {
+            _ if is_neutral => Some(Mask::neutral(&subject.game)),
+            true => Some(Mask::of(&subject.game)?),
+            false => None,
+        };
         let masked = mask.as_ref().map(|mask| Analysis::of(&mask.game));
         let analysis = masked.as_ref().unwrap_or(&subject.analysis);
         // The characters of a game can reveal as much as its names.
-        let shuffled = settings.shuffled_symbols.or(settings.masked_names.then_some(0));
+        let neutral = is_neutral.then(|| Mask::neutral_characters(&subject.game));
+        let shuffled = settings.shuffled_symbols.or(neutral).or(settings.masked_names.then_some(0));
         let options = LegendOptions { tracking: settings.identity_tracking, shuffled };
         let legend = Legend::new(analysis, &options);
         let order = match settings.style {
-            PromptStyle::Standard => Action::ALL,
+            PromptStyle::Standard | PromptStyle::Discover => Action::ALL,
             PromptStyle::Reference => NUMBERED,
         };
         let actions: Vec<Action> = order.into_iter().filter(|&action| is_of_use(analysis, action)).collect();
@@ -197,8 +217,9 @@ impl Prompter {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
         hasher.update(&VERSION.to_le_bytes());
-        let texts = TEMPLATES.iter().flat_map(|(name, text)| [*name, *text]).chain([settings.as_str()]);
-        for text in texts {
+        let own: &[_] = if self.settings.style == PromptStyle::Discover { &DISCOVER } else { &[] };
+        let texts = TEMPLATES.iter().chain(own).flat_map(|(name, text)| [*name, *text]);
+        for text in texts.chain([settings.as_str()]) {
             hasher.update(&(text.len() as u64).to_le_bytes()).update(text.as_bytes());
         }
         if let Some(commit) = self.commit.aid() {
@@ -211,8 +232,17 @@ impl Prompter {
     /// `attempts` holds the unusable answers of this turn, each with its complaint. Pictures are shown only for the newest
     /// turn. A prompt over the budget is not an error: whole turns are left out, but never the newest one.
     pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
-        let shown = self.write_turn(turn, past);
-        let picture = self.picture(turn);
+        self.conversation(self.write_turn(turn, past), self.picture(turn), past, attempts)
+    }
+
+    /// Returns the conversation that ends with a text of the user.
+    fn conversation(
+        &self,
+        shown: String,
+        picture: Option<encoding::Picture>,
+        past: &[Past],
+        attempts: &[Attempt],
+    ) -> Prompt {
         let picture_tokens =
             picture.as_ref().map(|picture| tokens::of_picture(picture.width, picture.height));
         let mut turn_tokens = by_section(&shown);
@@ -253,7 +283,10 @@ impl Prompter {
             "complaint.j2",
             data(serde_json::json!({
                 "why": why,
-                "style": self.settings.style,
+                "style": match self.settings.style {
+                    PromptStyle::Discover => PromptStyle::Standard,
+                    style => style,
+                },
                 "commit": self.commit_data(),
                 "actions": self.words(),
             })),
@@ -288,7 +321,7 @@ impl Prompter {
             return answer::read_plan(answer, turn.due(), &self.actions);
         }
         let format = match self.settings.style {
-            PromptStyle::Standard => Format::Word,
+            PromptStyle::Standard | PromptStyle::Discover => Format::Word,
             PromptStyle::Reference => Format::Number,
         };
         answer::read(answer, format, &self.actions, turn.actions).map(|action| vec![action])
@@ -299,10 +332,11 @@ impl Prompter {
         (!self.commit.is_one()).then(|| self.commit.to_string())
     }
 
-    fn template(&self, [standard, reference]: [&'static str; 2]) -> &'static str {
+    fn template(&self, [standard, reference, discover]: [&'static str; 3]) -> &'static str {
         match self.settings.style {
             PromptStyle::Standard => standard,
             PromptStyle::Reference => reference,
+            PromptStyle::Discover => discover,
         }
     }
 
@@ -318,7 +352,7 @@ impl Prompter {
             Rules::None => (false, None),
         };
         let text = self.render(
-            self.template(["standard_static.j2", "reference_static.j2"]),
+            self.template(["standard_static.j2", "reference_static.j2", "discover_static.j2"]),
             data(serde_json::json!({
             "settings": self.settings,
             "commit": self.commit_data(),
@@ -332,7 +366,7 @@ impl Prompter {
             "clockwork": guide.timed_effects,
             "meetings": guide.meetings,
             "controls": guide.controls,
-            "legend": self.legend.lines(),
+            "legend": self.legend_lines(),
             "actions": self.words(),
             })),
         );
@@ -340,11 +374,13 @@ impl Prompter {
     }
 
     fn write_turn(&self, turn: &Turn<'_>, past: &[Past]) -> String {
-        let template = self.template(["standard_turn.j2", "reference_turn.j2"]);
+        let template = self.template(["standard_turn.j2", "reference_turn.j2", "discover_turn.j2"]);
         let mask = |seen| self.mask.as_ref().map(|mask| mask.observation(seen));
         let seen = mask(turn.observation);
         let before = turn.before.as_ref().and_then(|before| mask(before.observation));
+        let previous = turn.series.and_then(|series| series.previous).map(|end| self.told_end(end));
         let view = turn::View {
+            previous,
             legend: &self.legend,
             settings: &self.settings,
             actions: &self.actions,
@@ -386,7 +422,7 @@ fn environment() -> Environment<'static> {
     let mut environment = Environment::new();
     let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
     environment.set_syntax(syntax.expect("the delimiters are the usual ones"));
-    for (name, text) in TEMPLATES {
+    for (name, text) in TEMPLATES.into_iter().chain(DISCOVER) {
         environment.add_template(name, text).expect("the templates are ours");
     }
     environment

@@ -15,6 +15,9 @@ pub struct PromptSettings {
     pub rules: Rules,
     /// Sprite types have meaningless names in rules, legend and boards alike.
     pub masked_names: bool,
+    /// All types, walls and the avatar included, have meaningless names and characters, drawn for each game.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub neutral_names: bool,
     /// The meaning of the board's characters is shown.
     pub legend: bool,
     /// The effects of the keys for this avatar are shown.
@@ -42,6 +45,7 @@ impl Default for PromptSettings {
             mode: Mode::ZeroShot,
             rules: Rules::Described,
             masked_names: false,
+            neutral_names: false,
             legend: true,
             action_meanings: true,
             position: true,
@@ -59,6 +63,11 @@ impl PromptSettings {
     /// Returns the differences from the default, apart from the mode, sorted: `no-legend`, `rules=vgdl`, `json`. Advice
     /// appears only as `strategy`.
     pub fn aids(&self) -> Vec<String> {
+        self.aids_beyond(&PromptSettings::default())
+    }
+
+    /// Returns the differences from other settings, as [`aids`](PromptSettings::aids) does.
+    pub fn aids_beyond(&self, usual: &PromptSettings) -> Vec<String> {
         let flat = |settings: &PromptSettings| {
             let mut all = serde_json::to_value(settings).expect("plain data");
             let all = all.as_object_mut().expect("a struct");
@@ -67,7 +76,7 @@ impl PromptSettings {
             all.remove("mode");
             std::mem::take(all)
         };
-        let (own, usual) = (flat(self), flat(&PromptSettings::default()));
+        let (own, usual) = (flat(self), flat(usual));
         let differing = own.into_iter().filter(|(name, value)| usual.get(name) != Some(value));
         let mut aids: Vec<String> = differing
             .map(|(name, value)| match (name.replace('_', "-"), value) {
@@ -99,6 +108,9 @@ pub enum PromptStyle {
     /// numbered actions, every cell listed. The switches for legend, meanings, position, feedback and encodings have no
     /// effect on it.
     Reference,
+    /// The composition of [`Track::Discover`](crate::Track::Discover): no rules, no score, visible events. It shows the board with rulers
+    /// under neutral names, and the switches for legend, meanings, position, feedback and encodings have no effect.
+    Discover,
 }
 
 engine::named_enum! {

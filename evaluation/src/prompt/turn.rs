@@ -11,6 +11,8 @@ use serde_json::{Value, json};
 
 /// A turn to be rendered.
 pub(super) struct View<'a> {
+    /// The end of the level before, in words.
+    pub(super) previous: Option<Value>,
     pub(super) legend: &'a Legend,
     pub(super) settings: &'a PromptSettings,
     /// The actions listed in the static part.
@@ -46,6 +48,7 @@ impl View<'_> {
         let more = match self.settings.style {
             PromptStyle::Standard => self.standard(),
             PromptStyle::Reference => self.reference(),
+            PromptStyle::Discover => self.discover(),
         };
         if let (Value::Object(data), Value::Object(more)) = (&mut data, more) {
             data.extend(more);
@@ -100,6 +103,23 @@ impl View<'_> {
             format!("{}{nil} {place}{}", played.asked, score.unwrap_or_default())
         };
         self.turn.played.iter().map(told).collect()
+    }
+
+    /// Returns the data of the composition without rules.
+    fn discover(&self) -> Value {
+        let (now, legend, turn) = (self.now, self.legend, self.turn);
+        let offered = |action: &&Action| turn.actions.contains(action);
+        let actions: Vec<String> = self.actions.iter().filter(offered).map(ToString::to_string).collect();
+        let events = self.before.zip(turn.before);
+        json!({
+            // The level before is told once.
+            "previous": self.previous.as_ref().filter(|_| turn.number == 0),
+            "place": turn.series.map(|series| series.place),
+            "actions_now": (!actions.is_empty() && actions.len() < self.actions.len()).then_some(actions),
+            "events": events.map(|(before, played)| encoding::events(before, now, played.action, legend)),
+            "grid": encoding::ruled(&encoding::grid(now, legend)),
+            "stacks": encoding::stacks(now, legend),
+        })
     }
 
     /// Returns the data of the reference's composition.

@@ -4,9 +4,12 @@ use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, SCHEMA, Status};
 use crate::player::{Choice, Contestant, Halt, Validity};
+use crate::predictions::{Grade, Predicted, grade};
+use crate::prompt::kinds_at_start;
 use crate::run::clock::Stopwatch;
 use crate::subject::{Subject, SubjectLevel};
-use crate::turn::{Played, Recent, Turn, choices};
+use crate::track::SeriesPlace;
+use crate::turn::{LevelEnd, Played, Recent, Turn, choices};
 use agents::{OpenLoop, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
 
@@ -25,9 +28,18 @@ pub struct Task<'a> {
     pub max_steps: u64,
     /// The number of actions that the player commits to at each look.
     pub commit: Commitment,
+    /// The track with its version, if the evaluation is on one.
+    pub track: Option<&'a str>,
+    /// The place of the level in a series; `None` if it is played alone.
+    pub series: Option<SeriesPlace>,
 }
 
 impl Task<'_> {
+    /// Returns `true` if the level is played to learn the rules, and counts in no result.
+    pub fn is_practice(&self) -> bool {
+        self.series.is_some_and(SeriesPlace::is_practice)
+    }
+
     /// Returns the seed of the game's chance. It depends only on the initial state and the run: it is the same for every
     /// player, and for a game under other names, whose states are the same.
     pub fn chance(&self) -> Seed {
@@ -54,13 +66,21 @@ impl Task<'_> {
 
     /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
     pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
-        let Event::Start { game, level, run, seed, max_steps, commit, .. } = start else { return Ok(()) };
+        let Event::Start { game, level, run, seed, max_steps, commit, track, series, .. } = start else {
+            return Ok(());
+        };
+        let place = |series: Option<SeriesPlace>| {
+            series.map_or("alone".to_owned(), |place| format!("{} of {}", place.index + 1, place.of))
+        };
+        let on = |track: Option<&str>| track.unwrap_or("none").to_owned();
         let fields = [
             ("game", game.clone(), self.subject.id.clone()),
             ("level", level.to_string(), self.level.number.to_string()),
             ("run", run.to_string(), self.run.to_string()),
             ("an episode with `max_steps`", max_steps.to_string(), self.max_steps.to_string()),
             ("an episode with `commit`", commit.to_string(), self.commit.to_string()),
+            ("an episode with `track`", on(track.as_deref()), on(self.track)),
+            ("a level with the place", place(*series), place(self.series)),
         ];
         if let Some((what, found, requested)) = fields.iter().find(|(_, found, requested)| found != requested)
         {
@@ -97,48 +117,70 @@ pub fn play(
     contestant: &mut Contestant,
     journal: &mut Journal,
 ) -> Result<PlayResult, EvaluationError> {
-    play_watched(task, contestant, journal, &|_| None)
+    if let Some(Event::End { outcome, .. }) = journal.events().last() {
+        return Ok(PlayResult::Ended(*outcome));
+    }
+    let context = Context { previous: None, watch: &|_| None };
+    play_watched(task, contestant, journal, &context).map(|(result, _)| result)
 }
 
-/// Plays an episode as [`play`] does. `watch` is told the validity of each new decision, and can abort the episode.
+/// The surroundings of an episode.
+pub(crate) struct Context<'a> {
+    /// The end of the level before in its series.
+    pub(crate) previous: Option<&'a LevelEnd>,
+    /// A function that is told the validity of each new decision, and can abort the episode.
+    pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
+}
+
+/// Plays an episode as [`play`] does, and returns its end if it has one. An episode that has ended already is shown to the agent once
+/// more.
 pub(crate) fn play_watched(
     task: &Task<'_>,
     contestant: &mut Contestant,
     journal: &mut Journal,
-    watch: &dyn Fn(Validity) -> Option<Halt>,
-) -> Result<PlayResult, EvaluationError> {
-    if let Some(Event::End { outcome, .. }) = journal.events().last() {
-        return Ok(PlayResult::Ended(*outcome));
-    }
-    if matches!(contestant, Contestant::Planner { .. }) && !journal.events().is_empty() {
+    context: &Context<'_>,
+) -> Result<(PlayResult, Option<LevelEnd>), EvaluationError> {
+    let has_ended = matches!(journal.events().last(), Some(Event::End { .. }));
+    if matches!(contestant, Contestant::Planner { .. }) && !journal.events().is_empty() && !has_ended {
         journal.clear()?;
     }
-    let mut play = Playing::start(task, contestant);
+    let mut play = Playing::start(task, contestant, context.previous);
     match journal.events().first() {
         None => journal.push(play.start_event())?,
         Some(first) if *first == play.start_event() => {}
         Some(_) => return Err(journal.malformed("this is the log of another episode; use another folder")),
     }
     if let Some(halt) = play.replay_log(journal)? {
-        return Ok(PlayResult::Halted(halt));
+        return Ok((PlayResult::Halted(halt), None));
     }
     while !play.is_over() {
         let halt = match play.decide(journal)? {
-            Ok(validity) => watch(validity).filter(|_| !play.is_over()),
+            Ok(validity) => (context.watch)(validity).filter(|_| !play.is_over()),
             Err(halt) => Some(halt),
         };
         if let Some(halt) = halt {
-            if let Some(event) = halt.event() {
-                journal.push(event)?;
-            }
-            return Ok(PlayResult::Halted(halt));
+            return halted(halt, journal);
         }
+    }
+    if !has_ended && let Err(halt) = play.predict(journal)? {
+        return halted(halt, journal);
     }
     play.finish();
     let outcome = play.state.outcome();
     let status = if play.state.is_over() { Status::Over } else { Status::StepLimit };
-    journal.push(Event::End { status, outcome, score: play.state.score(), steps: play.steps })?;
-    Ok(PlayResult::Ended(outcome))
+    if !has_ended {
+        journal.push(Event::End { status, outcome, score: play.state.score(), steps: play.steps })?;
+    }
+    let before = play.recent.last.map(|(seen, action, _)| (seen, action));
+    Ok((PlayResult::Ended(outcome), Some(LevelEnd { last: play.seen, before, steps: play.steps })))
+}
+
+/// Records the reason why an episode is aborted.
+fn halted(halt: Halt, journal: &mut Journal) -> Result<(PlayResult, Option<LevelEnd>), EvaluationError> {
+    if let Some(event) = halt.event() {
+        journal.push(event)?;
+    }
+    Ok((PlayResult::Halted(halt), None))
 }
 
 struct Playing<'a> {
@@ -150,20 +192,29 @@ struct Playing<'a> {
     steps: u64,
     seen: Observation,
     recent: Recent,
+    /// The end of the level before.
+    previous: Option<&'a LevelEnd>,
 }
 
 impl<'a> Playing<'a> {
-    fn start(task: &'a Task<'a>, contestant: &'a mut Contestant) -> Playing<'a> {
+    fn start(
+        task: &'a Task<'a>,
+        contestant: &'a mut Contestant,
+        previous: Option<&'a LevelEnd>,
+    ) -> Playing<'a> {
         let state = task.subject.game.start(&task.level.level, task.chance());
         let player = match contestant {
             Contestant::Planner { spec, budget } => {
                 let seed = task.chance().child(spec.name(), 0);
                 Some(OpenLoop::new(spec.player(seed), spec.budget().unwrap_or(*budget), seed))
             }
-            Contestant::Agent(_) => None,
+            Contestant::Agent(agent) => {
+                agent.begin(task);
+                None
+            }
         };
         let seen = task.subject.game.observe(&state);
-        Playing { task, contestant, player, state, steps: 0, seen, recent: Recent::default() }
+        Playing { task, contestant, player, state, steps: 0, seen, recent: Recent::default(), previous }
     }
 
     fn game(&self) -> &'a Game {
@@ -181,7 +232,7 @@ impl<'a> Playing<'a> {
 
     /// Returns the first line of the log.
     fn start_event(&self) -> Event {
-        let Task { subject, level, run, max_steps, commit, .. } = *self.task;
+        let Task { subject, level, run, max_steps, commit, track, series, .. } = *self.task;
         let (game, game_digest) = (subject.id.clone(), subject.game.digest());
         Event::Start {
             schema: SCHEMA,
@@ -194,6 +245,8 @@ impl<'a> Playing<'a> {
             seed: self.task.chance(),
             max_steps,
             commit,
+            track: track.map(str::to_owned),
+            series,
             hash: self.state.state_hash(),
             avatar: place(&self.seen),
         }
@@ -207,7 +260,7 @@ impl<'a> Playing<'a> {
         while let Some((at, choice)) = decision_after(journal.events(), from, self.task.commit) {
             journal.set_step(from, Some(at));
             let (actions, recent) = (choices(self.game(), &self.state), std::mem::take(&mut self.recent));
-            let turn = Turn::of(self.task, self.steps, &self.seen, &recent, &actions);
+            let turn = Turn::of(self.task, self.steps, &self.seen, &recent, &actions, self.previous);
             if let Contestant::Agent(agent) = &mut *self.contestant
                 && let Err(halt) = agent.recall(&turn, journal, &choice)
             {
@@ -231,7 +284,7 @@ impl<'a> Playing<'a> {
             }
             (Contestant::Agent(agent), _) => {
                 let actions = choices(game, &self.state);
-                let turn = Turn::of(self.task, self.steps, &self.seen, &recent, &actions);
+                let turn = Turn::of(self.task, self.steps, &self.seen, &recent, &actions, self.previous);
                 agent.act(&turn, journal).map(|choice| (choice, None))
             }
             (Contestant::Planner { .. }, None) => unreachable!("planners are made at the start"),
@@ -301,8 +354,30 @@ impl<'a> Playing<'a> {
     /// Shows the agent the final state.
     fn finish(&mut self) {
         if let Contestant::Agent(agent) = &mut *self.contestant {
-            agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.recent, &[]));
+            agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.recent, &[], self.previous));
         }
+    }
+
+    /// Asks the agent about the rules after the last level of a series, and records the answer with its grade.
+    fn predict(&mut self, journal: &mut Journal) -> Result<Result<(), Halt>, EvaluationError> {
+        let is_last = self.task.series.is_some_and(SeriesPlace::is_last);
+        let is_recorded = |event: &Event| matches!(event, Event::Predictions { .. });
+        let Contestant::Agent(agent) = &mut *self.contestant else { return Ok(Ok(())) };
+        if !is_last || journal.events().iter().any(is_recorded) {
+            return Ok(Ok(()));
+        }
+        let analysis = &self.task.subject.analysis;
+        let kinds = asked_kinds(self.task);
+        let last = Turn::of(self.task, self.steps, &self.seen, &self.recent, &[], self.previous);
+        let said = match agent.predict(&last, &kinds, journal) {
+            Ok(Some(said)) => said,
+            Ok(None) => return Ok(Ok(())),
+            Err(halt) => return Ok(Err(halt)),
+        };
+        let (predicted, validity) = (said.predicted, said.validity);
+        let grade = graded(analysis, &kinds, predicted.as_ref());
+        journal.push(Event::Predictions { step: self.steps, kinds, predicted, validity, grade })?;
+        Ok(Ok(()))
     }
 
     /// Plays an action, or nothing if it is not available, and returns the event that records it.
@@ -327,6 +402,26 @@ impl<'a> Playing<'a> {
             avatar,
             calls,
             took_ms,
+        }
+    }
+}
+
+/// Returns the kinds that the last question of a series is about: those at the start of the levels of the game that were selected.
+fn asked_kinds(task: &Task<'_>) -> Vec<String> {
+    let subject = task.subject;
+    let at = subject.levels.iter().position(|level| level.number == task.level.number).unwrap_or_default();
+    let of = task.series.map_or(1, |place| place.of as usize);
+    let levels = subject.levels[(at + 1).saturating_sub(of)..=at].iter().map(|level| &level.level);
+    kinds_at_start(&subject.analysis, levels)
+}
+
+/// Grades an answer to the last question. Without a usable one, nothing is right, and nothing was known.
+pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: Option<&Predicted>) -> Grade {
+    match predicted {
+        Some(predicted) => grade(analysis, kinds, predicted),
+        None => {
+            let grade = grade(analysis, kinds, &Predicted::new());
+            Grade { right: 0, insight: grade.insight.map(|_| 0.0), ..grade }
         }
     }
 }

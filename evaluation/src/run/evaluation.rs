@@ -4,11 +4,13 @@ use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_STEP, decisions};
 use crate::metrics::replay;
 use crate::player::{Contestant, Halt};
-use crate::run::episode::{PlayResult, Task, play_watched};
+use crate::run::episode::{PlayResult, Task};
+use crate::run::series::{Series, play_series, series_of};
 use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
 use crate::run::text::read_text;
 use crate::run::unusable::{Answers, Watch};
 use crate::subject::Subject;
+use crate::track::SeriesPlace;
 use engine::{Outcome, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -64,8 +66,11 @@ pub struct Tally {
     pub episodes: u64,
     /// The number of episodes that ended.
     pub ended: u64,
-    /// The number of those that were won.
+    /// The number of those that were won, without those for practice.
     pub won: u64,
+    /// The number of episodes in total that are for practice, and count in no result.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub practice: u64,
     /// The decisions of all episodes, and those without a usable answer, in which nothing was done.
     #[serde(flatten)]
     pub answers: Answers,
@@ -75,6 +80,10 @@ pub struct Tally {
     pub halted: Option<String>,
     /// `true` if the cause is the network, the server, the disk or a player's process, rather than a cap or the user.
     pub infrastructure: bool,
+}
+
+fn is_zero(number: &u64) -> bool {
+    *number == 0
 }
 
 impl Evaluation {
@@ -274,21 +283,14 @@ impl Evaluation {
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
         // In order rather than in halves: when a run is aborted, every level has been played about equally often.
-        let results = tasks.iter().par_bridge().map(|task| {
-            if stopped.load(Ordering::Relaxed) || watch.halt().is_some() {
-                return Ok(None);
-            }
-            let mut journal = Journal::open(&self.log_path(task))?;
-            let watched = |validity| {
-                let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
-                halt.iter().for_each(|halt| progress.stopped(halt));
-                halt
-            };
-            let result = match contestant(task) {
-                Ok(mut contestant) => play_watched(task, &mut contestant, &mut journal, &watched)?,
-                Err(halt) => PlayResult::Halted(halt),
-            };
-            match &result {
+        let is_stopped = || stopped.load(Ordering::Relaxed) || watch.halt().is_some();
+        let watched = |validity| {
+            let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
+            halt.iter().for_each(|halt| progress.stopped(halt));
+            halt
+        };
+        let played = |task: &Task<'_>, result: &PlayResult, journal: &Journal| {
+            match result {
                 PlayResult::Ended(_) => failures.store(0, Ordering::Relaxed),
                 PlayResult::Halted(halt) => {
                     let many = failures.fetch_add(1, Ordering::Relaxed) + 1 >= FAILURES_IN_A_ROW;
@@ -302,16 +304,27 @@ impl Evaluation {
             for validity in decisions(journal.events()) {
                 answers.lock().expect("no holder panics").add(validity);
             }
-            progress.episode(task, &result);
-            Ok(Some(result))
+            progress.episode(task, result);
+        };
+        let results = series_of(&tasks).into_iter().par_bridge().map(|tasks| {
+            if is_stopped() {
+                return Ok(Vec::new());
+            }
+            let open = |task: &Task<'_>| Journal::open(&self.log_path(task));
+            play_series(
+                &Series { tasks, watch: &watched, is_stopped: &is_stopped },
+                &contestant,
+                open,
+                &played,
+            )
         });
-        let results = results.collect::<Result<Vec<Option<PlayResult>>, EvaluationError>>()?;
+        let results: Vec<Vec<(bool, PlayResult)>> = results.collect::<Result<_, EvaluationError>>()?;
         let ended = |won: bool| {
-            let ended = |result: &&Option<PlayResult>| match result {
-                Some(PlayResult::Ended(outcome)) => !won || *outcome == Outcome::Won,
-                _ => false,
+            let ended = |(is_practice, result): &&(bool, PlayResult)| match result {
+                PlayResult::Ended(outcome) => !won || (*outcome == Outcome::Won && !is_practice),
+                PlayResult::Halted(_) => false,
             };
-            results.iter().filter(ended).count() as u64
+            results.iter().flatten().filter(ended).count() as u64
         };
         let halted: Option<Halt> = first.into_inner().expect("no holder panics").or_else(|| watch.halt());
         let (episodes, won, ended) = (tasks.len() as u64, ended(true), ended(false));
@@ -319,6 +332,7 @@ impl Evaluation {
             episodes,
             ended,
             won,
+            practice: tasks.iter().filter(|task| task.is_practice()).count() as u64,
             answers: answers.into_inner().expect("no holder panics"),
             open: episodes - ended,
             infrastructure: matches!(
@@ -331,17 +345,22 @@ impl Evaluation {
 }
 
 /// Returns all episodes of an evaluation, run by run: when it is aborted, every level has been played about equally often.
-pub fn tasks<'a>(settings: &Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
+pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
     let (seed, max_steps) = (Seed::from_text(&settings.seed), settings.max_steps);
     let on = |run: u64| {
-        let levels = |subject: &'a Subject| subject.levels.iter().map(move |level| (subject, level));
-        subjects.iter().flat_map(levels).map(move |(subject, level)| Task {
+        let levels = |subject: &'a Subject| {
+            let places = SeriesPlace::all(subject.levels.len(), settings.series);
+            subject.levels.iter().zip(places).map(move |(level, place)| (subject, level, place))
+        };
+        subjects.iter().flat_map(levels).map(move |(subject, level, place)| Task {
             subject,
             level,
             run,
             seed,
             max_steps,
             commit: settings.commit,
+            track: settings.track.as_deref(),
+            series: place,
         })
     };
     (0..settings.runs).flat_map(on).collect()
@@ -392,7 +411,7 @@ fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
         "entrant" => "player, model, prompt or decoding".to_owned(),
         "games" => "choice of games or levels".to_owned(),
         "max_steps" => "--max-steps".to_owned(),
-        "runs" | "seed" | "commit" => format!("--{name}"),
+        "runs" | "seed" | "commit" | "track" => format!("--{name}"),
         "suite" | "semantics" => "version of arcade".to_owned(),
         other => other.to_owned(),
     })

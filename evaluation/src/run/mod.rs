@@ -3,11 +3,12 @@
 pub(crate) mod clock;
 mod episode;
 mod evaluation;
+mod series;
 mod settings;
 pub(crate) mod text;
 mod unusable;
 
-pub(crate) use episode::available;
+pub(crate) use episode::{available, graded};
 
 pub use episode::{PlayResult, Task, play};
 pub use evaluation::{Evaluation, Progress, Tally, tasks};

@@ -4,6 +4,7 @@ use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
 use crate::subject::{Subject, SubjectFacts, Unreadable};
+use crate::track::Track;
 use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -44,8 +45,23 @@ pub struct Settings {
     /// The number of actions that the player commits to at each look.
     #[serde(default, skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
+    /// The track with its version, such as `masked@1`; `None` for prompts that were put together by hand.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub track: Option<String>,
+    /// The number of levels of a game that are played in one conversation, at most.
+    #[serde(default = "alone", skip_serializing_if = "is_alone")]
+    pub series: u64,
     /// The games played.
     pub games: Vec<SubjectEntry>,
+}
+
+/// The length of a series of one level.
+fn alone() -> u64 {
+    1
+}
+
+fn is_alone(series: &u64) -> bool {
+    *series == alone()
 }
 
 /// The player and the settings of its observations.
@@ -89,6 +105,26 @@ pub struct LevelEntry {
 }
 
 impl Settings {
+    /// Sets the track, with the length of its series, and lists it among the differences from other players.
+    ///
+    /// # Errors
+    /// A game has too few levels for a series.
+    pub fn on_track(mut self, track: Track) -> Result<Settings, String> {
+        (self.track, self.series) = (Some(track.id()), track.series());
+        self.entrant.aids.push(track.aid());
+        self.entrant.aids.sort();
+        match self.games.iter().find(|game| track.series() > 1 && game.levels.len() < 2) {
+            Some(game) => Err(format!(
+                "the track `{}` takes at least two levels of a game, one of them for practice; `{}` has {}: choose others with --games \
+                 and --levels",
+                track.name(),
+                game.id,
+                game.levels.len()
+            )),
+            None => Ok(self),
+        }
+    }
+
     /// Checks that the settings stay within the limits, and that every game and level is listed once. This bounds the size
     /// of a results folder for its readers.
     ///

@@ -232,6 +232,7 @@ mod tests {
                     before: None,
                     played: &[],
                     actions,
+                    series: None,
                 };
                 let messages = prompter.prompt(&turn, &[], &[]).messages;
                 let shown = Shown::of(&messages).unwrap();

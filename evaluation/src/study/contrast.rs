@@ -147,7 +147,10 @@ impl Contrasts {
         let pairs = players.tuple_combinations().filter(|((_, ours), (_, theirs))| {
             let comparable = ours.mode == theirs.mode || ours.mode.is_none() || theirs.mode.is_none();
             let same = (&ours.name, &ours.conditions) == (&theirs.name, &theirs.conditions);
-            comparable && !same && (ours.name != theirs.name || ours.aids == theirs.aids)
+            comparable
+                && !same
+                && ours.is_comparable(theirs)
+                && (ours.name != theirs.name || ours.aids == theirs.aids)
         });
         Contrasts::of(study, &pairs.map(|((a, _), (b, _))| [a, b]).collect_vec())
     }
@@ -173,7 +176,8 @@ impl Contrasts {
             let of = |player: &super::Player| {
                 (player.name.clone(), player.mode.clone(), player.conditions.clone())
             };
-            let same = of(without) == of(with);
+            // A track is no aid: its results stay apart.
+            let same = of(without) == of(with) && without.track() == with.track();
             let more = with.aids.len() == without.aids.len() + 1;
             same && more && without.aids.iter().all(|aid| with.aids.contains(aid))
         });

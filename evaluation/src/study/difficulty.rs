@@ -60,7 +60,7 @@ impl DifficultyRow {
         let player = |player: usize| {
             Some(Scores::of(study.on(player, Some(game), level))).filter(|scores| scores.episodes > 0)
         };
-        let players: Vec<Scores> = (0..study.players.len()).filter_map(player).collect();
+        let players: Vec<Scores> = study.on_first_track().filter_map(player).collect();
         let mean_of = |of: fn(&Scores) -> Option<f64>| mean(players.iter().filter_map(of));
         let win_rate = mean_of(|scores| scores.win_rate.map(|rate| rate.value));
         let normalised_reward = mean_of(|scores| scores.normalised_reward);

@@ -24,6 +24,7 @@ mod mirror;
 mod person;
 mod player;
 mod power;
+mod predictions;
 mod read;
 mod scores;
 mod sweep;
@@ -42,6 +43,7 @@ pub use marks::MarkRow;
 pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
 pub use player::{CONTEXTUAL, Player, ZERO_SHOT};
 pub use power::{PowerRow, power, table as power_table};
+pub use predictions::PredictionRow;
 pub use read::PlayedLogs;
 pub use scores::{Estimate, Scores, StudyEpisode};
 pub use sweep::{Sweep, SweepRow};
@@ -106,6 +108,9 @@ pub struct Study {
     /// The marks of the releases that the levels are from, and the players on these levels; empty if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkRow>,
+    /// The predictions of the rules after series of levels.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub predictions: Vec<PredictionRow>,
     /// The statistical power of the episodes.
     pub power: Vec<PowerRow>,
 }
@@ -164,13 +169,22 @@ impl Study {
     /// and level.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
         let mut study = Study { games, ..Study::default() };
+        let mut practice = 0;
         for (player, episodes) in results {
             let known = study.players.iter().position(|known| *known == player);
             let player = known.unwrap_or_else(|| {
                 study.players.push(player);
                 study.players.len() - 1
             });
-            episodes.into_iter().for_each(|metrics| study.add(player, metrics));
+            let (practised, counted): (Vec<_>, Vec<_>) =
+                episodes.into_iter().partition(EpisodeMetrics::is_practice);
+            practice += practised.len();
+            counted.into_iter().for_each(|metrics| study.add(player, metrics));
+        }
+        if practice > 0 {
+            study.notes.push(format!(
+                "{practice} episodes on first levels of a series are for practice, and are left out of all numbers."
+            ));
         }
         study.episodes.sort_by_key(|episode| (place(episode), episode.metrics.run));
         scores::normalise(&mut study.episodes);
@@ -196,6 +210,7 @@ impl Study {
         study.taxonomy = taxonomy::taxonomy(&study);
         study.horizons = horizon::horizons(&study);
         study.marks = marks::rows(&study);
+        study.predictions = predictions::rows(&study);
         study.power = power::of_study(&study);
         study
     }
@@ -222,6 +237,15 @@ impl Study {
                 limits.iter().join(", ")
             ));
         }
+        let tracks = self.players.iter().filter(|player| player.track().is_some() || !player.is_reference());
+        let tracks = tracks.map(Player::track).dedup().unique().collect_vec();
+        if let [first, _, ..] = tracks[..] {
+            let first = first.map_or("no track".to_owned(), |track| format!("the track {track}"));
+            self.notes.push(format!(
+                "Players are on different tracks, whose results are not comparable: they are compared within a track only, and difficulty, \
+                 correlations and failure modes are of {first}."
+            ));
+        }
         let broken = self.episodes.iter().filter(|episode| !episode.metrics.counts()).count();
         if broken > 0 {
             self.notes.push(format!(
@@ -229,6 +253,15 @@ impl Study {
                 self.episodes.len()
             ));
         }
+    }
+
+    /// Returns the players whose results are put together where a number is about several players: those on the track of the first
+    /// one, and baselines that read no prompts.
+    pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
+        let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());
+        let first = first.or(self.players.first());
+        let is_on = move |player: &Player| first.is_none_or(|first| first.is_comparable(player));
+        (0..self.players.len()).filter(move |&player| is_on(&self.players[player]))
     }
 
     /// Returns the scopes with models, or all together if there are none.
@@ -254,7 +287,10 @@ impl Study {
     /// Returns the ended episodes of models, or of all players if there is no model.
     pub fn tested(&self) -> impl Iterator<Item = &StudyEpisode> + '_ {
         let models = self.players.iter().any(|player| !player.is_reference());
-        let is_tested = move |player: usize| !models || !self.players[player].is_reference();
+        let on_track: Vec<usize> = self.on_first_track().collect();
+        let is_tested = move |player: usize| {
+            on_track.contains(&player) && (!models || !self.players[player].is_reference())
+        };
         self.episodes.iter().filter(move |episode| is_tested(episode.player) && episode.metrics.counts())
     }
 
@@ -275,6 +311,7 @@ impl Study {
         let mut tables = leaderboard::tables(self);
         tables.extend(horizon::table(self));
         tables.extend(marks::table(self));
+        tables.extend(predictions::table(self));
         tables.extend(endings::tables(self));
         for (matrices, grain) in [(&self.by_game, "game"), (&self.by_level, "level")] {
             for measure in Measure::ALL {

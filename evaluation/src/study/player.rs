@@ -1,6 +1,7 @@
 //! The players of a study.
 
 use crate::run::Entrant;
+use crate::track;
 use serde::Serialize;
 
 /// A player of a study. Equal players in several results folders are one.
@@ -45,6 +46,19 @@ impl Player {
     pub fn is_reference(&self) -> bool {
         let examined = ["cmd:", "human", "mailbox"].iter().any(|name| self.name.starts_with(name));
         self.mode.is_none() && !examined
+    }
+
+    /// Returns the track with its version, such as `masked@1`; `None` for players whose prompts were put together by hand, and for
+    /// those that read none.
+    pub fn track(&self) -> Option<&str> {
+        self.aids.iter().find_map(|aid| aid.strip_prefix(track::AID))
+    }
+
+    /// Returns `true` if results of the two can be compared: they are on the same track, or one of them is a baseline that reads no
+    /// prompts.
+    pub fn is_comparable(&self, other: &Player) -> bool {
+        let is_free = |player: &Player| player.track().is_none() && player.is_reference();
+        self.track() == other.track() || is_free(self) || is_free(other)
     }
 
     /// Returns the name with mode, aids and conditions, which is unique within a study.

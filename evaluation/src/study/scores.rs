@@ -186,14 +186,15 @@ pub(crate) fn levels_of<'a>(
 
 /// Fills in normalised rewards and maximum steps.
 pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
-    let mut ranges: BTreeMap<(usize, usize), (f64, f64, u64)> = BTreeMap::new();
+    let place = |episode: &StudyEpisode| (episode.metrics.track.clone(), episode.game, episode.metrics.level);
+    let mut ranges: BTreeMap<_, (f64, f64, u64)> = BTreeMap::new();
     for episode in episodes.iter().filter(|episode| episode.metrics.counts()) {
         let (score, steps) = (episode.metrics.score, episode.metrics.steps);
-        let range = ranges.entry((episode.game, episode.metrics.level)).or_insert((score, score, steps));
+        let range = ranges.entry(place(episode)).or_insert((score, score, steps));
         *range = (range.0.min(score), range.1.max(score), range.2.max(steps));
     }
     for episode in episodes {
-        let Some(&(least, most, steps)) = ranges.get(&(episode.game, episode.metrics.level)) else {
+        let Some(&(least, most, steps)) = ranges.get(&place(episode)) else {
             continue;
         };
         let score = episode.metrics.score;

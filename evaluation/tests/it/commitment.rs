@@ -48,7 +48,7 @@ fn subject() -> Subject {
 fn task<'a>(subject: &'a Subject, commit: &str, max_steps: u64) -> Task<'a> {
     let commit = commit.parse().unwrap();
     let seed = Seed::from_text("commitment");
-    Task { subject, level: &subject.levels[0], run: 0, seed, max_steps, commit }
+    Task { subject, level: &subject.levels[0], run: 0, seed, max_steps, commit, track: None, series: None }
 }
 
 /// An agent that gives these plans, `None` for an answer of no use, and records what it is shown.

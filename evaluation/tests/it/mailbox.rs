@@ -37,6 +37,8 @@ fn settings(subjects: &[Subject], seed: &str) -> Settings {
         runs: 1,
         max_steps: 3,
         commit: Commitment::ONE,
+        track: None,
+        series: 1,
         games: Evaluation::entries(subjects),
     }
 }
@@ -300,6 +302,8 @@ fn waiting_episodes_give_up_when_the_evaluation_stops() {
                 seed,
                 max_steps: 3,
                 commit: Commitment::ONE,
+                track: None,
+                series: None,
             };
             let player = MailboxPlayer::new(mailbox.clone(), &task, prompter, 1);
             let mut journal = Journal::in_memory();

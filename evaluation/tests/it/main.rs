@@ -12,4 +12,5 @@ mod runs;
 mod scores;
 mod served;
 mod server;
+mod tracks;
 mod walk;

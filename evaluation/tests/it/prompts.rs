@@ -19,7 +19,7 @@ fn prompter(subject: &Subject, settings: &PromptSettings) -> Prompter {
     Prompter::new(subject, settings.clone()).unwrap_or_else(|error| panic!("{}: {error}", subject.id))
 }
 
-fn text(messages: &[ChatMessage]) -> String {
+pub(crate) fn text(messages: &[ChatMessage]) -> String {
     let one = |message: &ChatMessage| {
         format!("[{}]\n{}\n", format!("{:?}", message.role).to_lowercase(), message.text)
     };
@@ -27,7 +27,7 @@ fn text(messages: &[ChatMessage]) -> String {
 }
 
 /// Compares a text with a file of `golden/`, or writes the file.
-fn golden(name: &str, got: &str) {
+pub(crate) fn golden(name: &str, got: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
     if std::env::var_os("BLESS").is_some() {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -269,6 +269,7 @@ fn all_settings_render() {
                 mode: if has(2) { Mode::Contextual } else { Mode::ZeroShot },
                 rules: [Rules::Described, Rules::Vgdl, Rules::None][(bits % 3) as usize],
                 masked_names: has(3),
+                neutral_names: has(10),
                 legend: has(4),
                 action_meanings: has(5),
                 position: has(6),

@@ -35,6 +35,8 @@ fn settings(subjects: &[Subject]) -> Settings {
         runs: 2,
         max_steps: 25,
         commit: Commitment::ONE,
+        track: None,
+        series: 1,
         games: Evaluation::entries(subjects),
     }
 }

@@ -66,6 +66,7 @@ fn episode(
                 reward: *reward,
             }),
             actions: &offered(game, &state),
+            series: None,
         };
         let prompt = prompter.prompt(&turn, &past, &[]);
         let answer = answer(&prompt.messages);
@@ -225,6 +226,7 @@ fn planners_refuse_games_with_hidden_state() {
             before: None,
             played: &[],
             actions,
+            series: None,
         };
         player.answer(&prompter.prompt(&turn, &[], &[]).messages).unwrap_err().to_string()
     };

@@ -94,6 +94,7 @@ impl<'a> Walk<'a> {
                 reward: *reward,
             }),
             actions: &self.actions,
+            series: None,
         }
     }
 

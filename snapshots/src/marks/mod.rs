@@ -43,13 +43,16 @@ const PLAYED: f64 = 0.5;
 const CALL: f64 = 1e-6;
 const PROMPT: f64 = 3e-3;
 
+/// The player without rules, which reads no prompts.
+const TOUCHING: &str = "touch-everything";
+
 engine::with_defaults! {
     /// The marks that a recipe asks for.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MarksPart {
         /// The players, as `arcade evaluate --player` names them; planners with their calls of a decision.
-        pub players: Vec<String> = names(&["random", "nearest-goal", "reflex", "width:200", "guided-mcts:200", "olets:200"]),
+        pub players: Vec<String> = names(&["random", "touch-everything", "nearest-goal", "reflex", "width:200", "guided-mcts:200", "olets:200"]),
         /// The numbers of actions that they commit to at each look.
         pub commits: Vec<Commitment> = vec![Commitment::One, Commitment::Five, Commitment::Twenty, Commitment::All],
         /// The number of episodes of each player with each commitment on each level.
@@ -108,6 +111,7 @@ impl MarksPart {
                 let commits = if is_certain { 1 } else { self.commits.len() };
                 CALL * spec.budget().map_or(0, |Budget(calls)| calls) as f64 * commits as f64
             }
+            Err(_) if player == TOUCHING => 0.0,
             Err(_) => PROMPT * self.commits.iter().map(looks).sum::<f64>(),
         };
         let actions = PLAYED * (self.plays * self.max_steps) as f64;

@@ -29,19 +29,28 @@ pub(super) struct Answer {
     pub(super) cost: String,
 }
 
-/// Returns the messages at each decision, in order; empty for a decision without text.
+/// Returns the messages at each decision, in order; empty for a decision without text. Texts of earlier levels, which a log has again
+/// where a conversation goes on, are left out; the question after the last decision is at that one.
 pub(super) fn talks(log: &[Event]) -> Vec<Talk> {
-    let (mut talks, mut current) = (Vec::new(), Talk::default());
+    let (mut talks, mut current, mut new): (Vec<Talk>, _, _) = (Vec::new(), Talk::default(), Vec::new());
     for event in log {
         match event {
-            Event::Message { role, text, image, .. } if *role != Role::Assistant => {
+            Event::Message { id, role, text, image } if *role != Role::Assistant => {
                 let picture = if image.is_some() { "[a picture of the board]\n" } else { "" };
-                current.shown.push(cut(&format!("{picture}{text}"), SHOWN));
+                new.push((*id, cut(&format!("{picture}{text}"), SHOWN)));
+            }
+            Event::Request { messages, .. } => {
+                let is_shown = |id: &u32| [messages.first(), messages.last()].contains(&Some(id));
+                current.shown.extend(new.drain(..).filter(|(id, _)| is_shown(id)).map(|(_, text)| text));
             }
             Event::Reply(reply) => current.answers.push(Answer::of(reply)),
             Event::Step { .. } => talks.push(std::mem::take(&mut current)),
             _ => {}
         }
+    }
+    if let Some(last) = talks.last_mut().filter(|_| !current.answers.is_empty()) {
+        last.shown.append(&mut current.shown);
+        last.answers.append(&mut current.answers);
     }
     talks
 }
@@ -90,6 +99,33 @@ fn cut(text: &str, most: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn earlier_levels_are_left_out_and_the_last_question_is_kept() {
+        let message =
+            |id: u32, role: Role| Event::Message { id, role, text: format!("text {id}"), image: None };
+        let request = |messages: Vec<u32>| Event::Request { step: 0, attempt: 0, messages, tokens: 9 };
+        let line = r#"{"event":"reply","step":0,"attempt":0,"class":"strict","text":"so","finish":"stop","usage":{},"latency_ms":0}"#;
+        let reply: Event = serde_json::from_str(line).unwrap();
+        let line = r#"{"event":"step","step":0,"action":"nil","validity":"valid","score":0.0,"hash":"HASH","outcome":"ongoing","avatar":null,"took_ms":0}"#;
+        let step: Event = serde_json::from_str(&line.replace("HASH", &"0".repeat(32))).unwrap();
+        let log = [
+            message(0, Role::System),
+            message(1, Role::User),
+            message(2, Role::Assistant),
+            message(3, Role::User),
+            request(vec![0, 1, 2, 3]),
+            reply.clone(),
+            step,
+            message(4, Role::User),
+            request(vec![0, 1, 2, 3, 4]),
+            reply,
+        ];
+        let talks = talks(&log);
+        assert_eq!(talks.len(), 1);
+        assert_eq!(talks[0].shown, ["text 0", "text 3", "text 4"]);
+        assert_eq!(talks[0].answers.len(), 2);
+    }
 
     #[test]
     fn long_texts_say_how_much_is_left_out() {

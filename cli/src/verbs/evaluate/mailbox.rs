@@ -42,7 +42,7 @@ impl RequestedMailbox {
         Ok(Entrant {
             name: args.name.clone().unwrap_or_else(|| format!("mailbox:{folder}")),
             mode: Some(self.prompts.mode.name().to_owned()),
-            aids: self.prompts.aids(),
+            aids: args.model.prompt.aids(&self.prompts),
             details: json!({
                 "mailbox": true,
                 "prompt": self.prompts,

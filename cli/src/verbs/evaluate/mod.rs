@@ -4,6 +4,7 @@ mod human;
 mod mailbox;
 mod model;
 mod subjects;
+mod track;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -17,11 +18,11 @@ use engine::{Outcome, SEMANTICS};
 use evaluation::client::Spent;
 use evaluation::player::mailbox::Mailbox;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
-use evaluation::player::{Contestant, Replay};
+use evaluation::player::{Contestant, Replay, Touching};
 use evaluation::prompt::PromptSettings;
 use evaluation::run::{self, Answers, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
-use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
+use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, Track, study};
 use human::Human;
 use indicatif::ProgressBar;
 use itertools::Itertools;
@@ -51,7 +52,8 @@ pub(crate) struct Args {
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
     /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see
-    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`); a program of yours,
+    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`), `touch-everything`; a
+    /// program of yours,
     /// `"cmd:python3 my_agent.py"` (see `arcade docs agents`); or whoever answers the files in a folder, `mailbox:DIR`
     /// (see `arcade docs mailbox`)
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
@@ -105,6 +107,7 @@ pub(crate) struct Args {
 enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
+    Touching,
     Human(PromptSettings),
     Mailbox(RequestedMailbox),
     Prompted(PromptPlayer, PromptSettings),
@@ -136,9 +139,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         bail!("--jobs takes a number of episodes at a time, at least 1");
     }
     let requested = requested_player(args)?;
+    track::check(args, &requested)?;
     reject_unused_flags(args, &requested)?;
     let subjects = subjects::read(args)?;
-    let settings = Settings {
+    let mut settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
@@ -148,11 +152,17 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         runs: args.runs,
         max_steps: args.max_steps,
         commit: args.commit,
+        track: None,
+        series: 1,
         games: Evaluation::entries(&subjects.games),
     };
+    if let Some(track) = args.model.prompt.track {
+        settings = settings.on_track(track).map_err(Failure::malformed)?;
+    }
     settings
         .check()
         .map_err(|problem| malformed!("{problem}; see --runs, --max-steps, --games and --levels"))?;
+    track::advise(args.model.prompt.track, &subjects.games, console);
     if args.dry_run {
         return forecast(&requested, &settings, &subjects.games, console);
     }
@@ -250,7 +260,7 @@ impl RequestedPlayer {
     /// Returns the player as results name it.
     fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let (name, details) = match self {
-            RequestedPlayer::Model(model) => return model.entrant(subjects, args.commit),
+            RequestedPlayer::Model(model) => return model.entrant(subjects, args),
             RequestedPlayer::Planner(spec) => {
                 let budget = spec.budget().unwrap_or(Budget(args.budget));
                 let looks_ahead =
@@ -262,6 +272,7 @@ impl RequestedPlayer {
                 (name, json!({ "planner": spec.name(), "budget": budget }))
             }
             RequestedPlayer::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
+            RequestedPlayer::Touching => (Touching::NAME.to_owned(), json!({ "player": Touching::NAME })),
             RequestedPlayer::Human(prompts) => {
                 (args.name.clone().unwrap_or("human".to_owned()), json!({ "prompt": prompts }))
             }
@@ -273,7 +284,9 @@ impl RequestedPlayer {
             }
         };
         let aids = match self {
-            RequestedPlayer::Human(prompts) | RequestedPlayer::Prompted(_, prompts) => prompts.aids(),
+            RequestedPlayer::Human(prompts) | RequestedPlayer::Prompted(_, prompts) => {
+                args.model.prompt.aids(prompts)
+            }
             _ => Vec::new(),
         };
         Ok(Entrant { name, mode: None, aids, details })
@@ -296,6 +309,14 @@ impl RequestedPlayer {
                 let replay = replay.clone();
                 Box::new(move |_| Contestant::Agent(Box::new(replay.clone())))
             }
+            RequestedPlayer::Touching => {
+                let is_blind = args.model.prompt.track == Some(Track::Discover);
+                let player = move |task: &Task<'_>| match is_blind {
+                    true => Touching::new(task.chance()).without_score(),
+                    false => Touching::new(task.chance()),
+                };
+                Box::new(move |task| Contestant::Agent(Box::new(player(task))))
+            }
             RequestedPlayer::Human(prompts) => {
                 let prompters = model::prompters(subjects, prompts, args.max_steps, args.commit)?;
                 let player = move |task: &Task<'_>| Human::new(prompters[&task.subject.id].clone());
@@ -312,8 +333,10 @@ impl RequestedPlayer {
             RequestedPlayer::Process(read) => {
                 let (command, timeout) = (read.command().to_owned(), args.model.timeout());
                 let remark = console.remarks();
+                let track = args.model.prompt.track.unwrap_or(Track::Told);
                 let process = move || {
-                    process(&command, timeout).expect("it was read before").with_notices(remark.clone())
+                    let process = process(&command, timeout).expect("it was read before");
+                    process.with_notices(remark.clone()).on_track(track)
                 };
                 Box::new(move |_| Contestant::Agent(Box::new(process())))
             }
@@ -389,7 +412,7 @@ fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), F
         );
     }
     let is_shown_prompts = is_named || matches!(requested, RequestedPlayer::Prompted(..));
-    if !is_shown_prompts && args.model.prompt.settings()? != PromptSettings::default() {
+    if !is_shown_prompts && args.model.prompt.has_flags()? {
         bail!(
             "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
              player `{player}`"
@@ -411,6 +434,9 @@ fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
     if let Some(file) = player.strip_prefix("replay:") {
         let episode = crate::episodes::read(Path::new(file))?;
         return Ok(RequestedPlayer::Replay(Replay::of(&episode)));
+    }
+    if player == Touching::NAME {
+        return Ok(RequestedPlayer::Touching);
     }
     if player == "human" {
         return Ok(RequestedPlayer::Human(args.model.prompt.settings()?));
@@ -463,8 +489,13 @@ fn print_results(
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
-    let Tally { episodes, ended, won, answers, open, halted, infrastructure } = tally;
-    console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won", entrant.name));
+    let Tally { episodes, ended, won, answers, open, halted, infrastructure, practice } = tally;
+    let practice = match practice {
+        0 => String::new(),
+        1 => format!("; 1 of the episodes is for practice, and {} count", episodes - 1),
+        _ => format!("; {practice} of the episodes are for practice, and {} count", episodes - practice),
+    };
+    console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won{practice}", entrant.name));
     if let Some((Spent { requests, tokens, .. }, cost)) = spent {
         let cost = cost.map_or("cost unknown".to_owned(), |cost| format!("{cost:.4} USD"));
         console.say(format_args!("{requests} requests, {tokens} tokens, {cost}"));

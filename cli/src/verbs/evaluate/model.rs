@@ -1,12 +1,13 @@
 //! The flags of language models, and the settings that they select.
 
+use super::Args;
 use crate::failure::Failure;
 use crate::input::read_text;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
 use evaluation::run::Task;
-use evaluation::{Commitment, Entrant, Observed, Subject};
+use evaluation::{Commitment, Entrant, Observed, SeriesPlace, Subject, Track};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::json;
@@ -90,9 +91,13 @@ pub(crate) struct ModelArgs {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
-    /// Earlier turns in prompts: left out or shown
-    #[arg(long, value_parser = named::<Mode, 2>(Mode::ALL.map(Mode::name)), default_value = "zero-shot")]
-    mode: Mode,
+    /// A bundle of settings of prompts, whose results are never mixed with others: the default prompts, names that
+    /// mean nothing, no rules but three levels to find them out, or a picture for the board (see `arcade docs tracks`)
+    #[arg(long, value_parser = PossibleValuesParser::new(Track::ALL.map(Track::name)).map(track_named))]
+    pub(super) track: Option<Track>,
+    /// Earlier turns in prompts: left out or shown [default: zero-shot]
+    #[arg(long, value_parser = named::<Mode, 2>(Mode::ALL.map(Mode::name)))]
+    mode: Option<Mode>,
     /// The composition of prompts
     #[arg(long, value_parser = named::<PromptStyle, 2>(["standard", "reference"]), default_value = "standard")]
     prompt_style: PromptStyle,
@@ -117,9 +122,15 @@ pub(crate) struct PromptArgs {
     /// Advice to add verbatim
     #[arg(long, value_name = "FILE")]
     strategy: Option<PathBuf>,
-    /// The most tokens of a conversation: older turns are left out beyond it
-    #[arg(long, value_name = "N", default_value_t = 20_000)]
-    history_tokens: u64,
+    /// The most tokens of a conversation: older turns are left out beyond it [default: 20000]
+    #[arg(long, value_name = "N")]
+    history_tokens: Option<u64>,
+}
+
+/// Parses the name of a track.
+fn track_named(name: String) -> Track {
+    let named = Track::ALL.into_iter().find(|track| track.name() == name);
+    named.expect("the parser knows the names")
 }
 
 /// Parses one of the names that a setting has in JSON.
@@ -157,17 +168,64 @@ enum Aid {
 }
 
 impl PromptArgs {
+    /// Returns the settings of prompts: those of the track, or those that the flags put together.
+    ///
+    /// # Errors
+    /// A flag contradicts the track.
     pub(crate) fn settings(&self) -> Result<PromptSettings, Failure> {
+        let by_flags = self.by_flags()?;
+        let Some(track) = self.track else { return Ok(by_flags) };
+        let mut settings = track.settings();
+        if let Some(mode) = self.mode {
+            if track == Track::Discover && mode != settings.mode {
+                bail!(
+                    "--mode {} contradicts the track `{}`, whose levels are one conversation; leave out one of the two",
+                    mode.name(),
+                    track.name()
+                );
+            }
+            settings.mode = mode;
+        }
+        settings.history_tokens = self.history_tokens.unwrap_or(settings.history_tokens);
+        // What a flag sets must be what the track has.
+        let free = PromptSettings {
+            mode: settings.mode,
+            history_tokens: settings.history_tokens,
+            ..PromptSettings::default()
+        };
+        let asked = PromptSettings { mode: free.mode, history_tokens: free.history_tokens, ..by_flags };
+        let of_track = settings.aids_beyond(&free);
+        if let Some(aid) = asked.aids_beyond(&free).into_iter().find(|aid| !of_track.contains(aid)) {
+            bail!(
+                "the track `{}` is a fixed bundle of settings, which `{aid}` contradicts; leave out its flag, or --track",
+                track.name()
+            );
+        }
+        Ok(settings)
+    }
+
+    /// Returns the differences of settings from the track, or from the default without one, as results list them.
+    pub(super) fn aids(&self, settings: &PromptSettings) -> Vec<String> {
+        let usual = self.track.map_or_else(PromptSettings::default, Track::settings);
+        settings.aids_beyond(&usual)
+    }
+
+    /// Returns `true` if a flag of prompts is set, the track apart.
+    pub(super) fn has_flags(&self) -> Result<bool, Failure> {
+        Ok(self.by_flags()? != PromptSettings::default())
+    }
+
+    fn by_flags(&self) -> Result<PromptSettings, Failure> {
         let strategy = self.strategy.as_deref().map(|path| read_text(path, MAX_STRATEGY)).transpose()?;
         let mut settings = PromptSettings {
             style: self.prompt_style,
-            mode: self.mode,
+            mode: self.mode.unwrap_or_default(),
             rules: self.rules,
             masked_names: self.masked_names,
             identity_tracking: self.identity_tracking,
             shuffled_symbols: self.shuffle_symbols,
             strategy,
-            history_tokens: self.history_tokens,
+            history_tokens: self.history_tokens.unwrap_or(PromptSettings::default().history_tokens),
             ..PromptSettings::default()
         };
         if let Some(both) = self.with.iter().find(|aid| self.without.contains(aid)) {
@@ -337,15 +395,15 @@ impl RequestedModel {
     }
 
     /// Returns the player as results name it.
-    pub(crate) fn entrant(&self, subjects: &[Subject], commit: Commitment) -> Result<Entrant, Failure> {
+    pub(super) fn entrant(&self, subjects: &[Subject], args: &Args) -> Result<Entrant, Failure> {
         let digest = subjects
             .first()
-            .map(|subject| self.prompter(subject, u64::MAX, commit).map(|own| own.digest()))
+            .map(|subject| self.prompter(subject, u64::MAX, args.commit).map(|own| own.digest()))
             .transpose()?;
         Ok(Entrant {
             name: self.settings.model.clone(),
             mode: Some(self.prompts.mode.name().to_owned()),
-            aids: self.prompts.aids(),
+            aids: args.model.prompt.aids(&self.prompts),
             details: json!({
                 "model": self.settings,
                 "prompt": self.prompts,
@@ -383,6 +441,8 @@ impl RequestedModel {
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
         let mut batches = Vec::new();
+        // The decisions of the levels before in the same conversation.
+        let mut earlier = 0;
         for task in tasks {
             let prompter = self.prompter(task.subject, task.max_steps, task.commit)?;
             let decisions = task.most_decisions();
@@ -390,10 +450,21 @@ impl RequestedModel {
             let prompt = prompter.prompt(&first.turn(task), &[], &[]);
             let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());
             let room = self.prompts.history_tokens.saturating_sub(fixed + turn);
+            if task.series.is_none_or(|place| place.index == 0) {
+                earlier = 0;
+            }
+            // The last question is a decision too.
+            let asked =
+                u64::from(prompter.asks_predictions() && task.series.is_some_and(SeriesPlace::is_last));
+            let decisions = decisions + asked;
             let past = match self.prompts.mode {
                 Mode::ZeroShot => 0,
-                Mode::Contextual => history(decisions, turn + answer, room),
+                Mode::Contextual => {
+                    let until = |steps: u64| history(steps, turn + answer, room);
+                    until(earlier + decisions) - until(earlier)
+                }
             };
+            earlier += decisions;
             batches.push(Batch {
                 requests: decisions,
                 stable_tokens: fixed,

@@ -11,7 +11,7 @@ use crate::client::{
 };
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal};
-use crate::player::{Agent, Choice, Halt, ModelPlayer};
+use crate::player::{Agent, Choice, Halt, ModelPlayer, Said};
 use crate::prompt::Prompter;
 use crate::run::Task;
 use crate::run::clock::Stopwatch;
@@ -72,27 +72,54 @@ impl MailboxPlayer {
         prompter: Arc<Prompter>,
         reasks: u32,
     ) -> MailboxPlayer {
-        let name = task.file_name();
-        let episode = name.strip_suffix(".jsonl").unwrap_or(&name).to_owned();
-        let path = mailbox.folder.join(&episode);
-        let folder = Arc::new(EpisodeFolder { mailbox, episode, path, open: Mutex::default() });
+        let folder = Arc::new(EpisodeFolder::of(mailbox, task));
         let samples = task.chance().child("answers", 0);
         let player = ModelPlayer::new(folder.clone(), prompter.clone(), Decoding::default(), reasks, samples);
         MailboxPlayer { player, prompter, folder }
     }
 }
 
-impl Agent for MailboxPlayer {
-    fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
+impl MailboxPlayer {
+    /// Opens the next prompt, which is about a turn.
+    fn open(&self, turn: &Turn<'_>, journal: &Journal) {
         let answered = journal.pending().iter().filter(|event| matches!(event, Event::Reply(_))).count();
         let address = Address { step: turn.number, attempt: answered as u32 };
         let actions = turn.actions.iter().map(ToString::to_string).collect();
         *self.folder.open.lock().expect("no holder panics") = Open { address, actions };
-        let stopped = |halt| self.folder.mailbox.stopped().unwrap_or(halt);
-        let choice = self.player.act(turn, journal).map_err(stopped)?;
-        // The answer is in the log now.
+    }
+
+    /// Removes the files of a prompt whose answer is in the log.
+    fn close<T>(&self, answered: Result<T, Halt>) -> Result<T, Halt> {
+        let answered = answered.map_err(|halt| self.folder.mailbox.stopped().unwrap_or(halt))?;
         self.folder.clear(None).map_err(|error| Halt::Infrastructure(told(&error)))?;
-        Ok(choice)
+        Ok(answered)
+    }
+}
+
+impl Agent for MailboxPlayer {
+    fn begin(&mut self, task: &Task<'_>) {
+        if self.folder.episode != episode_of(task) {
+            self.folder = Arc::new(EpisodeFolder::of(self.folder.mailbox.clone(), task));
+            self.player.set_model(self.folder.clone());
+        }
+        self.player.begin(task);
+    }
+
+    fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
+        self.open(turn, journal);
+        let choice = self.player.act(turn, journal);
+        self.close(choice)
+    }
+
+    fn predict(
+        &mut self,
+        last: &Turn<'_>,
+        kinds: &[String],
+        journal: &mut Journal,
+    ) -> Result<Option<Said>, Halt> {
+        self.open(last, journal);
+        let said = self.player.predict(last, kinds, journal);
+        if matches!(said, Ok(None)) { said } else { self.close(said) }
     }
 
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt> {
@@ -112,7 +139,19 @@ impl Agent for MailboxPlayer {
     }
 }
 
+/// Returns the name of an episode's folder.
+fn episode_of(task: &Task<'_>) -> String {
+    let name = task.file_name();
+    name.strip_suffix(".jsonl").unwrap_or(&name).to_owned()
+}
+
 impl EpisodeFolder {
+    fn of(mailbox: Arc<Mailbox>, task: &Task<'_>) -> EpisodeFolder {
+        let episode = episode_of(task);
+        let path = mailbox.folder.join(&episode);
+        EpisodeFolder { mailbox, episode, path, open: Mutex::default() }
+    }
+
     /// Creates the folder, which may be there already.
     fn create(&self) -> Result<(), EvaluationError> {
         match fs::create_dir(&self.path) {

@@ -2,6 +2,7 @@
 
 use crate::commitment::Commitment;
 use crate::encoding::direction_name;
+use crate::track::SeriesPlace;
 use crate::turn::Played;
 use engine::{Action, MoverView, Observation, Outcome};
 use serde::Serialize;
@@ -28,6 +29,16 @@ pub(super) enum Message<'a> {
         /// The number of actions in an answer, or `all`; one, if it is missing.
         #[serde(skip_serializing_if = "Commitment::is_one")]
         commit: Commitment,
+        /// The place of the level in a series that the process plays.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        series: Option<SeriesPlace>,
+    },
+    /// The last question of a series. The answer lists the kinds of which each fact is expected:
+    /// `{"kills": […], "stops": […], "goes": […], "scores": […]}`.
+    Predict {
+        /// The number of actions of the last level.
+        turn: u64,
+        kinds: Vec<&'a str>,
     },
     /// The current observation. The answer `{"action": …}` is expected, or `{"actions": […]}` where the player commits to
     /// several, unless the turn is past.
@@ -94,9 +105,10 @@ pub(super) struct Seen<'a> {
     /// The sprites that move in a direction of their own.
     movers: Vec<Mover<'a>>,
     resources: BTreeMap<&'a str, i32>,
-    score: f64,
+    /// `None` where it is told at the end only.
+    score: Option<f64>,
     /// The change of the score since the last decision.
-    reward: f64,
+    reward: Option<f64>,
     tick: u32,
 }
 
@@ -126,8 +138,8 @@ struct Mover<'a> {
 }
 
 impl<'a> Seen<'a> {
-    /// Combines an observation with its grid and the change of the score since the last decision.
-    pub(super) fn of(observation: &'a Observation, grid: Vec<String>, reward: f64) -> Seen<'a> {
+    /// Combines an observation with its grid and the change of the score since the last decision; `None` hides the score.
+    pub(super) fn of(observation: &'a Observation, grid: Vec<String>, reward: Option<f64>) -> Seen<'a> {
         let mut cells: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
         for (at, names) in observation.cells.iter().enumerate() {
             for name in names {
@@ -150,7 +162,7 @@ impl<'a> Seen<'a> {
             }),
             movers: observation.movers.iter().map(mover).collect(),
             resources: observation.resources.iter().map(|(name, amount)| (name.as_str(), *amount)).collect(),
-            score: observation.score,
+            score: reward.map(|_| observation.score),
             reward,
             tick: observation.ticks,
         }

@@ -22,16 +22,22 @@ use crate::client::{ChatReply, Finish};
 use crate::encoding;
 use crate::legend::{Legend, LegendOptions};
 use crate::log::{Event, Journal, Reply, ReplyClass};
-use crate::player::{Agent, Choice, Halt, Validity};
+use crate::mask::Mask;
+use crate::player::{Agent, Choice, Halt, Said, Validity};
+use crate::predictions::{Predicted, TouchFact};
 use crate::prompt::limited;
+use crate::run::Task;
 use crate::run::clock::Stopwatch;
+use crate::track::Track;
 use crate::turn::{Turn, is_of_use};
 use child::{LineProcess, NoLine};
-use engine::Action;
 use engine::describe::Guide;
+use engine::{Action, Analysis, Observation};
 use itertools::Itertools;
 use message::{Message, Past, Seen, Tick};
 use serde::Deserialize;
+use serde_json::Value;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::sync::Arc;
@@ -75,6 +81,10 @@ pub struct Process {
     config: ProcessConfig,
     running: Option<Running>,
     notices: Notices,
+    /// The track, which decides what the process is told.
+    track: Track,
+    /// The process has been greeted in this level.
+    is_greeted: bool,
 }
 
 /// A function that shows notices to the user.
@@ -103,13 +113,21 @@ impl Process {
             format!("`cmd:{command}` is not a command line; write the program and its arguments, quoted as for a shell")
         })?;
         let notices = Notices(Arc::new(|_| ()));
-        Ok(Process { command: command.to_owned(), words, config, running: None, notices })
+        let (track, is_greeted) = (Track::Told, false);
+        Ok(Process { command: command.to_owned(), words, config, running: None, notices, track, is_greeted })
     }
 
     /// Sets the function that shows notices to the user, such as that the process is silent after its answer was refused.
     #[must_use]
     pub fn with_notices(mut self, notices: Arc<dyn Fn(&str) + Send + Sync>) -> Process {
         self.notices = Notices(notices);
+        self
+    }
+
+    /// Sets the track. On [`Track::Discover`] the process plays all levels of a series, and is asked for predictions at its end.
+    #[must_use]
+    pub fn on_track(mut self, track: Track) -> Process {
+        self.track = track;
         self
     }
 
@@ -138,11 +156,13 @@ impl Process {
                     std::io::ErrorKind::Interrupted => Halt::Interrupted,
                     _ => self.not_started(&error.to_string()),
                 })?;
-                let shown = Shown::of(turn);
-                process.send_line(line(&shown.hello(turn)));
-                Running { process, shown }
+                self.is_greeted = false;
+                Running { process, shown: Shown::of(turn, self.track) }
             }
         };
+        if !std::mem::replace(&mut self.is_greeted, true) {
+            running.process.send_line(line(&running.shown.hello(turn)));
+        }
         Ok(self.running.insert(running))
     }
 
@@ -202,12 +222,54 @@ impl Process {
 }
 
 impl Agent for Process {
+    fn begin(&mut self, _: &Task<'_>) {
+        self.is_greeted = false;
+    }
+
+    fn predict(
+        &mut self,
+        last: &Turn<'_>,
+        kinds: &[String],
+        journal: &mut Journal,
+    ) -> Result<Option<Said>, Halt> {
+        if self.track != Track::Discover {
+            return Ok(None);
+        }
+        let timeout = self.config.timeout;
+        let running = self.running(last)?;
+        let names: BTreeMap<String, String> =
+            kinds.iter().map(|own| (running.shown.name(own).to_owned(), own.clone())).collect();
+        let asked = Message::Predict { turn: last.number, kinds: names.keys().map(String::as_str).collect() };
+        running.process.send_line(line(&asked));
+        for attempt in 0..=MAX_REASKS {
+            self.running(last)?;
+            let process = &self.running.as_ref().expect("it was started").process;
+            let answer = match receive(process, timeout, last.number, None, || ()) {
+                Ok(answer) => answer,
+                Err(no_line) => return Err(self.failed(no_line, last, attempt)),
+            };
+            match read_predictions(&answer, &names) {
+                Ok(predicted) => {
+                    return Ok(Some(Said { predicted: Some(predicted), validity: Validity::Valid }));
+                }
+                Err(message) => {
+                    record(journal, last, attempt, &answer)?;
+                    if attempt < MAX_REASKS {
+                        let again = Message::Invalid { turn: last.number, message };
+                        self.running(last)?.process.send_line(line(&again));
+                    }
+                }
+            }
+        }
+        Ok(Some(Said { predicted: None, validity: Validity::Invalid }))
+    }
+
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
         let actions = of_use(turn);
         let turn = &Turn { actions: &actions, ..*turn };
         let timeout = self.config.timeout;
         let running = self.running(turn)?;
-        running.process.send_line(line(&running.shown.turn(turn, None)));
+        running.process.send_line(running.shown.turn(turn, None));
         for attempt in 0..=MAX_REASKS {
             let notice_after = (attempt > 0).then(|| NOTICE_AFTER.min(timeout / 2));
             self.running(turn)?;
@@ -239,16 +301,22 @@ impl Agent for Process {
             true => Past { past: true, action: Some(choice.action(0)), actions: None },
             false => Past { past: true, action: None, actions: Some(choice.actions.clone()) },
         };
-        running.process.send_line(line(&running.shown.turn(turn, Some(past))));
+        running.process.send_line(running.shown.turn(turn, Some(past)));
         Ok(())
     }
 
     fn end(&mut self, last: &Turn<'_>) {
-        if let Some(Running { process, shown }) = self.running.take() {
-            let end =
-                Message::End { turn: last.number, seen: shown.seen(last), outcome: last.observation.outcome };
-            process.send_line(line(&end));
-            process.close();
+        if let Some(running) = self.running.take() {
+            let masked = running.shown.masked(last.observation);
+            let seen = running.shown.seen(last, &masked, true);
+            let end = Message::End { turn: last.number, seen, outcome: last.observation.outcome };
+            running.process.send_line(line(&end));
+            // It plays the next level too.
+            if last.series.is_some_and(|series| !series.place.is_last()) {
+                self.running = Some(running);
+            } else {
+                running.process.close();
+            }
         }
     }
 }
@@ -264,14 +332,35 @@ fn of_use(turn: &Turn<'_>) -> Vec<Action> {
 struct Shown {
     rules: String,
     legend: Legend,
+    /// The names that the process is told, if they are not the game's own.
+    mask: Option<Mask>,
+    /// The score is told at the end only.
+    hides_score: bool,
 }
 
 impl Shown {
-    fn of(turn: &Turn<'_>) -> Shown {
-        let analysis = &turn.subject.analysis;
+    fn of(turn: &Turn<'_>, track: Track) -> Shown {
+        let game = &turn.subject.game;
+        let mask = (track != Track::Told).then(|| Mask::neutral(game));
+        let masked = mask.as_ref().map(|mask| Analysis::of(&mask.game));
+        let analysis = masked.as_ref().unwrap_or(&turn.subject.analysis);
+        let shuffled = mask.as_ref().map(|_| Mask::neutral_characters(game));
+        let legend = Legend::new(analysis, &LegendOptions { shuffled, ..LegendOptions::default() });
+        let hides_score = track == Track::Discover;
         // The characters of the level files differ from those of the grid.
         let rules = Guide { legend: Vec::new(), ..limited(Guide::from_analysis(analysis), turn.limit) };
-        Shown { rules: rules.to_string(), legend: Legend::new(analysis, &LegendOptions::default()) }
+        let rules = if hides_score { String::new() } else { rules.to_string() };
+        Shown { rules, legend, mask, hides_score }
+    }
+
+    /// Returns the name that the process is told.
+    fn name<'a>(&'a self, own: &'a str) -> &'a str {
+        self.mask.as_ref().map_or(own, |mask| mask.name(own))
+    }
+
+    /// Returns the observation under the names that the process is told.
+    fn masked<'a>(&self, seen: &'a Observation) -> Cow<'a, Observation> {
+        self.mask.as_ref().map_or(Cow::Borrowed(seen), |mask| Cow::Owned(mask.observation(seen)))
     }
 
     fn hello<'a>(&'a self, turn: &'a Turn<'_>) -> Message<'a> {
@@ -288,18 +377,22 @@ impl Shown {
             rows: turn.observation.rows,
             step_limit: turn.limit,
             commit: turn.commit,
+            series: turn.series.map(|series| series.place),
         }
     }
 
-    fn turn<'a>(&self, turn: &'a Turn<'_>, past: Option<Past>) -> Message<'a> {
+    /// Returns the line of a turn.
+    fn turn(&self, turn: &Turn<'_>, past: Option<Past>) -> Vec<u8> {
+        let masked = self.masked(turn.observation);
         let played = (!turn.commit.is_one()).then(|| turn.played.iter().map(Tick::of).collect());
-        Message::Turn { turn: turn.number, seen: self.seen(turn), actions: turn.actions, played, past }
+        let seen = self.seen(turn, &masked, !self.hides_score);
+        line(&Message::Turn { turn: turn.number, seen, actions: turn.actions, played, past })
     }
 
-    fn seen<'a>(&self, turn: &'a Turn<'_>) -> Seen<'a> {
-        let grid = encoding::grid(turn.observation, &self.legend);
-        let reward = turn.played.iter().map(|played| played.reward).sum();
-        Seen::of(turn.observation, grid.lines().map(str::to_owned).collect(), reward)
+    fn seen<'a>(&self, turn: &Turn<'_>, masked: &'a Observation, is_scored: bool) -> Seen<'a> {
+        let grid = encoding::grid(masked, &self.legend);
+        let reward = is_scored.then(|| turn.played.iter().map(|played| played.reward).sum());
+        Seen::of(masked, grid.lines().map(str::to_owned).collect(), reward)
     }
 }
 
@@ -382,6 +475,23 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
         }
         (false, _, None) => Err(expected("missing field `actions`")),
     }
+}
+
+/// Returns the predictions in an answer, or the problem with it. `names` are the names that the process is told, with the game's own.
+fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
+    const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with kinds that were asked about";
+    let answer: BTreeMap<String, Value> =
+        serde_json::from_slice(answer).map_err(|error| format!("{error}; {EXPECTED}"))?;
+    let own = |name: String| {
+        names.get(&name).cloned().ok_or_else(|| format!("`{name}` was not asked about; {EXPECTED}"))
+    };
+    let facts = TouchFact::ALL.into_iter().map(|fact| {
+        let missing = || format!("missing list `{}`; {EXPECTED}", fact.name());
+        let named = answer.get(fact.name()).cloned().ok_or_else(missing)?;
+        let named: Vec<String> = serde_json::from_value(named).map_err(|_| missing())?;
+        Ok((fact, named.into_iter().map(own).collect::<Result<_, String>>()?))
+    });
+    facts.collect()
 }
 
 /// Records a wrong answer, unless an interrupted run has already done so.

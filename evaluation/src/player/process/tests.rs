@@ -67,6 +67,7 @@ impl Board {
                 reward: *reward,
             }),
             actions: &actions,
+            series: None,
         };
         use_it(&mut self.agent, &mut self.journal, &turn)
     }
@@ -185,7 +186,7 @@ fn directions_of_movers_are_sent() {
     let subject = subject.unwrap();
     let state = subject.game.start(&subject.levels[0].level, Seed::from_text("board"));
     let observation = subject.game.observe(&state);
-    let seen = serde_json::to_value(Seen::of(&observation, Vec::new(), 0.0)).unwrap();
+    let seen = serde_json::to_value(Seen::of(&observation, Vec::new(), Some(0.0))).unwrap();
     let bird = serde_json::json!([{"name": "bird", "cell": [1, 0], "facing": "left"}]);
     assert_eq!(seen["movers"], bird);
 }

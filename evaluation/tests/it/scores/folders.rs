@@ -43,6 +43,8 @@ pub(super) fn with_details(
         runs: 2,
         max_steps: 30,
         commit: Commitment::ONE,
+        track: None,
+        series: 1,
         games: Evaluation::entries(&subjects),
     };
     let evaluation = Evaluation::create(folder, settings, subjects).expect("the folder is new");
@@ -136,6 +138,8 @@ fn invariants_of_any_episode() {
             seed,
             max_steps: 60,
             commit: Commitment::ONE,
+            track: None,
+            series: None,
         };
         let mut journal = Journal::in_memory();
         play(&task, &mut planner("random"), &mut journal).unwrap();

@@ -59,8 +59,16 @@ impl Agent for Script {
 
 pub(super) fn log(subject: &Subject, level: usize, actions: &[Action], max_steps: u64) -> Vec<Event> {
     let level = subject.levels.iter().find(|found| found.number == level).expect("a level of the game");
-    let task =
-        Task { subject, level, run: 2, seed: Seed::from_text("by hand"), max_steps, commit: Commitment::ONE };
+    let task = Task {
+        subject,
+        level,
+        run: 2,
+        seed: Seed::from_text("by hand"),
+        max_steps,
+        commit: Commitment::ONE,
+        track: None,
+        series: None,
+    };
     let mut journal = Journal::in_memory();
     play(&task, &mut Contestant::Agent(Box::new(Script(actions.to_vec()))), &mut journal)
         .expect("it can be played");

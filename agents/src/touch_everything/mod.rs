@@ -1,0 +1,336 @@
+//! The touch-everything player: experiments instead of rules.
+
+mod beliefs;
+mod route;
+
+pub use beliefs::Experience;
+
+use crate::planner::{Budget, Planner};
+use beliefs::{Beliefs, Circumstances, Passed, circumstances};
+use engine::{Action, Game, Observation, Sampler, Seed, State};
+use route::{Board, Routes};
+use std::collections::BTreeMap;
+
+/// The presses towards a sprite after which it counts as touched, whatever came of them.
+const MOST_PRESSES: u32 = 4;
+
+/// One in this many decisions is a random step: without it, a way that leads nowhere would be followed for ever.
+const RANDOM_STEP_ODDS: usize = 16;
+
+/// One in this many decisions presses the use key, until it has done nothing this many times in the same circumstances.
+const USE_ODDS: usize = 6;
+const MOST_IDLE_USES: u32 = 3;
+
+/// The extra cost of a step next to a deadly kind, and of pushing something, in steps.
+const DANGER_COST: u32 = 8;
+const PUSH_COST: u32 = 5;
+
+/// A player that knows nothing of the rules. It goes to the nearest kind of sprite that it has not touched yet, those that
+/// stand still first, and learns from what it sees which contacts end the game, pay, or stop it. Kinds that pay are taken
+/// first, deadly ones are avoided, and what has stopped it is tried again when it holds something else.
+///
+/// It sees observations only, also as a [`Planner`]: the game and the state are not looked at otherwise, and no call of the
+/// forward model is made. What it has learnt lasts from level to level, until [`forget`](TouchEverything::forget).
+#[derive(Clone, Debug)]
+pub struct TouchEverything {
+    choices: Sampler,
+    beliefs: Beliefs,
+    /// The last observation, and the actions chosen in it.
+    last: Option<(Observation, Vec<Action>)>,
+    /// Presses towards a kind, since it was last touched.
+    presses: BTreeMap<String, u32>,
+    /// Presses of the use key after which nothing had appeared, gone or changed.
+    idle_uses: BTreeMap<Circumstances, u32>,
+}
+
+impl TouchEverything {
+    /// Creates a player with its own random stream.
+    pub fn new(seed: Seed) -> TouchEverything {
+        TouchEverything {
+            choices: seed.child("choices", 0).sampler(),
+            beliefs: Beliefs::default(),
+            last: None,
+            presses: BTreeMap::new(),
+            idle_uses: BTreeMap::new(),
+        }
+    }
+
+    /// Chooses the next actions, one to `due`. Several are chosen as if nothing else moved. Cost: O(cells log cells) for each
+    /// target.
+    pub fn act(&mut self, seen: &Observation, actions: &[Action], due: usize) -> Vec<Action> {
+        self.learn(seen);
+        let mut imagined = seen.clone();
+        let mut beliefs = self.beliefs.clone();
+        let mut chosen = Vec::new();
+        while chosen.len() < due.max(1) {
+            let action = self.choose(&imagined, &beliefs, actions);
+            chosen.push(action);
+            if chosen.len() < due {
+                imagine(&mut imagined, &mut beliefs, action);
+            }
+        }
+        self.last = Some((seen.clone(), chosen.clone()));
+        chosen
+    }
+
+    /// Learns from the end of an episode.
+    pub fn end(&mut self, last: &Observation) {
+        self.learn(last);
+        self.last = None;
+        self.presses.clear();
+    }
+
+    /// Forgets everything, for another game.
+    pub fn forget(&mut self) {
+        (self.beliefs, self.last) = (Beliefs::default(), None);
+        self.presses.clear();
+        self.idle_uses.clear();
+    }
+
+    /// Returns the experience with a kind of sprite, if it was touched.
+    pub fn experience(&self, kind: &str) -> Option<&Experience> {
+        self.beliefs.of(kind)
+    }
+
+    /// Learns from what has come of the last actions.
+    fn learn(&mut self, now: &Observation) {
+        let Some((before, actions)) = self.last.take() else { return };
+        let is_same = (before.columns, before.rows) == (now.columns, now.rows) && now.ticks >= before.ticks;
+        let Some(from) = cell(&before).filter(|_| is_same) else { return };
+        if actions == [Action::Use] && before.resources == now.resources && kinds(&before) == kinds(now) {
+            *self.idle_uses.entry(circumstances(&before)).or_default() += 1;
+        }
+        let board = Board::of(&before);
+        let mut passed = Passed {
+            before: &before,
+            now,
+            touched: &[],
+            beside: &[],
+            in_the_way: &[],
+            entered: &[],
+            pushed: &[],
+        };
+        let here = cell(now);
+        let mut cells = vec![from];
+        for action in &actions {
+            let at = cells[cells.len() - 1];
+            cells.extend(route::way(*action).and_then(|way| board.beside(at, way)));
+        }
+        let target = (actions.len() == 1 && cells.len() == 2).then(|| cells[1]);
+        let others = |seen: &Observation, cell: usize| -> Vec<String> {
+            let is_own = |name: &&String| [&before, now].iter().any(|seen| is_avatar(seen, name));
+            seen.cells[cell].iter().filter(|name| !is_own(name)).cloned().collect()
+        };
+        let mut touched: Vec<String> = cells.iter().flat_map(|&cell| others(&before, cell)).collect();
+        let arrived: Vec<String> =
+            here.or(Some(cells[cells.len() - 1])).iter().flat_map(|&cell| others(now, cell)).collect();
+        touched.extend(arrived);
+        let around = cells.iter().flat_map(|&cell| board.around(cell));
+        let beside: Vec<String> = around.flat_map(|cell| others(&before, cell)).collect();
+        let facing = |seen: &Observation| seen.avatar.as_ref().map(|avatar| avatar.facing);
+        let is_stuck = here == Some(from) && facing(&before) == facing(now);
+        let at_target: Vec<String> = target.map(|cell| others(&before, cell)).unwrap_or_default();
+        let (mut in_the_way, mut entered, mut pushed) = (Vec::new(), Vec::new(), Vec::new());
+        if let Some(target) = target {
+            let still_there = others(now, target);
+            if is_stuck {
+                in_the_way = at_target.iter().filter(|kind| still_there.contains(kind)).cloned().collect();
+                // What lies on the ground everywhere is not what stops.
+                in_the_way.retain(|kind| !others(now, from).contains(kind));
+            } else if here == Some(target) {
+                let beyond = route::way(actions[0]).and_then(|way| board.beside(target, way));
+                let is_beyond = |kind: &&String| {
+                    beyond.is_some_and(|cell| {
+                        others(now, cell).contains(kind) && !others(&before, cell).contains(kind)
+                    })
+                };
+                pushed = at_target.iter().filter(is_beyond).cloned().collect();
+                entered = at_target.clone();
+            }
+            // Nothing was touched where the avatar only turned.
+            if here == Some(from) && !is_stuck {
+                touched.retain(|kind| !at_target.contains(kind));
+            }
+        }
+        touched.sort();
+        touched.dedup();
+        self.presses.retain(|kind, _| touched.binary_search(kind).is_err());
+        passed.touched = &touched;
+        passed.beside = &beside;
+        passed.in_the_way = &in_the_way;
+        passed.entered = &entered;
+        passed.pushed = &pushed;
+        self.beliefs.learn(&passed);
+    }
+
+    fn choose(&mut self, seen: &Observation, beliefs: &Beliefs, actions: &[Action]) -> Action {
+        let keys: Vec<Action> = actions.iter().copied().filter(|&action| action != Action::Nil).collect();
+        let Some(from) = cell(seen).filter(|_| !keys.is_empty()) else {
+            return if keys.is_empty() { Action::Nil } else { *self.choices.choose(&keys) };
+        };
+        let idle_uses = self.idle_uses.get(&circumstances(seen)).copied().unwrap_or_default();
+        let is_use = keys.contains(&Action::Use) && idle_uses < MOST_IDLE_USES;
+        if is_use && self.choices.below(USE_ODDS) == 0 {
+            return Action::Use;
+        }
+        let keys: Vec<Action> = keys.into_iter().filter(|&key| is_use || key != Action::Use).collect();
+        if keys.is_empty() {
+            return Action::Nil;
+        }
+        let view = View { seen, beliefs, board: Board::of(seen), from, circumstances: circumstances(seen) };
+        let routes = Routes::from(view.board, from, &keys, |cell| view.cost(cell), |cell| view.passes(cell));
+        let cells = (0..seen.cells.len()).filter(|&cell| cell != from);
+        let reached = cells.filter_map(|cell| Some((view.rank(cell)?, routes.to(cell)?, cell)));
+        let best = reached.min_by_key(|&(rank, (cost, _), cell)| (rank, cost, cell));
+        let Some((_, (_, first), target)) = best else { return self.random_step(&view, &keys) };
+        let is_next = route::way(first).and_then(|way| view.board.beside(from, way)) == Some(target);
+        if is_next {
+            for kind in view.others(target) {
+                let presses = self.presses.entry(kind.to_owned()).or_default();
+                *presses += 1;
+                if *presses > MOST_PRESSES {
+                    self.beliefs.give_up(kind, &view.circumstances);
+                    self.presses.remove(kind);
+                }
+            }
+            return first;
+        }
+        if self.choices.below(RANDOM_STEP_ODDS) == 0 { self.random_step(&view, &keys) } else { first }
+    }
+
+    /// Returns any step that is not known to be bad.
+    fn random_step(&mut self, view: &View<'_>, keys: &[Action]) -> Action {
+        let is_safe = |action: &Action| match route::way(*action) {
+            Some(way) => view
+                .board
+                .beside(view.from, way)
+                .is_some_and(|next| view.cost(next).is_some_and(|cost| cost < DANGER_COST)),
+            None => true,
+        };
+        let safe: Vec<Action> = keys.iter().copied().filter(is_safe).collect();
+        *self.choices.choose(if safe.is_empty() { keys } else { &safe })
+    }
+}
+
+impl Planner for TouchEverything {
+    fn plan(&mut self, game: &Game, state: &State, _: Budget) -> (Action, u64) {
+        (self.act(&game.observe(state), game.actions(state), 1)[0], 0)
+    }
+}
+
+/// A board in the eyes of the player.
+struct View<'a> {
+    seen: &'a Observation,
+    beliefs: &'a Beliefs,
+    board: Board,
+    from: usize,
+    circumstances: Circumstances,
+}
+
+impl View<'_> {
+    fn others(&self, cell: usize) -> impl Iterator<Item = &str> {
+        self.seen.cells[cell].iter().filter(|name| !is_avatar(self.seen, name)).map(String::as_str)
+    }
+
+    fn is_blocked_by(&self, kind: &str) -> bool {
+        let known = self.beliefs.of(kind);
+        known.is_some_and(|known| known.blocked.contains(&self.circumstances) && !known.is_good())
+    }
+
+    /// Returns `true` for a cell that is known to let the avatar through.
+    fn passes(&self, cell: usize) -> bool {
+        self.others(cell).all(|kind| self.beliefs.of(kind).is_some()) && self.cost(cell).is_some()
+    }
+
+    /// Returns the cost of entering a cell; `None` where it would be the end, or is known to be closed.
+    fn cost(&self, cell: usize) -> Option<u32> {
+        let is_closed = |kind: &str| {
+            (self.beliefs.is_deadly(kind) && !self.is_worth_another_try(kind)) || self.is_blocked_by(kind)
+        };
+        if self.others(cell).any(is_closed) {
+            return None;
+        }
+        let is_near_danger = self
+            .board
+            .around(cell)
+            .any(|beside| self.others(beside).any(|kind| self.beliefs.is_deadly(kind)));
+        let is_pushed =
+            self.others(cell).any(|kind| self.beliefs.of(kind).is_some_and(|known| known.pushed > 0));
+        Some(1 + if is_near_danger { DANGER_COST } else { 0 } + if is_pushed { PUSH_COST } else { 0 })
+    }
+
+    /// Returns `true` for a deadly kind that was never met with what the avatar holds now.
+    fn is_worth_another_try(&self, kind: &str) -> bool {
+        self.beliefs.of(kind).is_none_or(|known| !known.touched.contains(&self.circumstances))
+            && !self.circumstances.1.is_empty()
+    }
+
+    /// Returns the rank of a cell as a target: 0 is best.
+    fn rank(&self, cell: usize) -> Option<u32> {
+        let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
+        let rank = |kind: &str| {
+            let Some(known) = self.beliefs.of(kind) else {
+                return Some(if is_mover(kind) { 2 } else { 1 });
+            };
+            let is_tried = known.touched.contains(&self.circumstances);
+            match () {
+                () if known.is_good() => Some(0),
+                () if known.gain < 0 => (!is_tried).then_some(6),
+                () if known.is_deadly() => (!is_tried && self.is_worth_another_try(kind)).then_some(5),
+                () if known.pushed > 0 => Some(7),
+                () if is_tried => None,
+                () if known.is_blocking() => Some(3),
+                () => (!known.entered).then_some(4),
+            }
+        };
+        self.others(cell).filter_map(rank).min()
+    }
+}
+
+/// Returns the cell of the avatar.
+fn cell(seen: &Observation) -> Option<usize> {
+    let avatar = seen.avatar.as_ref()?;
+    let column = usize::try_from(avatar.column).ok().filter(|&column| column < seen.columns)?;
+    let row = usize::try_from(avatar.row).ok().filter(|&row| row < seen.rows)?;
+    Some(row * seen.columns + column)
+}
+
+/// Returns the number of cells of each kind.
+fn kinds(seen: &Observation) -> BTreeMap<&str, usize> {
+    let mut kinds = BTreeMap::new();
+    for kind in seen.cells.iter().flatten() {
+        *kinds.entry(kind.as_str()).or_default() += 1;
+    }
+    kinds
+}
+
+fn is_avatar(seen: &Observation, name: &str) -> bool {
+    seen.avatar.as_ref().is_some_and(|avatar| avatar.name == name)
+}
+
+/// Moves the avatar of an observation as if nothing else moved, and takes what is likely to be taken.
+fn imagine(seen: &mut Observation, beliefs: &mut Beliefs, action: Action) {
+    let Some(from) = cell(seen) else { return };
+    let board = Board::of(seen);
+    let Some(to) = route::way(action).and_then(|way| board.beside(from, way)) else { return };
+    let now = circumstances(seen);
+    let name = seen.avatar.as_ref().map(|avatar| avatar.name.clone()).unwrap_or_default();
+    let mut is_closed = false;
+    seen.cells[to].retain(|kind| {
+        let known = beliefs.of(kind).cloned().unwrap_or_default();
+        is_closed |= known.blocked.contains(&now) && !known.is_good();
+        beliefs.give_up(kind, &now);
+        !known.is_good()
+    });
+    if is_closed {
+        return;
+    }
+    seen.cells[from].retain(|kind| *kind != name);
+    seen.cells[to].push(name);
+    if let Some(avatar) = &mut seen.avatar {
+        (avatar.column, avatar.row) = ((to % board.columns) as i32, (to / board.columns) as i32);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,78 @@
+//! The players of each track.
+
+use super::{Args, RequestedPlayer};
+use crate::console::Console;
+use crate::failure::Failure;
+use evaluation::predictions::Trials;
+use evaluation::serve::PromptPlayer;
+use evaluation::{Subject, Track};
+
+/// Refuses a player that cannot play on the track, with the players that can.
+///
+/// # Errors
+/// The player sees more than the track shows, or cannot read what it shows.
+pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
+    let Some(track) = args.model.prompt.track else { return Ok(()) };
+    let player = args.player.as_deref().unwrap_or_default();
+    let name = track.name();
+    let refuse = |why: &str| {
+        Err(malformed!(
+            "`{player}` cannot play on the track `{name}`: {why} (`arcade docs tracks` lists who can)"
+        ))
+    };
+    if track == Track::Discover && !args.commit.is_one() {
+        bail!(
+            "--commit {} contradicts the track `discover`, which tells what each action does; leave out one of the two",
+            args.commit
+        );
+    }
+    match (requested, track) {
+        (RequestedPlayer::Planner(spec), Track::Masked | Track::Discover | Track::Vision) => {
+            match spec.name() {
+                "random" | "random-with-nil" | "do-nothing" => Ok(()),
+                _ => {
+                    refuse("it plans with the rules and the state, whatever prompts show; leave out --track")
+                }
+            }
+        }
+        (RequestedPlayer::Replay(_), _) => refuse("it repeats an episode; leave out --track"),
+        (RequestedPlayer::Human(_), Track::Vision) => {
+            refuse("a terminal shows no pictures; `mailbox:DIR` puts a PNG file beside each prompt")
+        }
+        (RequestedPlayer::Human(_), Track::Discover) => {
+            refuse("the last question takes several lines; `mailbox:DIR` asks people for whole answers")
+        }
+        (RequestedPlayer::Touching, Track::Vision) => {
+            refuse("it reads no pictures; it plays on `told`, `masked` and `discover`")
+        }
+        (RequestedPlayer::Prompted(PromptPlayer::Reflex, _), Track::Discover) => {
+            refuse("it needs the rules; `touch-everything` needs none")
+        }
+        (RequestedPlayer::Prompted(PromptPlayer::Planner(_), _), _) => {
+            refuse("it needs the rules as VGDL; leave out --track, and give --rules vgdl")
+        }
+        (RequestedPlayer::Prompted(..), Track::Vision) => {
+            refuse("it reads the board as text, not as a picture; it plays on `told` and `masked`")
+        }
+        (RequestedPlayer::Process(_), Track::Vision) => refuse(
+            "programs are sent the board as lines of JSON; a program that sees plays through `mailbox:DIR`, or as a server with --model and \
+             --base-url",
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// Says which games can be found out without a risk.
+pub(super) fn advise(track: Option<Track>, subjects: &[Subject], console: &Console) {
+    if track != Some(Track::Discover) {
+        return;
+    }
+    let is_free = |subject: &&Subject| Trials::of(subject).costly.is_empty();
+    let free: Vec<&str> = subjects.iter().filter(is_free).map(|subject| subject.id.as_str()).collect();
+    if !free.is_empty() {
+        console.remark(format_args!(
+            "no touch hurts or takes points in {}: who touches everything risks nothing there (`arcade docs tracks` says what suits `discover`)",
+            free.join(", ")
+        ));
+    }
+}

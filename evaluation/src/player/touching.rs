@@ -1,0 +1,79 @@
+//! The touch-everything player as an agent.
+
+use crate::log::Journal;
+use crate::player::{Agent, Choice, Halt, Said, Validity};
+use crate::predictions::{Predicted, TouchFact};
+use crate::turn::{Turn, is_of_use};
+use agents::TouchEverything;
+use agents::touch_everything::Experience;
+use engine::{Action, Observation, Seed};
+
+/// An agent that learns by touching: it sees the observation of a turn, and nothing of the rules.
+#[derive(Clone, Debug)]
+pub struct Touching {
+    player: TouchEverything,
+    /// The score is hidden from the player.
+    is_blind: bool,
+}
+
+impl Touching {
+    /// The name of the player.
+    pub const NAME: &'static str = "touch-everything";
+
+    /// Creates the agent for an episode by the seed of its chance, from which its own choices are derived.
+    pub fn new(chance: Seed) -> Touching {
+        Touching { player: TouchEverything::new(chance.child(Touching::NAME, 0)), is_blind: false }
+    }
+
+    /// Hides the score from the player, as prompts without rules do.
+    #[must_use]
+    pub fn without_score(self) -> Touching {
+        Touching { is_blind: true, ..self }
+    }
+
+    /// Returns the prediction of a fact by experience. Where the score cannot be seen, what pays is expected to score.
+    fn expects(&self, known: &Experience, fact: TouchFact) -> bool {
+        match fact {
+            TouchFact::Kills => known.is_deadly(),
+            TouchFact::Stops => known.is_blocking(),
+            TouchFact::Goes => known.taken > 0,
+            TouchFact::Scores => known.gain != 0 || (self.is_blind && known.is_good()),
+        }
+    }
+
+    fn seen(&self, turn: &Turn<'_>) -> Observation {
+        let seen = turn.observation.clone();
+        if self.is_blind { Observation { score: 0.0, ..seen } } else { seen }
+    }
+}
+
+impl Agent for Touching {
+    fn act(&mut self, turn: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
+        let analysis = &turn.subject.analysis;
+        let actions: Vec<Action> =
+            turn.actions.iter().copied().filter(|&action| is_of_use(analysis, action)).collect();
+        let due = usize::try_from(turn.due()).unwrap_or(usize::MAX);
+        Ok(Choice::plan(self.player.act(&self.seen(turn), &actions, due)))
+    }
+
+    fn recall(&mut self, turn: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
+        // The same turns get the same choices, and teach the same.
+        self.act(turn, &mut Journal::in_memory()).map(drop)
+    }
+
+    fn end(&mut self, last: &Turn<'_>) {
+        self.player.end(&self.seen(last));
+    }
+
+    fn predict(&mut self, last: &Turn<'_>, kinds: &[String], _: &mut Journal) -> Result<Option<Said>, Halt> {
+        self.player.end(&self.seen(last));
+        let expected = |fact: TouchFact| {
+            let known = kinds
+                .iter()
+                .filter(|kind| self.player.experience(kind).is_some_and(|known| self.expects(known, fact)));
+            (fact, known.cloned().collect())
+        };
+        let predicted: Predicted = TouchFact::ALL.into_iter().map(expected).collect();
+        Ok(Some(Said { predicted: Some(predicted), validity: Validity::Valid }))
+    }
+}

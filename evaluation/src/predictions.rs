@@ -1,0 +1,241 @@
+//! Predictions about a game's rules: what touching each kind of sprite does, and their grades.
+
+use crate::prompt::kinds_at_start;
+use crate::subject::Subject;
+use engine::analysis::{Harm, Removal, Touch};
+use engine::{Analysis, SpriteType};
+use itertools::Itertools;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+
+engine::named_enum! {
+    /// A fact about touching a kind of sprite that a player can predict.
+    pub enum TouchFact {
+        /// It kills the avatar, at least while that holds nothing.
+        Kills = "kills",
+        /// The avatar cannot enter its cell, at least while it holds nothing.
+        Stops = "stops",
+        /// It disappears or turns into another kind, at once or when the avatar holds what it takes.
+        Goes = "goes",
+        /// The score changes, at once or when the avatar holds what it takes.
+        Scores = "scores",
+    }
+}
+
+/// The kinds of which each fact is predicted, by the game's own names.
+pub type Predicted = BTreeMap<TouchFact, BTreeSet<String>>;
+
+/// Predictions compared with the rules.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grade {
+    /// The predictions that are right: of kinds and facts of which the rules say yes or no, whatever happens.
+    pub right: u64,
+    /// The number of such kinds and facts.
+    pub of: u64,
+    /// The share of the kinds of which a fact is true that were named, less the share of the others that were; the mean over the facts
+    /// of which there are both. From −1 to 1: 0 for whoever names kinds without knowing, 1 if all is right. Missing if no fact is of
+    /// that kind.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub insight: Option<f64>,
+}
+
+/// What a game holds for players who have to find out its rules by touching: the kinds, other than avatars and floors, by what a touch
+/// of them is to somebody who does not know.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Trials {
+    /// A touch hurts, or takes points.
+    pub costly: Vec<String>,
+    /// A touch does something only for an avatar that holds what it takes.
+    pub gated: Vec<String>,
+    /// A touch does nothing, although the kind is neither wall nor floor: decoys.
+    pub idle: Vec<String>,
+}
+
+impl Trials {
+    /// Returns the trials among the kinds that stand at the start of a game's levels.
+    pub fn of(subject: &Subject) -> Trials {
+        let analysis = &subject.analysis;
+        let mut trials = Trials::default();
+        for kind in kinds_at_start(analysis, subject.levels.iter().map(|level| &level.level)) {
+            let Some(stype) = analysis.game().sprite_type(&kind) else { continue };
+            let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+            let is_costly = |touch: &Touch| touch.harm != Harm::None || touch.score < 0;
+            if touches().any(is_costly) {
+                trials.costly.push(kind);
+            } else if touches().any(|touch| matches!(touch.removal, Removal::IfHolds(..))) {
+                trials.gated.push(kind);
+            } else if touches().all(|touch| !touch.any) {
+                trials.idle.push(kind);
+            }
+        }
+        trials
+    }
+}
+
+/// Returns a fact of a kind by the rules: `None` if it depends on more than what the avatar is and holds.
+///
+/// An avatar that can be several types is asked about as each of them; where they differ, it depends.
+pub fn truth(analysis: &Analysis, kind: SpriteType, fact: TouchFact) -> Option<bool> {
+    let each = analysis.avatars().iter().map(|avatar| fact_of(analysis.touch(avatar.stype, kind), fact));
+    each.dedup().exactly_one().ok().flatten()
+}
+
+fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
+    match fact {
+        TouchFact::Kills => match touch.harm {
+            Harm::None => Some(false),
+            Harm::Kills => Some(true),
+            Harm::Conditional => touch.safe_with.map(|_| true),
+            Harm::Wounds => None,
+        },
+        // What moves or goes on the first touch lets the avatar in on the second.
+        TouchFact::Stops if touch.pushes || (touch.blocks && touch.removal == Removal::Always) => None,
+        TouchFact::Stops if touch.harm != Harm::None => None,
+        TouchFact::Stops => Some(touch.blocks),
+        TouchFact::Goes => match touch.removal {
+            _ if touch.changes.is_some() => Some(true),
+            Removal::Never => Some(false),
+            Removal::IfHolds(..) | Removal::Always => Some(true),
+            Removal::Sometimes => None,
+        },
+        TouchFact::Scores => Some(touch.score != 0),
+    }
+}
+
+/// Grades predictions about kinds. Names that the game does not have are ignored, as are kinds that were not asked about.
+pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Grade {
+    let mut grade = Grade::default();
+    let mut insights = Vec::new();
+    for fact in TouchFact::ALL {
+        // Named and true, by truth and by answer.
+        let mut counts = [[0_u64; 2]; 2];
+        for kind in kinds {
+            let Some(stype) = analysis.game().sprite_type(kind) else { continue };
+            let Some(is_true) = truth(analysis, stype, fact) else { continue };
+            let is_named = predicted.get(&fact).is_some_and(|named| named.contains(kind));
+            counts[usize::from(is_true)][usize::from(is_named)] += 1;
+        }
+        grade.right += counts[0][0] + counts[1][1];
+        grade.of += counts.iter().flatten().sum::<u64>();
+        let share = |[not, named]: [u64; 2]| (not + named > 0).then(|| named as f64 / (not + named) as f64);
+        insights.extend(share(counts[1]).zip(share(counts[0])).map(|(hits, alarms)| hits - alarms));
+    }
+    let count = insights.len() as f64;
+    grade.insight = (!insights.is_empty()).then(|| insights.into_iter().sum::<f64>() / count);
+    grade
+}
+
+/// Reads the answer to the question: the last line of each fact, `KILLS: t1, t4` or `STOPS: none`. `names` are the names that the
+/// question used, each with the game's own. Marks of emphasis and lists are overlooked, and so are other kinds and text outside the
+/// lines; a semicolon ends a line too.
+///
+/// # Errors
+/// A line is missing, or names neither a kind nor `none`. The message is a clause about the answer.
+pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted, String> {
+    let answer = crate::answer::without_reasoning(answer);
+    let is_mark = |c: char| matches!(c, '*' | '`' | '#' | '-' | '>' | '_') || c.is_whitespace();
+    let line_of = |fact: TouchFact| {
+        let own = |line: &str| {
+            let (word, rest) = line.split_once(':')?;
+            word.trim_matches(is_mark).eq_ignore_ascii_case(fact.name()).then(|| rest.to_owned())
+        };
+        answer.split(['\n', ';']).filter_map(own).next_back()
+    };
+    let mut predicted = Predicted::new();
+    for fact in TouchFact::ALL {
+        let word = fact.name().to_uppercase();
+        let line = line_of(fact).ok_or_else(|| format!("it has no line {word}:"))?;
+        let words =
+            line.split(|c: char| !(c.is_alphanumeric() || matches!(c, '_'))).filter(|word| !word.is_empty());
+        let mut kinds = BTreeSet::new();
+        let mut is_none = false;
+        for name in words.map(str::to_lowercase) {
+            is_none |= name == "none" || name == "nothing";
+            // Kinds that were not asked about are named in vain.
+            is_none |= is_kind(&name);
+            kinds.extend(names.get(&name).cloned());
+        }
+        if kinds.is_empty() && !is_none {
+            return Err(format!("its line {word}: names no kind; if there is none, it says none"));
+        }
+        predicted.insert(fact, kinds);
+    }
+    Ok(predicted)
+}
+
+/// Returns `true` for a word that looks like the name of a kind in a question.
+fn is_kind(word: &str) -> bool {
+    word.strip_prefix('t').is_some_and(|rest| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Game;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    key > Resource limit=1\n    gate > Immovable\n    trap > Immovable\n    moat > Immovable\n    box > Passive\n    pebble > Immovable\n    gem > Immovable\n    hero > MovingAvatar\n  LevelMapping\n    A > hero\n  InteractionSet\n    key hero > collectResource\n    gate hero > killIfOtherHasMore resource=key limit=1 scoreChange=2\n    hero gate > stepBack\n    hero trap > killSprite\n    hero moat > killIfHasLess resource=key limit=0\n    box hero > bounceForward\n    hero wall > stepBack\n    gem hero > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=gem win=True\n";
+
+    #[test]
+    fn truths_follow_from_the_rules() {
+        let analysis = Analysis::of(&Game::from_source(GAME).unwrap());
+        for (kind, expect) in [
+            ("key", "kills no, stops no, goes yes, scores no"),
+            ("gate", "kills no, stops yes, goes yes, scores yes"),
+            ("trap", "kills yes, stops -, goes no, scores no"),
+            ("moat", "kills yes, stops -, goes no, scores no"),
+            ("box", "kills no, stops -, goes no, scores no"),
+            ("wall", "kills no, stops yes, goes no, scores no"),
+            ("pebble", "kills no, stops no, goes no, scores no"),
+            ("gem", "kills no, stops no, goes yes, scores yes"),
+        ] {
+            let kind_type = analysis.game().sprite_type(kind).unwrap();
+            let told = TouchFact::ALL.map(|fact| {
+                let truth = truth(&analysis, kind_type, fact);
+                format!("{} {}", fact.name(), truth.map_or("-", |truth| if truth { "yes" } else { "no" }))
+            });
+            assert_eq!(told.join(", "), expect, "{kind}");
+        }
+    }
+
+    fn names() -> BTreeMap<String, String> {
+        [("t1", "key"), ("t2", "gate"), ("t3", "trap"), ("t4", "gem")]
+            .map(|(shown, own)| (shown.to_owned(), own.to_owned()))
+            .into()
+    }
+
+    #[track_caller]
+    fn check(answer: &str, expect: Result<(u64, u64, Option<f64>), &str>) {
+        let analysis = Analysis::of(&Game::from_source(GAME).unwrap());
+        let kinds: Vec<String> = names().into_values().collect();
+        let found = read(answer, &names()).map(|predicted| grade(&analysis, &kinds, &predicted));
+        let found = found.map(|Grade { right, of, insight }| (right, of, insight));
+        assert_eq!(found, expect.map_err(str::to_owned));
+    }
+
+    #[test]
+    fn answers_are_graded() {
+        check("KILLS: t3; STOPS: t2; GOES: t1, t2, t4; SCORES: t2, t4.", Ok((15, 15, Some(1.0))));
+        check("KILLS: t3\nSTOPS: t2\nGOES: t1, t2, t4\nSCORES: t2, t4", Ok((15, 15, Some(1.0))));
+        // The same for all kinds is no insight.
+        check("KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none", Ok((8, 15, Some(0.0))));
+        let all = "t1, t2, t3, t4";
+        check(&format!("KILLS: {all}\nSTOPS: {all}\nGOES: {all}\nSCORES: {all}"), Ok((7, 15, Some(0.0))));
+        check("KILLS: t1\nSTOPS: t1\nGOES: t3\nSCORES: t1, t3", Ok((3, 15, Some(-0.7083333333333333))));
+    }
+
+    #[test]
+    fn answers_are_read_with_tolerance() {
+        check(
+            "I think so.\nKILLS: t1\n\n**Kills:** T3.\n- stops: `t2`\ngoes: t1 and t2, t4\n> SCORES: t2 t4\nThat is all.",
+            Ok((15, 15, Some(1.0))),
+        );
+        check("<think>KILLS: t1</think>STOPS: none", Err("it has no line KILLS:"));
+        check(
+            "KILLS: t3\nSTOPS:\nGOES: t1",
+            Err("its line STOPS: names no kind; if there is none, it says none"),
+        );
+        check("KILLS: t9, t3\nSTOPS: t2, t8\nGOES: t1, t2, t4\nSCORES: t2, t4", Ok((15, 15, Some(1.0))));
+        check("KILLS: t9\nSTOPS: t7\nGOES: t9\nSCORES: none", Ok((8, 15, Some(0.0))));
+    }
+}

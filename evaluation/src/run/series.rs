@@ -1,0 +1,62 @@
+//! Levels of a game that one player plays one after the other, remembering those before.
+
+use crate::error::EvaluationError;
+use crate::log::{Event, Journal};
+use crate::player::{Contestant, Halt, Validity};
+use crate::run::episode::{Context, PlayResult, Task, play_watched};
+
+/// The episodes of a series in their order; one, if levels are played alone.
+pub(crate) struct Series<'a> {
+    pub(crate) tasks: &'a [Task<'a>],
+    /// A function that is told the validity of each new decision, and can abort the episode.
+    pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
+    /// A function that returns `true` once nothing more is to be started.
+    pub(crate) is_stopped: &'a dyn Fn() -> bool,
+}
+
+/// Divides the episodes of an evaluation into series.
+pub(crate) fn series_of<'a>(tasks: &'a [Task<'a>]) -> Vec<&'a [Task<'a>]> {
+    let is_next = |_: &Task<'_>, next: &Task<'_>| next.series.is_some_and(|place| place.index > 0);
+    tasks.chunk_by(is_next).collect()
+}
+
+/// Plays the episodes of a series with one player, and returns the results of those that were begun, each with `true` if it is for
+/// practice. Ended episodes are replayed only if a later one is open, so that the player remembers them.
+pub(crate) fn play_series(
+    series: &Series<'_>,
+    contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,
+    open: impl Fn(&Task<'_>) -> Result<Journal, EvaluationError>,
+    played: &impl Fn(&Task<'_>, &PlayResult, &Journal),
+) -> Result<Vec<(bool, PlayResult)>, EvaluationError> {
+    let mut journals = series.tasks.iter().map(open).collect::<Result<Vec<Journal>, EvaluationError>>()?;
+    let ending = |journal: &Journal| match journal.events().last() {
+        Some(Event::End { outcome, .. }) => Some(*outcome),
+        _ => None,
+    };
+    let all_ended = journals.iter().all(|journal| ending(journal).is_some());
+    let Some(first) = series.tasks.first() else { return Ok(Vec::new()) };
+    let mut player = None;
+    let (mut previous, mut results) = (None, Vec::new());
+    for (task, journal) in series.tasks.iter().zip(&mut journals) {
+        let context = Context { previous: previous.as_ref(), watch: series.watch };
+        let (result, end) = match ending(journal) {
+            Some(outcome) if all_ended => (PlayResult::Ended(outcome), None),
+            _ => match player.take().map_or_else(|| contestant(first), Ok) {
+                Ok(mut own) => {
+                    let played = play_watched(task, &mut own, journal, &context)?;
+                    player = Some(own);
+                    played
+                }
+                Err(halt) => (PlayResult::Halted(halt), None),
+            },
+        };
+        previous = end;
+        played(task, &result, journal);
+        let is_over = matches!(result, PlayResult::Halted(_)) || (series.is_stopped)();
+        results.push((task.is_practice(), result));
+        if is_over {
+            break;
+        }
+    }
+    Ok(results)
+}

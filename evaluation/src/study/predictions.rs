@@ -1,0 +1,61 @@
+//! The predictions of players about the rules, after the last level of a series.
+
+use crate::study::scores::mean;
+use crate::study::{Player, Study};
+use report::{Table, TableCell};
+use serde::Serialize;
+
+/// The predictions of a player.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PredictionRow {
+    /// The player.
+    pub player: Player,
+    /// The number of answers, unusable ones included.
+    pub answers: u64,
+    /// The predictions that are right.
+    pub right: u64,
+    /// The number of kinds and facts that were predicted.
+    pub of: u64,
+    /// The mean insight of the answers that have one ([`Grade::insight`](crate::predictions::Grade::insight)).
+    pub insight: Option<f64>,
+}
+
+/// Returns a row for each player that has made predictions, the most insight first.
+pub(super) fn rows(study: &Study) -> Vec<PredictionRow> {
+    let row = |(number, player): (usize, &Player)| {
+        let ended = study.on(number, None, None).iter().filter(|episode| episode.metrics.counts());
+        let grades: Vec<_> = ended.filter_map(|episode| episode.metrics.predictions.as_ref()).collect();
+        (!grades.is_empty()).then(|| PredictionRow {
+            player: player.clone(),
+            answers: grades.len() as u64,
+            right: grades.iter().map(|grade| grade.right).sum(),
+            of: grades.iter().map(|grade| grade.of).sum(),
+            insight: mean(grades.iter().filter_map(|grade| grade.insight)),
+        })
+    };
+    let mut rows: Vec<PredictionRow> = study.players.iter().enumerate().filter_map(row).collect();
+    let insight = |row: &PredictionRow| row.insight.unwrap_or(-2.0);
+    rows.sort_by(|a, b| insight(b).total_cmp(&insight(a)));
+    rows
+}
+
+/// Returns the table of predictions; none without them.
+pub(super) fn table(study: &Study) -> Option<Table> {
+    (!study.predictions.is_empty()).then(|| {
+        Table::of(
+            "predictions",
+            "Predictions of the rules",
+            "Asked after the last level of a series: which kinds kill, stop, go or score when they are touched. Right: kinds and facts that \
+             were predicted as the rules have it, of those of which the rules say yes or no. Insight: the share of the kinds of which a \
+             fact is true that were named, less the share of the others, mean over facts and answers; 0 for whoever names kinds without \
+             knowing, 1 if all is right.",
+            &study.predictions,
+            &[
+                ("player", &|row| TableCell::text(row.player.label())),
+                ("answers", &|row| TableCell::Count(row.answers)),
+                ("right", &|row| TableCell::text(format!("{}/{}", row.right, row.of))),
+                ("insight", &|row| TableCell::number(row.insight, 2)),
+            ],
+        )
+    })
+}
