@@ -25,8 +25,8 @@ impl Marks {
                 let _ = write!(text, "| `{player}` | {} |", commit.name());
                 let of = |rate: &&MarkRate| rate.player == *player && rate.commit == commit;
                 for MarkRate { rate, .. } in self.rates.iter().filter(of) {
-                    let [low, high] = rate.interval.map(|bound| 100.0 * bound);
-                    let _ = write!(text, " {:.0} ({low:.0} to {high:.0}) |", 100.0 * rate.mean);
+                    let [low, high] = rate.interval.map(percent);
+                    let _ = write!(text, " {} ({low} to {high}) |", percent(rate.mean));
                 }
                 text.push('\n');
             }
@@ -56,19 +56,25 @@ fn falls<'a, T: Copy + 'a>(
     );
     for Fall { player, from, to, games, rates, fall, interval } in falls {
         let player: &dyn Display = player.as_ref().map_or(&"mean of all", |player| player);
-        let ([from_rate, to_rate], [low, high]) =
-            (rates.map(|rate| 100.0 * rate), interval.map(|bound| 100.0 * bound));
-        let (fall, from, to) = (100.0 * fall, name(*from), name(*to));
+        let ([from_rate, to_rate], [low, high]) = (rates.map(percent), interval.map(percent));
+        let (fall, from, to) = (percent(*fall), name(*from), name(*to));
         let _ = writeln!(
             text,
-            "| {player} | {from} to {to} | {games} | {from_rate:.0} to {to_rate:.0} | {fall:.0} ({low:.0} to {high:.0}) |"
+            "| {player} | {from} to {to} | {games} | {from_rate} to {to_rate} | {fall} ({low} to {high}) |"
         );
     }
+}
+
+/// A share in whole percent, without a sign of zero.
+fn percent(share: f64) -> String {
+    let text = format!("{:.0}", 100.0 * share);
+    if text == "-0" { "0".to_owned() } else { text }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::tests::marks;
+    use super::percent;
     use validators::Tier;
 
     #[test]
@@ -84,5 +90,6 @@ mod tests {
         ] {
             assert!(words.contains(line), "{line}\n{words}");
         }
+        assert_eq!([percent(-0.001), percent(-0.02), percent(0.5)], ["0", "-2", "50"]);
     }
 }
