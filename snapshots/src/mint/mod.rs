@@ -27,7 +27,7 @@ pub use job_store::{JobFolder, JobStore, Memory};
 pub use plan::{Job, Plan};
 use rayon::prelude::*;
 pub use select::Bin;
-use select::{Contender, select};
+use select::{Contender, Part, select};
 pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
 use validators::CriteriaError;
 
@@ -169,7 +169,8 @@ pub fn lay_out(
         let JobResult { games, tally: spent } = job(at)?;
         for (number, game) in games.iter().enumerate() {
             let unsound = || MintError::Unsound(plan.name(plan.jobs()[at]));
-            contenders.push(Contender::of(at, number, game).ok_or_else(unsound)?);
+            let part = Part::of(plan.jobs()[at]);
+            contenders.push(Contender::of(part, (at, number), game).ok_or_else(unsound)?);
         }
         match plan.jobs()[at] {
             Job::Corpus(_) => of_corpus.add(&spent),

@@ -498,7 +498,7 @@ pub(super) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::super::job::FrozenGame;
-    use super::super::select::Contender;
+    use super::super::select::{Contender, Part};
     use super::super::tests::{FETCH, corpus, recipe};
     use super::*;
     use validators::Difficulty;
@@ -524,7 +524,7 @@ mod tests {
         assert_ne!(&published, judged);
         // The selection counts what the judges saw.
         frozen.difficulties = vec![Difficulty::VeryHard];
-        let contender = Contender::of(0, 0, &frozen).unwrap();
+        let contender = Contender::of(Part::Corpus, (0, 0), &frozen).unwrap();
         assert_eq!(contender.difficulties, [Difficulty::VeryHard]);
     }
 

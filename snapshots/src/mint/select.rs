@@ -6,10 +6,11 @@
 
 use super::MintError;
 use super::job::FrozenGame;
-use super::plan::{Plan, apportion};
+use super::plan::{Job, Plan, apportion};
 use crate::Digest;
 use crate::ancestry::item;
 use crate::recipe::Recipe;
+use crate::tiers::PuzzlePart;
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::games::Cast;
@@ -22,11 +23,61 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
 
+/// The part of a recipe that a game is of; each has a number of games of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    /// New levels of corpus games.
+    Corpus,
+    /// New games.
+    Generated,
+    /// Puzzles of pushed things.
+    Puzzles,
+    /// Puzzles of locks.
+    Locks,
+}
+
+impl Part {
+    const ALL: [Part; 4] = [Part::Corpus, Part::Generated, Part::Puzzles, Part::Locks];
+
+    /// The name of its section in a recipe.
+    fn name(self) -> &'static str {
+        match self {
+            Part::Corpus => "corpus",
+            Part::Generated => "generated",
+            Part::Puzzles => "puzzles",
+            Part::Locks => "locks",
+        }
+    }
+
+    /// The part of a job.
+    pub(super) fn of(job: Job) -> Part {
+        match job {
+            Job::Corpus(_) => Part::Corpus,
+            Job::Puzzle(_) => Part::Puzzles,
+            Job::Locks(_) => Part::Locks,
+            Job::Archive(_) | Job::Search(_) | Job::Constructive(_) => Part::Generated,
+        }
+    }
+
+    /// The number of games that a recipe asks for.
+    fn asked(self, recipe: &Recipe) -> usize {
+        let puzzles = |part: &Option<PuzzlePart>| part.as_ref().map_or(0, |part| part.games);
+        let games = match self {
+            Part::Corpus => recipe.corpus.games,
+            Part::Generated => recipe.generated.games,
+            Part::Puzzles => puzzles(&recipe.puzzles),
+            Part::Locks => puzzles(&recipe.locks),
+        };
+        games as usize
+    }
+}
+
 /// A game that can be selected.
 pub(super) struct Contender {
     /// The index of its job, and its place in the job's result.
     pub(super) job: usize,
     pub(super) at: usize,
+    part: Part,
     pub(super) is_new: bool,
     title: String,
     cast: Cast,
@@ -43,8 +94,9 @@ pub(super) struct Contender {
 }
 
 impl Contender {
-    /// The contender for a game of a job's result; `None` if its rules or levels do not load.
-    pub(super) fn of(job: usize, at: usize, frozen: &FrozenGame) -> Option<Contender> {
+    /// The contender for a game of a job's result, by number of the job and place in the result; `None` if its rules or
+    /// levels do not load.
+    pub(super) fn of(part: Part, (job, at): (usize, usize), frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
         let kind = GameKind::of(&analysis);
@@ -58,6 +110,7 @@ impl Contender {
         Some(Contender {
             job,
             at,
+            part,
             is_new: is_new(&frozen.card),
             title: frozen.card.title.clone(),
             cast: Cast::of(&game),
@@ -145,14 +198,14 @@ pub(super) fn select(
 ) -> Result<Vec<usize>, MintError> {
     let recipe = plan.recipe;
     let Fit { fit, dropped } = Fit::of(plan, contenders);
-    let asked = [(false, recipe.corpus.games as usize), (true, recipe.new_games() as usize)];
-    for (is_new, asked) in asked {
-        let there = fit.iter().filter(|&&at| contenders[at].is_new == is_new).count();
+    let asked = Part::ALL.map(|part| (part, part.asked(recipe)));
+    for (part, asked) in asked {
+        let there = fit.iter().filter(|&&at| contenders[at].part == part).count();
         if there < asked {
-            let (part, failed) = if is_new { ("generated", new) } else { ("corpus", old) };
-            let why: BTreeMap<String, u64> = dropped.get(&is_new).cloned().unwrap_or_default();
+            let failed = if part == Part::Corpus { old } else { new };
+            let why: BTreeMap<String, u64> = dropped.get(&part).cloned().unwrap_or_default();
             let why = [failed, &reasons(&why)].into_iter().filter(|why| !why.is_empty()).join(", ");
-            return Err(MintError::TooFew { part, asked, there, why });
+            return Err(MintError::TooFew { part: part.name(), asked, there, why });
         }
     }
     let improved = |start: u64| {
@@ -176,8 +229,8 @@ pub(super) fn select(
 struct Fit {
     /// Their indices.
     fit: Vec<usize>,
-    /// The counts of the reasons why others are excluded, by whether they are new.
-    dropped: BTreeMap<bool, BTreeMap<String, u64>>,
+    /// The counts of the reasons why others are excluded, by part.
+    dropped: BTreeMap<Part, BTreeMap<String, u64>>,
 }
 
 impl Fit {
@@ -185,7 +238,7 @@ impl Fit {
     /// its cast.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
-        let mut dropped: BTreeMap<bool, BTreeMap<String, u64>> = BTreeMap::new();
+        let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
         for (at, contender) in contenders.iter().enumerate() {
             let distinct: BTreeSet<&Digest> = contender.items.iter().collect();
             let repeats = distinct.len() < contender.items.len();
@@ -204,7 +257,7 @@ impl Fit {
                     continue;
                 }
             };
-            *dropped.entry(contender.is_new).or_default().entry(why.to_owned()).or_default() += 1;
+            *dropped.entry(contender.part).or_default().entry(why.to_owned()).or_default() += 1;
         }
         Fit { fit, dropped }
     }
@@ -255,12 +308,12 @@ impl<'a> Choice<'a> {
         recipe: &'a Recipe,
         contenders: &'a [Contender],
         order: Vec<usize>,
-        asked: [(bool, usize); 2],
+        asked: [(Part, usize); 4],
     ) -> Choice<'a> {
-        let mut room: BTreeMap<bool, usize> = asked.into();
+        let mut room: BTreeMap<Part, usize> = asked.into();
         let (mut taken, mut left) = (Vec::new(), Vec::new());
         for at in order {
-            let room = room.entry(contenders[at].is_new).or_default();
+            let room = room.entry(contenders[at].part).or_default();
             match room.checked_sub(1) {
                 Some(less) => {
                     *room = less;
@@ -284,7 +337,7 @@ impl<'a> Choice<'a> {
                 self.counts.add(out, -1);
                 for other in 0..self.left.len() {
                     let instead = &self.contenders[self.left[other]];
-                    if instead.is_new != out.is_new {
+                    if instead.part != out.part {
                         continue;
                     }
                     self.counts.add(instead, 1);
