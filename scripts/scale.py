@@ -65,7 +65,7 @@ def dense(rows):
     for at, row in enumerate(rows):
         for name, value in row.items():
             matrix[at, names[name]] = value
-    return matrix
+    return matrix, list(names)
 
 
 def mode(covariance, offset, won, of):
@@ -94,6 +94,29 @@ def mode(covariance, offset, won, of):
     return alpha, weight, evidence
 
 
+def expected(covariance, shared, offset, won, of):
+    """The normal distribution nearest to the posterior: the means of shared parameters, the weights of the logits' rows, expected
+    weights, and the covariance of the shared parameters."""
+    nodes = np.arange(-3.0, 4.0)
+    shares = np.exp(-(nodes**2) / 2) / np.exp(-(nodes**2) / 2).sum()
+    values, alpha, variance = np.zeros(shared.shape[1]), np.zeros(len(won)), np.zeros(len(won))
+    for _ in range(500):
+        logits = offset + shared @ values + covariance @ alpha
+        chances = special.expit(logits[:, None] + np.sqrt(variance)[:, None] * nodes[None, :])
+        chance, weight = of * (chances @ shares), of * ((chances * (1 - chances)) @ shares)
+        inverse = np.linalg.inv(covariance + np.diag(1 / weight))
+        information = shared.T @ inverse @ shared + np.eye(len(values))
+        target = shared @ values + covariance @ alpha + (won - chance) / weight
+        new_values = np.linalg.solve(information, shared.T @ inverse @ target)
+        new_alpha = inverse @ (target - shared @ new_values)
+        variance = np.diag(covariance - covariance @ inverse @ covariance)
+        move = max(np.abs(new_values - values).max(), np.abs(new_alpha - alpha).max())
+        values, alpha = values + 0.7 * (new_values - values), alpha + 0.7 * (new_alpha - alpha)
+        if move < 1e-9:
+            break
+    return values, alpha, inverse, np.linalg.inv(information)
+
+
 def entries(month):
     plays = [(game, *one) for game, entries in enumerate(month) for one in entries]
     return plays, np.array([one[3] for one in plays]), np.array([one[4] for one in plays])
@@ -106,25 +129,29 @@ def solve(field, month, wanted, offsets):
     rows = [field.logit(examinee, game, level, shift) for game, examinee, level, _, _ in plays]
     offset = np.array([offsets[examinee] if shift else 0.0 for _, examinee, *_ in plays])
     flat = [row for parts in wanted for _, row in parts]
-    all_rows = dense(rows + flat)
+    all_rows, names = dense(rows + flat)
+    is_shared = np.array([name in ("shift", "drift") or name[0] == "ability" for name in names])
     logits, parts = all_rows[: len(rows)], all_rows[len(rows) :]
     functions, at = np.zeros((len(wanted), all_rows.shape[1])), 0
     for which, shares in enumerate(wanted):
         for share, _ in shares:
             functions[which] += share * parts[at]
             at += 1
-    covariance = logits @ logits.T
-    alpha, weight, evidence = mode(covariance, offset, won, of)
-    cross = functions @ logits.T
-    inverse = np.linalg.inv(covariance + np.diag(1 / weight))
-    return cross @ alpha, functions @ functions.T - cross @ inverse @ cross.T, evidence
+    own, own_functions = logits[:, ~is_shared], functions[:, ~is_shared]
+    shared, shared_functions = logits[:, is_shared], functions[:, is_shared]
+    values, alpha, inverse, of_shared = expected(own @ own.T, shared, offset, won, of)
+    cross = own_functions @ own.T
+    means = shared_functions @ values + cross @ alpha
+    slopes = shared_functions - cross @ inverse @ shared
+    within = own_functions @ own_functions.T - cross @ inverse @ cross.T
+    return means, slopes @ of_shared @ slopes.T + within
 
 
 def evidence_of(parameters, examinees, month):
     spreads = to_spreads(parameters)
     field = Field(spreads, examinees, None)
     plays, won, of = entries(month)
-    rows = dense([field.logit(examinee, game, level, False) for game, examinee, level, _, _ in plays])
+    rows, _ = dense([field.logit(examinee, game, level, False) for game, examinee, level, _, _ in plays])
     _, _, evidence = mode(rows @ rows.T, np.zeros(len(won)), won, of)
     return evidence - 0.5 * (np.asarray(parameters) ** 2).sum()
 
@@ -195,7 +222,7 @@ def main():
     wanted += [mean_rows(field, levels, reads, False) for reads in (False, True)]
     wanted += [planners_rows(field, levels, planners, False)]
     wanted += [[(1.0, field.difficulty(*level, reads, False))] for reads in (False, True) for level in levels]
-    means, covariance, _ = solve(field, months[0], wanted, None)
+    means, covariance = solve(field, months[0], wanted, None)
     joint = covariance[: count + 3, : count + 3]
     for at, one in enumerate(examinees):
         origin = count + (one["family"] is None)
@@ -211,7 +238,7 @@ def main():
         wanted = [mean_rows(field, levels, reads, True) for reads in (False, True)]
         wanted += [planners_rows(field, levels, planners, True), [(1.0, {"drift": ABILITY_VARIANCE**0.5})]]
         wanted += [[(1.0, field.difficulty(*level, reads, True))] for reads in (False, True) for level in levels]
-        found, covariance, _ = solve(field, months[1], wanted, offsets)
+        found, covariance = solve(field, months[1], wanted, offsets)
         found[2] += np.mean([offsets[one] for one in planners])
         return found, covariance
 

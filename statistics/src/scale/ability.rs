@@ -253,7 +253,7 @@ impl PlayedGame {
 }
 
 /// The nodes of an integral over a standard normal variable, with their weights: the trapezoid rule.
-fn nodes() -> impl Iterator<Item = (f64, f64)> {
+pub(super) fn nodes() -> impl Iterator<Item = (f64, f64)> {
     // exp(−z²/2) at 0 to 3, over their sum.
     const WEIGHTS: [f64; 4] = [0.399050279652450, 0.242036229376345, 0.054005582622414, 0.004433048175244];
     (-3i32..=3).map(|z| (f64::from(z), WEIGHTS[z.unsigned_abs() as usize]))

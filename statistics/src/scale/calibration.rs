@@ -104,7 +104,7 @@ impl Calibration {
         spreads: Spreads,
     ) -> Option<(Calibration, Month)> {
         let model = checked(examinees, games, None)?;
-        let posterior = model.posterior(&spreads, None)?;
+        let posterior = model.expected_posterior(&spreads)?;
         let mut functionals: Vec<Functional> =
             (0..examinees.len()).map(|at| model.shared_functional(at)).collect();
         functionals.extend(BOTH.map(|dimension| model.mean_functional(&spreads, dimension)));
@@ -149,7 +149,7 @@ impl Calibration {
     /// `None` as for [`Calibration::new`]; not every examinee has to play.
     pub fn add(&self, games: &[GamePlays]) -> Option<Month> {
         let model = checked(&self.examinees, games, Some(&self.abilities))?;
-        let posterior = model.posterior(&self.spreads, None)?;
+        let posterior = model.expected_posterior(&self.spreads)?;
         let difficulties = self.difficulties(&model, &posterior);
         let count = self.examinees.len();
         let mut link = [0.0; 2];

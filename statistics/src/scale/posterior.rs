@@ -5,6 +5,7 @@
 //! Effects of games are in standard deviations: their prior is standard normal, and the spreads are in the loadings. So nothing
 //! breaks down where a spread goes to zero.
 
+use super::ability::nodes;
 use super::plays::{Dimension, Examinee, GamePlays};
 use super::spreads::Spreads;
 use arrayvec::ArrayVec;
@@ -16,6 +17,12 @@ const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
 const STEPS: usize = 100;
 /// The length of a step after which the mode is found: Newton's steps square it.
 const FOUND: f64 = 1e-5;
+/// The same of a step to expected values, which is shortened by a factor only.
+const FOUND_EXPECTED: f64 = 1e-6;
+/// The most steps to expected values; 15 to 60 are usual.
+const EXPECTED_STEPS: usize = 400;
+/// The share of a step to expected values that is taken: variances follow the means, so whole steps can go to and fro.
+const DAMPING: f64 = 0.7;
 /// The longest step of an effect: the likelihood is flat far from its maximum.
 const LONGEST: f64 = 3.0;
 
@@ -130,8 +137,7 @@ impl<'a> Model<'a> {
         });
         let mut height = self.height(&rows, &modes);
         for _ in 0..STEPS {
-            let curvature = self.curvature(&rows, &modes)?;
-            let (shared, games) = curvature.step();
+            let (shared, games) = self.curvature(&rows, &modes, None)?.step();
             let longest = games.iter().map(|step| step.amax()).fold(shared.amax(), f64::max);
             let mut length = if longest > LONGEST { LONGEST / longest } else { 1.0 };
             loop {
@@ -154,8 +160,32 @@ impl<'a> Model<'a> {
                 break;
             }
         }
-        let curvature = self.curvature(&rows, &modes)?;
-        Some(Posterior::new(modes, height, curvature, &rows))
+        let curvature = self.curvature(&rows, &modes, None)?;
+        Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
+    }
+
+    /// Returns the normal distribution that is nearest to the posterior, given the spreads, by relative entropy (J. T. Ormerod and M. P.
+    /// Wand, "Gaussian variational approximate inference for generalized linear mixed models", 2012): its means are those of a skewed
+    /// distribution, where modes are drawn to the middle. The shared parameters solve the equation of the marginal likelihood, with
+    /// expected chances in it. `None` if it cannot be computed.
+    pub(super) fn expected_posterior(&self, spreads: &Spreads) -> Option<Posterior> {
+        let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
+        let mut found = self.posterior(spreads, None)?;
+        for _ in 0..EXPECTED_STEPS {
+            let variances = found.curvature.variances(&rows);
+            let curvature = self.curvature(&rows, &found.modes, Some(&variances))?;
+            let (shared, games) = curvature.step();
+            let longest = games.iter().map(|step| step.amax()).fold(shared.amax(), f64::max);
+            let length = DAMPING * if longest > LONGEST { LONGEST / longest } else { 1.0 };
+            let mut modes = found.modes;
+            modes.shared += shared * length;
+            modes.games.iter_mut().zip(games).for_each(|(at, step)| *at += step * length);
+            found = Posterior::new(modes, found.marginal, curvature, &rows, Some(&variances));
+            if longest < FOUND_EXPECTED {
+                return Some(found);
+            }
+        }
+        None
     }
 
     fn rows(&self, spreads: &Spreads, game: usize) -> Vec<Row> {
@@ -183,19 +213,32 @@ impl<'a> Model<'a> {
         sum
     }
 
-    fn curvature(&self, rows: &[Vec<Row>], modes: &Modes) -> Option<Curvature> {
+    /// Returns the curvature at the modes; with the variances of the linear predictors, the one expected around them.
+    fn curvature(
+        &self,
+        rows: &[Vec<Row>],
+        modes: &Modes,
+        variances: Option<&[Vec<f64>]>,
+    ) -> Option<Curvature> {
         let shared = self.shared();
         let mut schur = DMatrix::identity(shared, shared) * FIXED_PRECISION;
         let mut gradient = &modes.shared * -FIXED_PRECISION;
         let mut games = Vec::with_capacity(rows.len());
-        for (rows, own) in rows.iter().zip(&modes.games) {
+        for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
             let size = own.len();
             let (mut within, mut cross) =
                 (DMatrix::identity(size, size), DMatrix::<f64>::zeros(size, shared));
             let mut slope = -own;
-            for row in rows {
-                let chance = logistic(row.logit(&modes.shared, own));
-                let (rest, weight) = (row.won - row.of * chance, row.of * chance * (1.0 - chance));
+            for (at, row) in rows.iter().enumerate() {
+                let logit = row.logit(&modes.shared, own);
+                let (chance, spread) = match variances {
+                    None => {
+                        let chance = logistic(logit);
+                        (chance, chance * (1.0 - chance))
+                    }
+                    Some(variances) => expected(logit, variances[game][at]),
+                };
+                let (rest, weight) = (row.won - row.of * chance, row.of * spread);
                 for &(i, a) in &row.own {
                     slope[i] += a * rest;
                     // The lower triangle is all that is read.
@@ -275,6 +318,15 @@ impl Row {
     }
 }
 
+/// Returns the expected chance, and its expected variance, for a normal logit.
+fn expected(mean: f64, variance: f64) -> (f64, f64) {
+    let sd = variance.max(0.0).sqrt();
+    nodes().fold((0.0, 0.0), |(chances, spreads), (z, weight)| {
+        let chance = logistic(mean + sd * z);
+        (chances + weight * chance, spreads + weight * chance * (1.0 - chance))
+    })
+}
+
 pub(super) fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-x))
 }
@@ -310,6 +362,19 @@ impl Curvature {
         (shared, games)
     }
 
+    /// Returns the variances of the linear predictors, given the shared parameters.
+    fn variances(&self, rows: &[Vec<Row>]) -> Vec<Vec<f64>> {
+        let of_game = |(game, rows): (&GameCurvature, &Vec<Row>)| {
+            let inverse = game.within.inverse();
+            let quadratic = |row: &Row| {
+                let terms = row.own.iter().flat_map(|one| row.own.iter().map(move |other| (one, other)));
+                terms.map(|((i, a), (j, b))| a * b * inverse[(*i, *j)]).sum::<f64>()
+            };
+            rows.iter().map(quadratic).collect()
+        };
+        self.games.iter().zip(rows).map(of_game).collect()
+    }
+
     /// Returns half the logarithm of the determinant.
     fn half_log_determinant(&self) -> f64 {
         let of = |factor: &Cholesky<f64, Dyn>| {
@@ -335,19 +400,27 @@ pub(super) struct Posterior {
     curvature: Curvature,
     /// The covariance of the shared parameters.
     pub(super) covariance: DMatrix<f64>,
-    /// The weight of each row with its terms, by game.
+    /// The expected weight of each row with its terms, by game; empty at a mode.
     weights: Vec<Vec<(usize, f64, Terms, Terms)>>,
 }
 
 impl Posterior {
-    fn new(modes: Modes, height: f64, curvature: Curvature, rows: &[Vec<Row>]) -> Posterior {
-        let weight = |row: &Row, own: &DVector<f64>| {
-            let chance = logistic(row.logit(&modes.shared, own));
-            (row.examinee, row.of * chance * (1.0 - chance), row.shared.clone(), row.own.clone())
+    fn new(
+        modes: Modes,
+        marginal: f64,
+        curvature: Curvature,
+        rows: &[Vec<Row>],
+        variances: Option<&[Vec<f64>]>,
+    ) -> Posterior {
+        let of_game = |((rows, own), variances): ((&Vec<Row>, &DVector<f64>), &Vec<f64>)| {
+            let weight = |(row, variance): (&Row, &f64)| {
+                let (_, spread) = expected(row.logit(&modes.shared, own), *variance);
+                (row.examinee, row.of * spread, row.shared.clone(), row.own.clone())
+            };
+            rows.iter().zip(variances).map(weight).collect()
         };
-        let games = rows.iter().zip(&modes.games);
-        let weights = games.map(|(rows, own)| rows.iter().map(|row| weight(row, own)).collect()).collect();
-        let marginal = height - curvature.half_log_determinant();
+        let games = rows.iter().zip(&modes.games).zip(variances.unwrap_or_default());
+        let weights = games.map(of_game).collect();
         let covariance = curvature.schur.inverse();
         Posterior { modes, marginal, curvature, covariance, weights }
     }
