@@ -17,6 +17,7 @@ pub mod metrics;
 pub mod player;
 pub mod prompt;
 pub mod run;
+pub mod scale;
 pub mod serve;
 pub mod study;
 mod subject;

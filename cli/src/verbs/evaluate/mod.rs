@@ -3,7 +3,7 @@
 mod human;
 mod mailbox;
 mod model;
-mod subjects;
+pub(crate) mod subjects;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -101,6 +101,17 @@ pub(crate) struct Args {
     model: ModelArgs,
 }
 
+impl Args {
+    fn wanted(&self) -> subjects::Wanted<'_> {
+        subjects::Wanted {
+            subjects: &self.subjects,
+            games: &self.games,
+            levels: &self.levels,
+            as_reference: self.as_reference,
+        }
+    }
+}
+
 enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
@@ -136,7 +147,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let requested = requested_player(args)?;
     reject_unused_flags(args, &requested)?;
-    let subjects = subjects::read(args)?;
+    let subjects = subjects::read(&args.wanted())?;
     let settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,
