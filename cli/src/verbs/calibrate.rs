@@ -172,7 +172,7 @@ fn calibrated(
         let names: Vec<&str> = scale.examinees.iter().map(|entry| entry.name.as_str()).collect();
         let plays = plays(settings, persons, &names);
         let month = scale.calibration().add(&plays).ok_or_else(failed)?;
-        scale.add(name, settings, &month);
+        scale.add(name, settings, &month, &plays);
         return Ok(scale);
     }
     let labels: Vec<String> = persons.iter().map(|person| person.player.label()).collect();
@@ -204,7 +204,7 @@ fn calibrated(
     let mut scale = ScaleFile::new(&found, &names, settings.max_steps);
     scale.replicates = replicates.len() as u64;
     scale.correlation = rough.correlation(&replicates).map(Span::from);
-    scale.add(name, settings, &month);
+    scale.add(name, settings, &month, &plays);
     Ok(scale)
 }
 

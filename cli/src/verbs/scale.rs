@@ -1,6 +1,7 @@
 //! `arcade scale`: abilities of players on one scale over releases.
 
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::Answer;
 use crate::verbs::release::in_pool;
 use evaluation::scale::{MonthAbility, Refusal, ScaleFile, abilities, played};
@@ -67,12 +68,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn words(month: &MonthAbility) -> String {
     let MonthAbility { won, episodes, games, .. } = month;
     let played = format!("{won} of {episodes} won, {games} games");
-    if let Some(Refusal::PlannersOnly { correlation_low }) = &month.refusal {
+    if let Some(Refusal::FewAnchors { anchors, correlation_low }) = &month.refusal {
         let low = correlation_low
             .map_or("is not known".to_owned(), |low| format!("may be as low as {low:.2}, below 0.5"));
+        let anchors = count(*anchors as usize, "anchor");
         return format!(
-            "not placed ({played}): the release is linked by planners alone, and the correlation of the difficulty for planners and \
-             for readers {low}; calibrate it with anchors, readers that played earlier releases (--readers)"
+            "not placed ({played}): the release is linked by planners and {anchors}, and the correlation of the difficulty for planners \
+             and for readers {low}; calibrate it with two anchors at least, readers that played the first release too (--readers)"
         );
     }
     let (Some(found), Some(error)) = (month.ability, month.error) else {

@@ -7,7 +7,7 @@ use engine::Digest;
 use serde::{Deserialize, Serialize};
 use statistics::Interval;
 use statistics::scale::{
-    Calibration, Correlated, Difficulties, Dimension, Estimated, Examinee, Month, Spreads,
+    Calibration, Correlated, Difficulties, Dimension, Estimated, Examinee, GamePlays, Month, Spreads,
 };
 use std::path::Path;
 
@@ -98,6 +98,8 @@ pub struct MonthEntry {
     pub planners_shift: Estimate,
     /// The standard error that all difficulties have in common, for planners and for readers.
     pub link: [f64; 2],
+    /// The readers of the scale that played it.
+    pub anchors: u64,
     /// By how much more difficult it is for readers than for planners, as anchors see it.
     pub drift: Option<Estimate>,
     /// The games.
@@ -249,8 +251,13 @@ impl ScaleFile {
         }
     }
 
-    /// Adds a release that was played with these settings.
-    pub fn add(&mut self, name: &str, settings: &Settings, month: &Month) {
+    /// Adds a release that was played with these settings; `plays` are those that it was calibrated by.
+    pub fn add(&mut self, name: &str, settings: &Settings, month: &Month, plays: &[GamePlays]) {
+        let played = |at: usize| {
+            plays.iter().flat_map(|game| &game.plays).any(|plays| plays.examinee == at && plays.of > 0.0)
+        };
+        let readers = (0..self.examinees.len()).filter(|&at| self.examinees[at].is_reader && played(at));
+        let anchors = readers.count() as u64;
         let games = settings.games.iter().zip(&month.games).map(|(entry, found)| GameEntry {
             id: entry.id.clone(),
             digest: entry.digest,
@@ -274,6 +281,7 @@ impl ScaleFile {
             shifts: month.shifts.map(Estimate::from),
             planners_shift: month.planners_shift.into(),
             link: month.link,
+            anchors,
             drift: month.drift.map(Estimate::from),
             games: games.collect(),
         });

@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 
 /// The least lower end of the correlation at which planners alone link a month for readers.
 const LEAST_CORRELATION: f64 = 0.5;
+/// The fewest anchors that link a month for readers: of a single one it is not known what it shares with other readers.
+const ANCHORS: u64 = 2;
 
 /// The abilities of a person, by release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -64,8 +66,10 @@ pub struct ErrorParts {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
-    /// The release is linked by planners alone, and these say too little about readers.
-    PlannersOnly {
+    /// The release is linked by planners, with fewer than two anchors, and planners say too little about readers.
+    FewAnchors {
+        /// The anchors that played.
+        anchors: u64,
         /// The lower end of the correlation, if it is known.
         correlation_low: Option<f64>,
     },
@@ -105,7 +109,7 @@ fn of_month(
     let games: Vec<PlayedGame> = games.into_values().collect();
     let sum =
         |of: fn(&PlayedLevel) -> f64| games.iter().flat_map(|game| &game.levels).map(of).sum::<f64>() as u64;
-    let is_anchored = month == 0 || entry.drift.is_some();
+    let is_anchored = month == 0 || entry.anchors >= ANCHORS;
     let low = scale.correlation.map(|found| found.low);
     let refused = is_reader && !is_anchored && low.is_none_or(|low| low < LEAST_CORRELATION);
     let median = match is_reader {
@@ -133,7 +137,7 @@ fn of_month(
             link: found.link,
         }),
         mismatch_sd: found.map(|found| found.mismatch_sd),
-        refusal: refused.then_some(Refusal::PlannersOnly { correlation_low: low }),
+        refusal: refused.then_some(Refusal::FewAnchors { anchors: entry.anchors, correlation_low: low }),
         drift: entry.drift,
     }
 }

@@ -2,7 +2,7 @@
 //! and each game, over the errors of the difficulties, and over how strongly matches vary, by quadrature: nothing is approximated by
 //! a normal distribution, so a player without wins has an interval too.
 
-use super::posterior::logistic;
+use super::posterior::{logistic, softplus};
 use crate::wilson::{Interval, Z95};
 
 /// The plays of a player on a level.
@@ -242,8 +242,7 @@ impl PlayedGame {
                 let centre = f64::from(node) * STEP - level.difficulty;
                 let each = nodes().map(|(z, weight)| {
                     let logit = centre + level.own * z;
-                    let softplus = logit.max(0.0) + libm::log1p(libm::exp(-logit.abs()));
-                    weight * libm::exp(level.won * logit - level.of * softplus)
+                    weight * libm::exp(level.won * logit - level.of * softplus(logit))
                 });
                 *at *= each.sum::<f64>();
             }

@@ -20,9 +20,11 @@ const FOUND: f64 = 1e-5;
 /// The same of a step to expected values, which is shortened by a factor only.
 const FOUND_EXPECTED: f64 = 1e-6;
 /// The most steps to expected values; 15 to 60 are usual.
-const EXPECTED_STEPS: usize = 400;
-/// The share of a step to expected values that is taken: variances follow the means, so whole steps can go to and fro.
+const EXPECTED_STEPS: usize = 200;
+/// The share of the change of variances that is taken: they follow the means, so whole changes can go to and fro.
 const DAMPING: f64 = 0.7;
+/// The number of steps after which half of that share is taken.
+const SETTLING: f64 = 50.0;
 /// The longest step of an effect: the likelihood is flat far from its maximum.
 const LONGEST: f64 = 3.0;
 
@@ -135,31 +137,15 @@ impl<'a> Model<'a> {
             shared: DVector::zeros(self.shared()),
             games: self.layouts.iter().map(|layout| DVector::zeros(layout.size)).collect(),
         });
-        let mut height = self.height(&rows, &modes);
         for _ in 0..STEPS {
-            let (shared, games) = self.curvature(&rows, &modes, None)?.step();
-            let longest = games.iter().map(|step| step.amax()).fold(shared.amax(), f64::max);
-            let mut length = if longest > LONGEST { LONGEST / longest } else { 1.0 };
-            loop {
-                let next = Modes {
-                    shared: &modes.shared + &shared * length,
-                    games: modes.games.iter().zip(&games).map(|(at, step)| at + step * length).collect(),
-                };
-                let there = self.height(&rows, &next);
-                // Near the mode the sum of thousands of terms is no more exact than this.
-                if there >= height - 1e-10 * height.abs() {
-                    (modes, height) = (next, there);
-                    break;
-                }
-                length *= 0.5;
-                if length < 1e-8 {
-                    return None;
-                }
-            }
-            if longest * length < FOUND {
+            let step = self.curvature(&rows, &modes, None)?.step();
+            let (next, longest) = self.raised(&rows, modes, None, step)?;
+            modes = next;
+            if longest < FOUND {
                 break;
             }
         }
+        let height = self.height(&rows, &modes, None);
         let curvature = self.curvature(&rows, &modes, None)?;
         Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
     }
@@ -170,20 +156,49 @@ impl<'a> Model<'a> {
     /// expected chances in it. `None` if it cannot be computed.
     pub(super) fn expected_posterior(&self, spreads: &Spreads) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
-        let mut found = self.posterior(spreads, None)?;
-        for _ in 0..EXPECTED_STEPS {
-            let variances = found.curvature.variances(&rows);
-            let curvature = self.curvature(&rows, &found.modes, Some(&variances))?;
-            let (shared, games) = curvature.step();
-            let longest = games.iter().map(|step| step.amax()).fold(shared.amax(), f64::max);
-            let length = DAMPING * if longest > LONGEST { LONGEST / longest } else { 1.0 };
-            let mut modes = found.modes;
-            modes.shared += shared * length;
-            modes.games.iter_mut().zip(games).for_each(|(at, step)| *at += step * length);
-            found = Posterior::new(modes, found.marginal, curvature, &rows, Some(&variances));
-            if longest < FOUND_EXPECTED {
-                return Some(found);
+        let start = self.posterior(spreads, None)?;
+        let (mut modes, marginal) = (start.modes, start.marginal);
+        let mut variances = start.curvature.variances(&rows);
+        for step in 1..=EXPECTED_STEPS {
+            let curvature = self.curvature(&rows, &modes, Some(&variances))?;
+            let (next, longest) = self.raised(&rows, modes, Some(&variances), curvature.step())?;
+            modes = next;
+            let found = curvature.variances(&rows);
+            let pairs = || variances.iter().flatten().zip(found.iter().flatten());
+            let apart = pairs().map(|(old, new)| (new - old).abs() / (1.0 + new)).fold(0.0, f64::max);
+            // Where nearly nothing is known the variances are so large that the quadrature is rough, and they do not settle.
+            if longest.max(apart) < FOUND_EXPECTED || step == EXPECTED_STEPS {
+                return Some(Posterior::new(modes, marginal, curvature, &rows, Some(&variances)));
             }
+            let damping = DAMPING / (1.0 + step as f64 / SETTLING);
+            for (old, new) in variances.iter_mut().flatten().zip(found.iter().flatten()) {
+                *old += damping * (new - *old);
+            }
+        }
+        None
+    }
+
+    /// Returns the modes after a step that raises the height, and how long it was at most; half of it is taken until it does.
+    fn raised(
+        &self,
+        rows: &[Vec<Row>],
+        modes: Modes,
+        variances: Option<&[Vec<f64>]>,
+        (shared, games): (DVector<f64>, Vec<DVector<f64>>),
+    ) -> Option<(Modes, f64)> {
+        let height = self.height(rows, &modes, variances);
+        let longest = games.iter().map(|step| step.amax()).fold(shared.amax(), f64::max);
+        let mut length = if longest > LONGEST { LONGEST / longest } else { 1.0 };
+        while length > 1e-8 {
+            let next = Modes {
+                shared: &modes.shared + &shared * length,
+                games: modes.games.iter().zip(&games).map(|(at, step)| at + step * length).collect(),
+            };
+            // Near the mode the sum of thousands of terms is no more exact than this.
+            if self.height(rows, &next, variances) >= height - 1e-10 * height.abs() {
+                return Some((next, longest * length));
+            }
+            length *= 0.5;
         }
         None
     }
@@ -198,15 +213,20 @@ impl<'a> Model<'a> {
         plays.map(row).collect()
     }
 
-    /// Returns the logarithm of likelihood and prior, up to a constant.
-    fn height(&self, rows: &[Vec<Row>], modes: &Modes) -> f64 {
+    /// Returns the logarithm of likelihood and prior, up to a constant; with variances of the linear predictors, the expected one.
+    fn height(&self, rows: &[Vec<Row>], modes: &Modes, variances: Option<&[Vec<f64>]>) -> f64 {
         let mut sum = -0.5 * FIXED_PRECISION * modes.shared.norm_squared();
-        for (rows, own) in rows.iter().zip(&modes.games) {
+        for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
             sum -= 0.5 * own.norm_squared();
-            for row in rows {
+            for (at, row) in rows.iter().enumerate() {
                 let logit = row.logit(&modes.shared, own);
-                // ln(1 + eˣ), without overflow.
-                let softplus = logit.max(0.0) + libm::log1p(libm::exp(-logit.abs()));
+                let softplus = match variances {
+                    None => softplus(logit),
+                    Some(variances) => {
+                        let sd = variances[game][at].max(0.0).sqrt();
+                        nodes().map(|(z, weight)| weight * softplus(logit + sd * z)).sum()
+                    }
+                };
                 sum += row.won * logit - row.of * softplus;
             }
         }
@@ -325,6 +345,11 @@ fn expected(mean: f64, variance: f64) -> (f64, f64) {
         let chance = logistic(mean + sd * z);
         (chances + weight * chance, spreads + weight * chance * (1.0 - chance))
     })
+}
+
+/// Returns ln(1 + eˣ), without overflow.
+pub(super) fn softplus(x: f64) -> f64 {
+    x.max(0.0) + libm::log1p(libm::exp(-x.abs()))
 }
 
 pub(super) fn logistic(x: f64) -> f64 {
