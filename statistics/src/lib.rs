@@ -24,6 +24,7 @@ mod difference;
 mod draws;
 mod fisher;
 mod half_point;
+pub mod memory_simulation;
 mod over_games;
 mod pearson;
 mod power;

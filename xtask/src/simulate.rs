@@ -1,5 +1,6 @@
 //! `cargo xtask simulate`: how often the intervals of reports cover, how often their tests err, and whether the stated power is true.
 
+mod memory;
 mod scale;
 
 use rayon::prelude::*;
@@ -34,6 +35,8 @@ enum Question {
     Comparisons,
     /// Power: different players that are told apart, as stated and as simulated
     Power,
+    /// Players that replay published solutions: how often exact tests of memory flag them
+    Memory,
     /// The scale: errors of the link of two months
     Link,
     /// The scale: errors and coverage of abilities
@@ -54,6 +57,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Question::Coverage => coverage(args),
         Question::Comparisons => comparisons(args),
         Question::Power => power(args),
+        Question::Memory => memory::memory(args),
         Question::Link => scale::link(args),
         Question::Ability => scale::ability(args),
         Question::Drift => scale::drift(args),
