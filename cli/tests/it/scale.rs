@@ -41,6 +41,28 @@ fn releases_are_added_to_a_scale() {
     assert!(second["months"][1]["link"][0].as_f64().unwrap() > 0.0);
 }
 
+/// The actions of each examinee on a level: examinees are frozen, so a difference is a fault, or needs a new examinee (its number raised,
+/// `docs/examinees.md`). A change of the game itself moves them too.
+#[test]
+fn examinees_play_as_ever() {
+    let plays = SCALES.path().join("first/plays");
+    let mut names: Vec<String> = fs::read_dir(&plays)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let actions = |name: &String| {
+        let log = plays.join(name).join("episodes/hailglass-lvl0-run0.jsonl");
+        let log = fs::read_to_string(log).unwrap();
+        let events = log.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let steps = events.filter(|event| event["event"] == "step");
+        let initials = steps.map(|step| step["action"].as_str().unwrap()[..1].to_owned());
+        format!("{name} {}\n", initials.collect::<String>())
+    };
+    let found: String = names.iter().map(actions).collect();
+    assert_eq!(found, include_str!("../examinees.txt"), "found:\n{found}");
+}
+
 /// A calibration that was interrupted ends with the bytes of one that was not, on any number of threads.
 #[test]
 fn interrupted_calibrations_resume() {
