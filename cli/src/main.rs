@@ -84,6 +84,8 @@ verbs! {
     #[command(hide = true)]
     PlayerGuard: player_guard,
     Report: report,
+    Calibrate: calibrate,
+    Scale: scale,
     Diff: diff,
     Export: export,
     Play: play,

@@ -19,6 +19,7 @@ pub mod player;
 pub mod predictions;
 pub mod prompt;
 pub mod run;
+pub mod scale;
 pub mod serve;
 pub mod study;
 mod subject;

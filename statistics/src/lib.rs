@@ -1,5 +1,5 @@
-//! Statistics for win rates and scores: intervals, tests, corrections and summaries, with the same bits on every
-//! machine except as noted below.
+//! Statistics for win rates and scores: intervals, tests, corrections and summaries, a [scale] of difficulty and ability, and
+//! exact tests of memory ([`coin_test`]), with the same bits on every machine except as noted below.
 //!
 //! This crate depends on no other crate of the workspace. It uses only `+ - * /`, square roots and `libm`, in a fixed
 //! order; random draws come from ChaCha8 with the caller's seed. The exceptions are for reports only: the p-values of
@@ -17,15 +17,19 @@
 mod bootstrap;
 mod clustered;
 mod cohen;
+mod contamination;
 mod correction;
 mod design;
 mod difference;
+mod draws;
 mod fisher;
 mod half_point;
+pub mod memory_simulation;
 mod over_games;
 mod pearson;
 mod power;
 mod quantile;
+pub mod scale;
 pub mod simulation;
 mod spearman;
 mod stratified;
@@ -37,6 +41,7 @@ mod wilson;
 pub use bootstrap::{bootstrap, bootstrap_difference};
 pub use clustered::clustered_mean;
 pub use cohen::cohens_h;
+pub use contamination::{CoinTest, Memoriser, coin_power, coin_test};
 pub use correction::{benjamini_hochberg, bonferroni};
 pub use design::{Design, Spread};
 pub use difference::difference;

@@ -3,12 +3,10 @@
 
 use crate::clustered::clustered_mean;
 use crate::design::{Design, Spread, logistic};
+use crate::draws::Draws;
 use crate::over_games::{paired_over_games, rate_over_games};
 use crate::stratified::{Stratum, stratified};
 use crate::wilson::{Z95, wilson};
-use libm::{log, sqrt};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// The fractions of simulated evaluations whose nominal 95 % interval holds the true win rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +42,7 @@ const RESAMPLES: usize = 400;
 
 /// A stream of evaluations; the same seed gives the same.
 pub struct Simulation {
-    draws: ChaCha8Rng,
+    draws: Draws,
     design: Design,
     spread: Spread,
 }
@@ -52,7 +50,7 @@ pub struct Simulation {
 impl Simulation {
     /// Creates a simulation.
     pub fn new(design: Design, spread: Spread, seed: u64) -> Simulation {
-        Simulation { draws: ChaCha8Rng::seed_from_u64(seed), design, spread }
+        Simulation { draws: Draws::new(seed), design, spread }
     }
 
     /// Returns the coverage for a player with this win rate. Cost: O(trials · (episodes + games · resamples)).
@@ -112,15 +110,15 @@ impl Simulation {
     fn evaluation(&mut self, abilities: [f64; 2], episodes: Episodes) -> Vec<Vec<Stratum>> {
         let Design { games, levels, runs } = self.design;
         let game = |this: &mut Simulation| {
-            let game = this.spread.games * this.normal();
-            let fit = [0, 1].map(|_| this.spread.matches * this.normal());
+            let game = this.spread.games * this.draws.normal();
+            let fit = [0, 1].map(|_| this.spread.matches * this.draws.normal());
             let level = |this: &mut Simulation| {
-                let level = game + this.spread.levels * this.normal();
+                let level = game + this.spread.levels * this.draws.normal();
                 let wins = [0, 1].map(|side: usize| {
                     let chance = logistic(abilities[side] + level + fit[side]);
                     match episodes {
-                        Episodes::Independent => (0..runs).filter(|_| this.uniform() < chance).count() as u64,
-                        Episodes::Copies => u64::from(this.uniform() < chance) * runs,
+                        Episodes::Independent => this.draws.successes(chance, runs),
+                        Episodes::Copies => u64::from(this.draws.uniform() < chance) * runs,
                     }
                 });
                 Stratum { successes: wins, trials: [runs; 2] }
@@ -128,23 +126,6 @@ impl Simulation {
             (0..levels).map(|_| level(this)).collect()
         };
         (0..games).map(|_| game(self)).collect()
-    }
-
-    /// Draws from 0..1.
-    fn uniform(&mut self) -> f64 {
-        (self.draws.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Draws a standard normal number (G. Marsaglia and T. A. Bray, "A convenient method for generating normal variables",
-    /// 1964).
-    fn normal(&mut self) -> f64 {
-        loop {
-            let [x, y] = [0, 1].map(|_| 2.0 * self.uniform() - 1.0);
-            let square = x * x + y * y;
-            if square > 0.0 && square < 1.0 {
-                return x * sqrt(-2.0 * log(square) / square);
-            }
-        }
     }
 }
 
@@ -188,13 +169,5 @@ mod tests {
                 Simulation::new(design, Spread::default(), 31).detections(rates, Episodes::Independent, 1000);
             assert!((found.over_games - stated).abs() < 0.05, "{design:?}: {stated} stated, {found:?}");
         }
-    }
-
-    #[test]
-    fn draws_are_normal() {
-        let mut simulation = simulation(1, 0.0);
-        let draws: Vec<f64> = (0..20000).map(|_| simulation.normal()).collect();
-        let (mean, square) = draws.iter().fold((0.0, 0.0), |sum, z| (sum.0 + z, sum.1 + z * z));
-        assert!((mean / 20000.0).abs() < 0.03 && (square / 20000.0 - 1.0).abs() < 0.04);
     }
 }

@@ -1,5 +1,6 @@
 //! The verbs, one file each: flags, behaviour and output.
 
+pub(crate) mod calibrate;
 pub(crate) mod clean;
 pub(crate) mod completions;
 pub(crate) mod conformance;
@@ -21,6 +22,7 @@ pub(crate) mod release;
 pub(crate) mod render;
 pub(crate) mod report;
 pub(crate) mod run;
+pub(crate) mod scale;
 pub(crate) mod serve_player;
 pub(crate) mod validate;
 pub(crate) mod verify;

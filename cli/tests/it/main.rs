@@ -13,6 +13,7 @@ mod pictures;
 mod regenerate;
 mod release;
 mod report;
+mod scale;
 mod sealed;
 mod served;
 #[path = "../../../evaluation/tests/it/server.rs"]

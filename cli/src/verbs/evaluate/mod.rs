@@ -3,7 +3,7 @@
 mod human;
 mod mailbox;
 mod model;
-mod subjects;
+pub(crate) mod subjects;
 mod track;
 
 use crate::console::Console;
@@ -104,6 +104,17 @@ pub(crate) struct Args {
     model: ModelArgs,
 }
 
+impl Args {
+    fn wanted(&self) -> subjects::Wanted<'_> {
+        subjects::Wanted {
+            subjects: &self.subjects,
+            games: &self.games,
+            levels: &self.levels,
+            as_reference: self.as_reference,
+        }
+    }
+}
+
 enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
@@ -141,7 +152,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let requested = requested_player(args)?;
     track::check(args, &requested)?;
     reject_unused_flags(args, &requested)?;
-    let subjects = subjects::read(args)?;
+    let subjects = subjects::read(&args.wanted())?;
     let mut settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,

@@ -1,6 +1,5 @@
 //! The subjects of an evaluation: the games of a snapshot, or games as the user names them.
 
-use super::Args;
 use crate::diagnostics;
 use crate::embedded;
 use crate::failure::Failure;
@@ -24,6 +23,14 @@ const MAX_CARD: usize = 1 << 24;
 /// The largest file of marks.
 const MAX_MARKS: usize = 1 << 26;
 
+/// The games that a user names, and the part of them that is played.
+pub(crate) struct Wanted<'a> {
+    pub(crate) subjects: &'a [String],
+    pub(crate) games: &'a [String],
+    pub(crate) levels: &'a [usize],
+    pub(crate) as_reference: bool,
+}
+
 /// The games, and the root digest of the snapshot if all of them come from one.
 pub(crate) struct Subjects {
     pub(crate) snapshot: Option<Digest>,
@@ -31,9 +38,9 @@ pub(crate) struct Subjects {
 }
 
 /// Reads the named subjects: a snapshot's folder, or games.
-pub(super) fn read(args: &Args) -> Result<Subjects, Failure> {
+pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     let (mut snapshot, mut games): (_, Vec<Subject>) = (None, Vec::new());
-    for name in &args.subjects {
+    for name in args.subjects {
         let place = Path::new(name);
         if is_snapshot(place) {
             if args.subjects.len() > 1 {
@@ -62,7 +69,7 @@ pub(super) fn read(args: &Args) -> Result<Subjects, Failure> {
     Ok(Subjects { snapshot, games })
 }
 
-fn of_input(input: &GameInput, args: &Args) -> Result<Subject, Failure> {
+fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
     let id = slug(&input.title);
     let corpus = embedded::corpus()?;
     let known = corpus.find(&input.title);
@@ -154,7 +161,7 @@ impl<'a> Files<'a> {
     }
 }
 
-fn of_snapshot(place: &Path, args: &Args) -> Result<(Digest, Vec<Subject>), Failure> {
+fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(Digest, Vec<Subject>), Failure> {
     let (integrity, files) = Files::open(place)?;
     if let Some(problem) = integrity.problems.first() {
         let place = place.display();
@@ -198,7 +205,7 @@ fn of_snapshot(place: &Path, args: &Args) -> Result<(Digest, Vec<Subject>), Fail
     Ok((manifest.root, games))
 }
 
-impl Args {
+impl Wanted<'_> {
     fn wants(&self, level: usize) -> bool {
         self.levels.is_empty() || self.levels.contains(&level)
     }

@@ -65,6 +65,7 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("ureq", &["evaluation"]),
     ("tiktoken", &["evaluation"]),
     ("regex", &["evaluation"]),
+    ("nalgebra", &["statistics"]),
     ("tar", &["snapshots"]),
     ("zstd", &["snapshots"]),
 ];

@@ -1,5 +1,8 @@
 //! `cargo xtask simulate`: how often the intervals of reports cover, how often their tests err, and whether the stated power is true.
 
+mod memory;
+mod scale;
+
 use rayon::prelude::*;
 use report::{Table, TableCell};
 use statistics::simulation::{Episodes, Simulation};
@@ -7,7 +10,8 @@ use statistics::{Design, Spread};
 
 /// Simulates evaluations under the model of `arcade evaluate --dry-run`, and prints tables in Markdown.
 ///
-/// The same seed gives the same tables. At the default size the three take about a minute on two cores.
+/// The same seed gives the same tables. At the default size the first three take about a minute on two cores, those of the scale
+/// (link, ability, drift) 10 to 40 minutes each.
 ///
 /// Example: cargo xtask simulate coverage --trials 1000
 #[derive(clap::Args)]
@@ -15,9 +19,9 @@ pub(crate) struct Args {
     /// The question to answer
     #[arg(value_enum)]
     question: Question,
-    /// Simulated evaluations for each number
-    #[arg(long, value_name = "N", default_value_t = 4000, value_parser = clap::value_parser!(u64).range(1..))]
-    trials: u64,
+    /// Simulated evaluations for each number (default: 4000; of the scale 50 to 200, whose players are many)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    trials: Option<u64>,
     /// Seed
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -31,6 +35,21 @@ enum Question {
     Comparisons,
     /// Power: different players that are told apart, as stated and as simulated
     Power,
+    /// Players that replay published solutions: how often exact tests of memory flag them
+    Memory,
+    /// The scale: errors of the link of two months
+    Link,
+    /// The scale: errors and coverage of abilities
+    Ability,
+    /// The scale: a drift of difficulty for readers, as anchors see it
+    Drift,
+}
+
+impl Args {
+    /// Returns the number of evaluations for each number of the first three tables.
+    fn evaluations(&self) -> u64 {
+        self.trials.unwrap_or(4000)
+    }
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -38,6 +57,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Question::Coverage => coverage(args),
         Question::Comparisons => comparisons(args),
         Question::Power => power(args),
+        Question::Memory => memory::memory(args),
+        Question::Link => scale::link(args),
+        Question::Ability => scale::ability(args),
+        Question::Drift => scale::drift(args),
     };
     print!("{}", table.to_markdown());
     Ok(())
@@ -63,7 +86,7 @@ fn coverage(args: &Args) -> Table {
     }
     let note = format!(
         "{} evaluations each, of 5 levels a game and 5 runs a level; standard deviation of games 1.3, of levels 1.0 logit.",
-        args.trials
+        args.evaluations()
     );
     let columns =
         ["true win rate", "games", "over games (reports)", "bootstrap of games", "episodes as independent"];
@@ -71,7 +94,7 @@ fn coverage(args: &Args) -> Table {
     table.rows = rows(args, &cases, |(rate, games), seed| {
         let spread = Spread { matches: 0.0, ..Spread::default() };
         let design = Design { games, levels: 5, runs: 5 };
-        let found = Simulation::new(design, spread, seed).coverage(rate, args.trials);
+        let found = Simulation::new(design, spread, seed).coverage(rate, args.evaluations());
         let (rate, games) = (TableCell::number(rate, 2), TableCell::Count(games));
         vec![rate, games, share(found.over_games), share(found.bootstrap), share(found.episodes)]
     });
@@ -93,7 +116,7 @@ fn comparisons(args: &Args) -> Table {
     }
     let note = format!(
         "{} pairs of equal players each, on 5 levels a game, with 5 runs a level; the match of player and game in logits.",
-        args.trials
+        args.evaluations()
     );
     let columns =
         ["match", "episodes", "win rate", "games", "paired over games (reports)", "exact, within levels"];
@@ -101,7 +124,7 @@ fn comparisons(args: &Args) -> Table {
     table.rows = rows(args, &cases, |(matches, episodes, rate, games), seed| {
         let spread = Spread { matches, ..Spread::default() };
         let design = Design { games, levels: 5, runs: 5 };
-        let found = Simulation::new(design, spread, seed).detections([rate; 2], episodes, args.trials);
+        let found = Simulation::new(design, spread, seed).detections([rate; 2], episodes, args.evaluations());
         let kind = match episodes {
             Episodes::Independent => "independent",
             Episodes::Copies => "copies of the first",
@@ -127,14 +150,14 @@ fn power(args: &Args) -> Table {
     }
     let note = format!(
         "{} pairs of players each; standard deviation of games 1.3, of levels 1.0, of the match of player and game 0.9 logit.",
-        args.trials
+        args.evaluations()
     );
     let columns = ["games", "levels", "runs", "episodes", "win rate", "against", "stated power", "simulated"];
     let mut table = Table::new("power", "Power at 5 %, stated and simulated", &note, &columns);
     table.rows = rows(args, &cases, |(design, rates), seed| {
         let stated = design.power(rates, Spread::default(), 0.05);
         let mut simulation = Simulation::new(design, Spread::default(), seed);
-        let found = simulation.detections(rates, Episodes::Independent, args.trials);
+        let found = simulation.detections(rates, Episodes::Independent, args.evaluations());
         let Design { games, levels, runs } = design;
         let sizes = [games, levels, runs, design.episodes()].map(TableCell::Count);
         let rates = rates.map(|rate| TableCell::number(rate, 2));

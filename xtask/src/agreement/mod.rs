@@ -1,6 +1,8 @@
 //! `cargo xtask agreement`: random inputs of the functions of `statistics` with what they return, for a comparison with other
 //! libraries by `scripts/agreement.py`.
 
+mod scale;
+
 use engine::{Sampler, Seed};
 use serde_json::{Value, json};
 use statistics::{
@@ -12,6 +14,8 @@ use statistics::{
 ///
 /// The same seed gives the same lines.
 ///
+/// With --scale, simulated months with their calibration, for scripts/scale.py.
+///
 /// Example: cargo xtask agreement | python3 scripts/agreement.py
 #[derive(clap::Args)]
 pub(crate) struct Args {
@@ -21,10 +25,17 @@ pub(crate) struct Args {
     /// Seed
     #[arg(long, value_name = "TEXT", default_value = "agreement")]
     seed: String,
+    /// The calibration of a scale instead
+    #[arg(long, conflicts_with = "cases")]
+    scale: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let seed = Seed::from_text(&args.seed);
+    if args.scale {
+        println!("{}", scale::calibration(seed.sampler().bits())?);
+        return Ok(());
+    }
     for case in 0..args.cases {
         let mut draws = seed.child("case", case).sampler();
         let functions: [fn(&mut Sampler) -> Value; 14] = [

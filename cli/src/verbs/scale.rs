@@ -1,0 +1,96 @@
+//! `arcade scale`: abilities of players on one scale over releases.
+
+use crate::console::Console;
+use crate::counted::count;
+use crate::failure::Answer;
+use crate::verbs::release::in_pool;
+use evaluation::scale::{MonthAbility, Refusal, ScaleFile, abilities, played};
+use itertools::Itertools;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Places players on a scale: their ability as each release shows it, with its error in parts.
+///
+/// Ability and difficulty are in logits above the mean difficulty of the scale's first release. The error is that of the number
+/// of episodes (sampling), of games that suit the player (mismatch), and of the link of the months (see `arcade docs scale`).
+///
+/// Exit status 0: all are placed. 1: somebody cannot be placed; the message says what is needed. 2: malformed.
+///
+/// Example: arcade scale results/a-model/2026-11 results/a-model/2026-12 --scale scales/2026-12/scale.json
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Results folders, as `arcade evaluate` writes them
+    #[arg(value_name = "RESULTS", required = true)]
+    results: Vec<PathBuf>,
+    /// The scale, as `arcade calibrate` writes it
+    #[arg(long, value_name = "FILE")]
+    scale: PathBuf,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let scale = ScaleFile::read(&args.scale)?;
+    let persons = in_pool(args.jobs, || played(&args.results))??;
+    let found = abilities(&scale, &persons);
+    if found.iter().all(|person| person.months.is_empty()) {
+        bail!(
+            "none of the levels in these results is on the scale; evaluate a release that it has: {}",
+            scale.months.iter().map(|month| &month.name).join(", ")
+        );
+    }
+    console.document(&json!({ "scale": args.scale.display().to_string(), "players": found }))?;
+    for person in &found {
+        console.say(format_args!("{}", person.player));
+        for month in &person.months {
+            console.say(format_args!("  {}: {}", month.month, words(month)));
+        }
+        if person.unknown > 0 {
+            console.remark(format_args!(
+                "{}: {} episodes on levels that the scale does not have were left out",
+                person.player, person.unknown
+            ));
+        }
+    }
+    for person in persons.iter().filter(|person| person.max_steps.iter().any(|most| *most != scale.max_steps))
+    {
+        console.remark(format_args!(
+            "{}: its limit of steps is not that of the scale ({}), so its levels are not the same",
+            person.player.label(),
+            scale.max_steps
+        ));
+    }
+    let refused = found.iter().flat_map(|person| &person.months).filter(|month| month.ability.is_none());
+    Ok(refused.count() == 0)
+}
+
+fn words(month: &MonthAbility) -> String {
+    let MonthAbility { won, episodes, games, .. } = month;
+    let played = format!("{won} of {episodes} won, {games} games");
+    if let Some(Refusal::FewAnchors { anchors, correlation_low }) = &month.refusal {
+        let low = correlation_low
+            .map_or("is not known".to_owned(), |low| format!("may be as low as {low:.2}, below 0.5"));
+        let anchors = count(*anchors as usize, "anchor");
+        return format!(
+            "not placed ({played}): the release is linked by planners and {anchors}, and the correlation of the difficulty for planners \
+             and for readers {low}; calibrate it with two anchors at least, readers that played the first release too (--readers)"
+        );
+    }
+    let (Some(found), Some(error)) = (month.ability, month.error) else {
+        return format!("not placed ({played}): no episode has ended");
+    };
+    let interval = match month.is_bounded {
+        [true, true] => format!("{:+.2} ({:+.2} to {:+.2})", found.value, found.low, found.high),
+        [false, _] => format!("below {:+.2}, with no win", found.high),
+        [_, false] => format!("above {:+.2}, with no loss", found.low),
+    };
+    let drift = month.drift.filter(|drift| drift.value.abs() > 1.96 * drift.error);
+    let drift = drift.map_or(String::new(), |drift| {
+        format!("; anchors see a drift of {:+.2} in this release", drift.value)
+    });
+    format!(
+        "{interval}; error {:.2}: sampling {:.2}, mismatch {:.2}, link {:.2} ({played}){drift}",
+        error.total, error.sampling, error.mismatch, error.link
+    )
+}

@@ -1,0 +1,120 @@
+//! `arcade calibrate` and `arcade scale`, as users run them.
+
+use crate::arcade::{run, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
+use tempfile::TempDir;
+
+const SMALL: [&str; 8] = ["--max-steps", "40", "--runs", "1", "--replicates", "3", "-q", "--json"];
+
+fn calibrate(folder: &Path, more: &[&str], status: i32) -> std::process::Output {
+    run(folder, &[&["calibrate"], more, &SMALL].concat(), status)
+}
+
+/// A folder with a scale of three games in `first`, and one with two further games added in `second`.
+static SCALES: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let games = ["hailglass", "great-yawn", "bog-lantern", "--out", "first", "--name", "november"];
+    calibrate(folder.path(), &games, 0);
+    let more = ["dyepot-newt", "first-ice", "--out", "second", "--scale", "first/scale.json"];
+    calibrate(folder.path(), &[&more[..], &["--name", "december"]].concat(), 0);
+    folder
+});
+
+fn read(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+#[test]
+fn releases_are_added_to_a_scale() {
+    let [first, second] = ["first", "second"].map(|name| read(&SCALES.path().join(name).join("scale.json")));
+    assert_eq!(first["months"].as_array().unwrap().len(), 1);
+    assert_eq!(second["months"].as_array().unwrap().len(), 2);
+    assert_eq!((&first["format"], &first["months"][0]), (&1.into(), &second["months"][0]));
+    assert_eq!(first["examinees"], second["examinees"]);
+    let level = &second["months"][1]["games"][0]["levels"][0]["difficulty"][0];
+    assert!(level["error"].as_f64().unwrap() > 0.0, "{level}");
+    // The month has an error of its link, the first release has none.
+    assert_eq!(second["months"][0]["link"][0], 0.0);
+    assert!(second["months"][1]["link"][0].as_f64().unwrap() > 0.0);
+}
+
+/// The actions of each examinee on a level: examinees are frozen, so a difference is a fault, or needs a new examinee (its number raised,
+/// `docs/examinees.md`). A change of the game itself moves them too.
+#[test]
+fn examinees_play_as_ever() {
+    let plays = SCALES.path().join("first/plays");
+    let mut names: Vec<String> = fs::read_dir(&plays)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let actions = |name: &String| {
+        let log = plays.join(name).join("episodes/hailglass-lvl0-run0.jsonl");
+        let log = fs::read_to_string(log).unwrap();
+        let events = log.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let steps = events.filter(|event| event["event"] == "step");
+        let initials = steps.map(|step| step["action"].as_str().unwrap()[..1].to_owned());
+        format!("{name} {}\n", initials.collect::<String>())
+    };
+    let found: String = names.iter().map(actions).collect();
+    assert_eq!(found, include_str!("../examinees.txt"), "found:\n{found}");
+}
+
+/// A calibration that was interrupted ends with the bytes of one that was not, on any number of threads.
+#[test]
+fn interrupted_calibrations_resume() {
+    let folder = tempfile::tempdir().unwrap();
+    let games = ["hailglass", "great-yawn", "bog-lantern", "--out", "first", "--name", "november"];
+    calibrate(folder.path(), &[&games[..], &["--jobs", "1"]].concat(), 0);
+    let whole = fs::read(folder.path().join("first/scale.json")).unwrap();
+    assert_eq!(whole, fs::read(SCALES.path().join("first/scale.json")).unwrap());
+    // As if it had been killed in the middle of an examinee.
+    fs::remove_file(folder.path().join("first/scale.json")).unwrap();
+    fs::remove_dir_all(folder.path().join("first/plays/olets-1")).unwrap();
+    fs::remove_file(folder.path().join("first/plays/mcts-1/episodes/hailglass-lvl0-run0.jsonl")).unwrap();
+    let taken = calibrate(folder.path(), &games, 2);
+    assert!(text(&taken.stdout).contains("--resume"), "{}", text(&taken.stdout));
+    calibrate(folder.path(), &[&games[..], &["--resume"]].concat(), 0);
+    assert_eq!(whole, fs::read(folder.path().join("first/scale.json")).unwrap());
+}
+
+#[test]
+fn players_are_placed_or_refused() {
+    let folder = SCALES.path();
+    let play = |player: &str, game: &str, out: &str| {
+        let steps = ["--max-steps", "40", "-q"];
+        run(folder, &[&["evaluate", game, "--player", player, "--out", out], &steps[..]].concat(), 0);
+    };
+    play("olets:50", "hailglass", "planner");
+    let found = run(folder, &["scale", "planner", "--scale", "second/scale.json", "--json"], 0);
+    let found: Value = serde_json::from_str(&text(&found.stdout)).unwrap();
+    let month = &found["players"][0]["months"][0];
+    assert_eq!((&month["month"], &found["players"][0]["is_reader"]), (&"november".into(), &false.into()));
+    let part = |name: &str| month["error"][name].as_f64().unwrap();
+    let square = ["sampling", "mismatch", "link"].iter().map(|name| part(name) * part(name)).sum::<f64>();
+    assert!((square.sqrt() - part("total")).abs() < 1e-9, "{month}");
+    // A reader on a month with one anchor only.
+    play("reflex", "first-ice", "reader");
+    let refused = run(folder, &["scale", "reader", "--scale", "second/scale.json"], 1);
+    assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
+    // Nothing that was played is on the first scale.
+    let unknown = run(folder, &["scale", "reader", "--scale", "first/scale.json"], 2);
+    assert!(text(&unknown.stderr).contains("november"), "{}", text(&unknown.stderr));
+}
+
+#[test]
+fn malformed_scales_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (content, words) in
+        [("{}", "not a scale"), ("nothing", "not a scale"), ("{\"format\": 9}", "update it")]
+    {
+        fs::write(folder.path().join("scale.json"), content).unwrap();
+        let found = run(folder.path(), &["scale", "none", "--scale", "scale.json"], 2);
+        assert!(text(&found.stderr).contains(words), "{}", text(&found.stderr));
+    }
+    let own = ["calibrate", "hailglass", "--out", "x", "--seed", "evaluate"];
+    run(folder.path(), &own, 2);
+}

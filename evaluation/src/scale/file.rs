@@ -1,0 +1,312 @@
+//! The file `scale.json`: examinees, spreads, and the levels of each release with their difficulties.
+
+use crate::error::EvaluationError;
+use crate::run::Settings;
+use crate::run::text::read_text;
+use engine::Digest;
+use serde::{Deserialize, Serialize};
+use statistics::Interval;
+use statistics::scale::{
+    Calibration, Correlated, Difficulties, Dimension, Estimated, Examinee, GamePlays, Month, Spreads,
+};
+use std::path::Path;
+
+/// The version of the format.
+pub const SCALE_FORMAT: u32 = 1;
+/// The largest file that is read, bytes.
+const MAX_SCALE: usize = 1 << 28;
+
+/// A scale with its releases.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScaleFile {
+    /// [`SCALE_FORMAT`].
+    pub format: u32,
+    /// The version of the suite that calibrated the first release.
+    pub suite: String,
+    /// The most actions of an episode.
+    pub max_steps: u64,
+    /// The examinees.
+    pub examinees: Vec<ExamineeEntry>,
+    /// The standard deviations and slopes of the model, by name.
+    pub spreads: SpreadsEntry,
+    /// The covariance of the examinees' abilities, the origins for planners and readers, and the planners' ease, by rows.
+    pub covariance: Vec<f64>,
+    /// The mean difficulties of the first release for planners and readers, in the coordinates of the abilities.
+    pub origins: [f64; 2],
+    /// The mean logit of the planners on the first release.
+    pub ease: f64,
+    /// The correlation of the difficulties for planners and readers.
+    pub correlation: Option<Span>,
+    /// The replicates of the parametric bootstrap behind spreads and correlation.
+    pub replicates: u64,
+    /// The releases, the first one first.
+    pub months: Vec<MonthEntry>,
+}
+
+/// An examinee of a scale.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExamineeEntry {
+    /// Its name.
+    pub name: String,
+    /// Its family.
+    pub family: String,
+    /// `true` for a reader.
+    pub is_reader: bool,
+    /// Its ability in the coordinates of the model.
+    pub ability: f64,
+    /// Its ability above the mean difficulty of the first release.
+    pub on_scale: Estimate,
+}
+
+/// A number with its standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Estimate {
+    /// The number, in logits.
+    pub value: f64,
+    /// Its standard error.
+    pub error: f64,
+}
+
+/// A number with its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Span {
+    /// The number.
+    pub value: f64,
+    /// The lower bound.
+    pub low: f64,
+    /// The upper bound.
+    pub high: f64,
+}
+
+/// A release on the scale.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MonthEntry {
+    /// Its name.
+    pub name: String,
+    /// Its root digest, if it is a snapshot.
+    pub snapshot: Option<Digest>,
+    /// The text that the seeds of its plays were derived from.
+    pub seed: String,
+    /// The mean difficulty above that of the first release, for planners and for readers; errors to any player of the dimension.
+    pub shifts: [Estimate; 2],
+    /// The same for exactly the planners of the scale.
+    pub planners_shift: Estimate,
+    /// The standard error that all difficulties have in common, for planners and for readers.
+    pub link: [f64; 2],
+    /// The readers of the scale that played it.
+    pub anchors: u64,
+    /// By how much more difficult it is for readers than for planners, as anchors see it.
+    pub drift: Option<Estimate>,
+    /// The games.
+    pub games: Vec<GameEntry>,
+}
+
+/// A game on the scale.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GameEntry {
+    /// Its id.
+    pub id: String,
+    /// Its digest.
+    pub digest: Digest,
+    /// The standard errors that its levels have in common, for planners and for readers.
+    pub common: [f64; 2],
+    /// The mean squared standardised residual of its plays.
+    pub misfit: f64,
+    /// Its levels.
+    pub levels: Vec<LevelEntry>,
+}
+
+/// A level on the scale.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LevelEntry {
+    /// Its number.
+    pub number: usize,
+    /// Its digest.
+    pub digest: Digest,
+    /// Its difficulty for planners, and for readers, without the error of the link.
+    pub difficulty: [Estimate; 2],
+}
+
+/// The standard deviations and slopes of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs, reason = "the fields are those of `Spreads`")]
+pub struct SpreadsEntry {
+    pub game: f64,
+    pub level: f64,
+    pub family: f64,
+    pub planner: f64,
+    pub game_slope: f64,
+    pub level_slope: f64,
+    pub game_rest: f64,
+    pub level_rest: f64,
+    pub reader: f64,
+}
+
+impl From<Estimated> for Estimate {
+    fn from(Estimated { value, error }: Estimated) -> Estimate {
+        Estimate { value, error }
+    }
+}
+
+impl From<Correlated> for Span {
+    fn from(Correlated { value, interval: Interval { low, high } }: Correlated) -> Span {
+        Span { value, low, high }
+    }
+}
+
+impl From<Spreads> for SpreadsEntry {
+    fn from(found: Spreads) -> SpreadsEntry {
+        let Spreads { game, level, family, planner, game_slope, level_slope, .. } = found;
+        let Spreads { game_rest, level_rest, reader, .. } = found;
+        SpreadsEntry { game, level, family, planner, game_slope, level_slope, game_rest, level_rest, reader }
+    }
+}
+
+impl From<SpreadsEntry> for Spreads {
+    fn from(found: SpreadsEntry) -> Spreads {
+        let SpreadsEntry { game, level, family, planner, game_slope, level_slope, .. } = found;
+        let SpreadsEntry { game_rest, level_rest, reader, .. } = found;
+        Spreads { game, level, family, planner, game_slope, level_slope, game_rest, level_rest, reader }
+    }
+}
+
+impl ScaleFile {
+    /// Creates a scale from a calibration, without releases. `names` has the name and the family of each examinee.
+    pub fn new(found: &Calibration, names: &[(String, String)], max_steps: u64) -> ScaleFile {
+        let entry = |(at, (name, family)): (usize, &(String, String))| ExamineeEntry {
+            name: name.clone(),
+            family: family.clone(),
+            is_reader: found.examinees[at].dimension == Dimension::Reader,
+            ability: found.abilities[at],
+            on_scale: found.ability(at).into(),
+        };
+        ScaleFile {
+            format: SCALE_FORMAT,
+            suite: env!("CARGO_PKG_VERSION").to_owned(),
+            max_steps,
+            examinees: names.iter().enumerate().map(entry).collect(),
+            spreads: found.spreads.into(),
+            covariance: found.covariance.clone(),
+            origins: found.origins,
+            ease: found.ease,
+            correlation: None,
+            replicates: 0,
+            months: Vec::new(),
+        }
+    }
+
+    /// Reads a scale.
+    ///
+    /// # Errors
+    /// It cannot be read, is of a newer format, or is no scale.
+    pub fn read(path: &Path) -> Result<ScaleFile, EvaluationError> {
+        let text = read_text(path, MAX_SCALE)?;
+        let wrong = |what: String| EvaluationError::malformed(path, what);
+        let value: serde_json::Value =
+            serde_json::from_str(&text).map_err(|error| wrong(format!("not a scale: {error}")))?;
+        let format = value.get("format").and_then(serde_json::Value::as_u64);
+        if let Some(format) = format.filter(|&format| format > u64::from(SCALE_FORMAT)) {
+            return Err(wrong(format!(
+                "a scale of format {format}; this version of arcade reads up to {SCALE_FORMAT}: update it"
+            )));
+        }
+        let scale: ScaleFile =
+            serde_json::from_value(value).map_err(|error| wrong(format!("not a scale: {error}")))?;
+        let size = scale.examinees.len() + 3;
+        if scale.covariance.len() != size * size || scale.months.is_empty() {
+            return Err(wrong("the scale is damaged: calibrate again".to_owned()));
+        }
+        Ok(scale)
+    }
+
+    /// Returns the text of the file.
+    pub fn to_text(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a scale is plain data") + "\n"
+    }
+
+    /// Returns the calibration that the scale was made of.
+    pub fn calibration(&self) -> Calibration {
+        let mut families: Vec<&str> = self.examinees.iter().map(|one| one.family.as_str()).collect();
+        families.sort_unstable();
+        families.dedup();
+        let examinee = |one: &ExamineeEntry| Examinee {
+            dimension: if one.is_reader { Dimension::Reader } else { Dimension::Planner },
+            family: families.binary_search(&one.family.as_str()).expect("it is one of them"),
+        };
+        Calibration {
+            examinees: self.examinees.iter().map(examinee).collect(),
+            spreads: self.spreads.into(),
+            abilities: self.examinees.iter().map(|one| one.ability).collect(),
+            covariance: self.covariance.clone(),
+            origins: self.origins,
+            ease: self.ease,
+        }
+    }
+
+    /// Adds a release that was played with these settings; `plays` are those that it was calibrated by.
+    pub fn add(&mut self, name: &str, settings: &Settings, month: &Month, plays: &[GamePlays]) {
+        let played = |at: usize| {
+            plays.iter().flat_map(|game| &game.plays).any(|plays| plays.examinee == at && plays.of > 0.0)
+        };
+        let readers = (0..self.examinees.len()).filter(|&at| self.examinees[at].is_reader && played(at));
+        let anchors = readers.count() as u64;
+        let games = settings.games.iter().zip(&month.games).map(|(entry, found)| GameEntry {
+            id: entry.id.clone(),
+            digest: entry.digest,
+            common: [found.difficulties[0].common, found.difficulties[1].common],
+            misfit: found.misfit,
+            levels: entry
+                .levels
+                .iter()
+                .enumerate()
+                .map(|(at, level)| LevelEntry {
+                    number: level.number,
+                    digest: level.digest,
+                    difficulty: [0, 1].map(|side| found.difficulties[side].levels[at].into()),
+                })
+                .collect(),
+        });
+        self.months.push(MonthEntry {
+            name: name.to_owned(),
+            snapshot: settings.snapshot,
+            seed: settings.seed.clone(),
+            shifts: month.shifts.map(Estimate::from),
+            planners_shift: month.planners_shift.into(),
+            link: month.link,
+            anchors,
+            drift: month.drift.map(Estimate::from),
+            games: games.collect(),
+        });
+    }
+
+    /// Returns the place of a level: release, game, level.
+    pub fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, usize)> {
+        let months = self.months.iter().enumerate();
+        let mut games = months
+            .flat_map(|(month, of)| of.games.iter().enumerate().map(move |(at, game)| (month, at, game)));
+        games.find_map(|(month, at, entry)| {
+            let found = (entry.digest == game).then_some(&entry.levels)?;
+            found.iter().position(|known| known.digest == level).map(|level| (month, at, level))
+        })
+    }
+}
+
+impl GameEntry {
+    /// Returns the difficulty of a level for a dimension, and its error that no other level of the game shares.
+    pub(super) fn difficulty(&self, level: usize, side: usize) -> (f64, f64) {
+        let levels = self.levels.iter().map(|one| {
+            let Estimate { value, error } = one.difficulty[side];
+            Estimated { value, error }
+        });
+        let known = Difficulties { levels: levels.collect(), common: self.common[side] };
+        (known.levels[level].value, known.own(level))
+    }
+}

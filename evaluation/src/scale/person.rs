@@ -1,0 +1,143 @@
+//! The abilities of persons on a scale.
+
+use super::file::{Estimate, ScaleFile, Span};
+use super::played::PersonPlays;
+use serde::Serialize;
+use statistics::scale::{Ability, Dimension, MismatchPrior, PlayedGame, PlayedLevel, ability};
+use std::collections::BTreeMap;
+
+/// The least lower end of the correlation at which planners alone link a month for readers.
+const LEAST_CORRELATION: f64 = 0.5;
+/// The fewest anchors that link a month for readers: of a single one it is not known what it shares with other readers.
+const ANCHORS: u64 = 2;
+
+/// The abilities of a person, by release.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PersonAbility {
+    /// The person.
+    pub player: String,
+    /// `true` for a reader.
+    pub is_reader: bool,
+    /// The releases that it played, in the order of the scale.
+    pub months: Vec<MonthAbility>,
+    /// Different episodes on levels that the scale does not know.
+    pub unknown: u64,
+}
+
+/// The ability of a person as one release shows it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MonthAbility {
+    /// The release.
+    pub month: String,
+    /// Won episodes, of those that differ.
+    pub won: u64,
+    /// Different episodes.
+    pub episodes: u64,
+    /// The games played.
+    pub games: u64,
+    /// The ability, in logits above the mean difficulty of the first release.
+    pub ability: Option<Span>,
+    /// Whether each end of the interval is a finding.
+    pub is_bounded: [bool; 2],
+    /// The total standard error, and its parts.
+    pub error: Option<ErrorParts>,
+    /// The standard deviation of the person's matches with games.
+    pub mismatch_sd: Option<f64>,
+    /// The reason for a missing ability.
+    pub refusal: Option<Refusal>,
+    /// The drift of the release as anchors see it.
+    pub drift: Option<Estimate>,
+}
+
+/// A standard error in parts: total² = sampling² + mismatch² + link².
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ErrorParts {
+    /// The total.
+    pub total: f64,
+    /// By the number of episodes.
+    pub sampling: f64,
+    /// By games that suit the person, and errors of difficulties.
+    pub mismatch: f64,
+    /// By the link of the release with the first.
+    pub link: f64,
+}
+
+/// The reason for a missing ability.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Refusal {
+    /// The release is linked by planners, with fewer than two anchors, and planners say too little about readers.
+    FewAnchors {
+        /// The anchors that played.
+        anchors: u64,
+        /// The lower end of the correlation, if it is known.
+        correlation_low: Option<f64>,
+    },
+}
+
+/// Returns the abilities of persons on the releases that they played.
+pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbility> {
+    persons.iter().map(|person| of_person(scale, person)).collect()
+}
+
+fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbility {
+    let is_reader = person.dimension == Dimension::Reader;
+    let (mut months, mut unknown) = (BTreeMap::<usize, BTreeMap<usize, PlayedGame>>::new(), 0);
+    let side = usize::from(is_reader);
+    for (&(game, level), &(won, of)) in &person.levels {
+        let Some((month, at, place)) = scale.place(game, level) else {
+            unknown += of;
+            continue;
+        };
+        let entry = &scale.months[month].games[at];
+        let (difficulty, own) = entry.difficulty(place, side);
+        let played = months.entry(month).or_default().entry(at).or_default();
+        played.common = entry.common[side];
+        played.levels.push(PlayedLevel { difficulty, own, won: won as f64, of: of as f64 });
+    }
+    let months = months.into_iter().map(|(month, games)| of_month(scale, is_reader, month, games)).collect();
+    PersonAbility { player: person.player.label(), is_reader, months, unknown }
+}
+
+fn of_month(
+    scale: &ScaleFile,
+    is_reader: bool,
+    month: usize,
+    games: BTreeMap<usize, PlayedGame>,
+) -> MonthAbility {
+    let (entry, spreads) = (&scale.months[month], scale.spreads);
+    let games: Vec<PlayedGame> = games.into_values().collect();
+    let sum =
+        |of: fn(&PlayedLevel) -> f64| games.iter().flat_map(|game| &game.levels).map(of).sum::<f64>() as u64;
+    let is_anchored = month == 0 || entry.anchors >= ANCHORS;
+    let low = scale.correlation.map(|found| found.low);
+    let refused = is_reader && !is_anchored && low.is_none_or(|low| low < LEAST_CORRELATION);
+    let median = match is_reader {
+        true => spreads.reader,
+        false => (spreads.family * spreads.family + spreads.planner * spreads.planner).sqrt(),
+    };
+    let prior = MismatchPrior { median, ..MismatchPrior::default() };
+    let found: Option<Ability> =
+        (!refused).then(|| ability(&games, prior, entry.link[usize::from(is_reader)])).flatten();
+    MonthAbility {
+        month: entry.name.clone(),
+        won: sum(|level| level.won),
+        episodes: sum(|level| level.of),
+        games: games.len() as u64,
+        ability: found.map(|found| Span {
+            value: found.value,
+            low: found.interval.low,
+            high: found.interval.high,
+        }),
+        is_bounded: found.map_or([false; 2], |found| found.is_bounded),
+        error: found.map(|found| ErrorParts {
+            total: found.error,
+            sampling: found.sampling,
+            mismatch: found.mismatch,
+            link: found.link,
+        }),
+        mismatch_sd: found.map(|found| found.mismatch_sd),
+        refusal: refused.then_some(Refusal::FewAnchors { anchors: entry.anchors, correlation_low: low }),
+        drift: entry.drift,
+    }
+}

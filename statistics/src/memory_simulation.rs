@@ -1,0 +1,92 @@
+//! Simulated players that replay published solutions, and clean ones: how often [`coin_test`](crate::coin_test) flags them.
+
+use crate::contamination::{Memoriser, coin_test};
+use crate::design::{Spread, logistic};
+use crate::draws::Draws;
+
+/// A player and what it plays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MemoryTrial {
+    /// The player.
+    pub player: Memoriser,
+    /// By how much other names hurt it, in logits: both siblings have other names than the games it may know.
+    pub hurt: f64,
+    /// The standard deviation, in logits, of how much more one set of names hurts it than another, by game.
+    pub names: f64,
+    /// The standard deviations of games, levels and matches.
+    pub spread: Spread,
+}
+
+impl MemoryTrial {
+    /// Returns the fraction of `trials` in which the test by secret siblings, of `pairs` with one episode a side, has p ≤ `alpha`.
+    pub fn siblings(&self, pairs: usize, alpha: f64, trials: u64, seed: u64) -> f64 {
+        let mut draws = Draws::new(seed);
+        let ability = self.spread.ability(self.player.clean);
+        let Spread { games, levels, matches } = self.spread;
+        let all = (games * games + levels * levels + matches * matches).sqrt();
+        let mut pair = || {
+            let logit = ability - self.hurt + all * draws.normal();
+            let clean = [0, 1].map(|_| logistic(logit + self.names * draws.normal()));
+            let is_known = draws.uniform() < self.player.share;
+            let published = if is_known { self.player.known } else { clean[0] };
+            draws.successes(published, 1) as i64 - draws.successes(clean[1], 1) as i64
+        };
+        flagged(trials, alpha, || (0..pairs).map(|_| pair()).collect())
+    }
+
+    /// The same of the test by witness prefixes, with one episode on each of `levels`, which begins as either witness by chance with
+    /// probability `by_chance`.
+    pub fn prefixes(&self, levels: usize, by_chance: f64, alpha: f64, trials: u64, seed: u64) -> f64 {
+        let mut draws = Draws::new(seed);
+        let mut level = || {
+            if draws.uniform() < self.player.share {
+                return 1;
+            }
+            let drawn = draws.uniform();
+            i64::from(drawn < by_chance) - i64::from(drawn > 1.0 - by_chance)
+        };
+        flagged(trials, alpha, || (0..levels).map(|_| level()).collect())
+    }
+}
+
+fn flagged(trials: u64, alpha: f64, mut differences: impl FnMut() -> Vec<i64>) -> f64 {
+    let count = (0..trials).filter(|_| coin_test(&differences()).p <= alpha).count();
+    count as f64 / trials as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contamination::coin_power;
+
+    fn trial(share: f64) -> MemoryTrial {
+        let player = Memoriser { share, known: 0.9, clean: 0.27 };
+        MemoryTrial { player, hurt: 1.0, names: 0.5, spread: Spread::default() }
+    }
+
+    /// A clean player that other names hurt is flagged in 1 % at most.
+    #[test]
+    fn clean_players_are_seldom_flagged() {
+        let found = trial(0.0).siblings(100, 0.01, 10_000, 1);
+        assert!(found <= 0.01, "{found}");
+        let found = trial(0.0).prefixes(200, 0.07, 0.01, 10_000, 2);
+        assert!(found <= 0.01, "{found}");
+    }
+
+    #[test]
+    fn memorisers_are_found() {
+        let found = trial(0.2).prefixes(200, 0.07, 0.01, 1000, 3);
+        assert!(found >= 0.9, "{found}");
+        let found = MemoryTrial { hurt: 0.0, ..trial(0.5) }.siblings(100, 0.01, 1000, 4);
+        assert!(found >= 0.95, "{found}");
+    }
+
+    /// The power stated beforehand is that of the simulation.
+    #[test]
+    fn power_is_as_stated() {
+        let trial = MemoryTrial { hurt: 0.0, names: 0.0, ..trial(0.3) };
+        let (more, less) = trial.player.sibling_chances(trial.spread);
+        let (stated, found) = (coin_power(100, more, less, 0.01), trial.siblings(100, 0.01, 2000, 5));
+        assert!((stated - found).abs() < 0.05, "{stated} stated, {found}");
+    }
+}

@@ -1,0 +1,326 @@
+//! The ability of a player from its plays on levels of known difficulty. The likelihood is integrated over the match of the player
+//! and each game, over the errors of the difficulties, and over how strongly matches vary, by quadrature: nothing is approximated by
+//! a normal distribution, so a player without wins has an interval too.
+
+use super::posterior::{logistic, softplus};
+use crate::wilson::{Interval, Z95};
+
+/// The plays of a player on a level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlayedLevel {
+    /// The difficulty of the level.
+    pub difficulty: f64,
+    /// Its standard error, without what the levels of the game have in common.
+    pub own: f64,
+    /// The plays that were won.
+    pub won: f64,
+    /// All plays; identical ones count once.
+    pub of: f64,
+}
+
+/// The plays of a player on a game.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlayedGame {
+    /// The standard error that the difficulties of its levels have in common.
+    pub common: f64,
+    /// Its levels.
+    pub levels: Vec<PlayedLevel>,
+}
+
+/// The prior of the standard deviation of a player's matches with games: lognormal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MismatchPrior {
+    /// Its median, in logits.
+    pub median: f64,
+    /// The standard deviation of its natural logarithm.
+    pub log_sd: f64,
+}
+
+impl Default for MismatchPrior {
+    fn default() -> MismatchPrior {
+        MismatchPrior { median: 1.0, log_sd: 0.7 }
+    }
+}
+
+/// An ability, with its error in parts: total² = sampling² + mismatch² + link².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ability {
+    /// The mean of its posterior, in logits above the mean difficulty of the first release's levels.
+    pub value: f64,
+    /// The total standard error.
+    pub error: f64,
+    /// The error by the number of episodes alone, as if the difficulty of each level for this player were known.
+    pub sampling: f64,
+    /// The error by games that suit the player more or less than others, and by the errors of their difficulties.
+    pub mismatch: f64,
+    /// The error of the link of the month with the first release.
+    pub link: f64,
+    /// The 95 % interval.
+    pub interval: Interval,
+    /// Whether each end of the interval is a finding; without wins there is no lower bound, without losses no upper one.
+    pub is_bounded: [bool; 2],
+    /// The mean of the standard deviation of the player's matches with games.
+    pub mismatch_sd: f64,
+}
+
+/// The distance of the nodes of abilities and of logits.
+const STEP: f64 = 0.15;
+/// Abilities are within these nodes: ±10.05 logits.
+const SIDE: i32 = 67;
+/// The standard deviation of the prior of an ability.
+const ABILITY_SD: f64 = 5.0;
+/// The nodes of the standard deviation of matches: from the least by a constant ratio.
+const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
+/// A normal variable is taken within this many standard deviations.
+const TAIL: f64 = 5.0;
+/// The number of parts that a step of abilities is divided into for the interval.
+const PARTS: usize = 10;
+
+/// Estimates the ability of a player. `link` is the standard error that all difficulties have in common.
+///
+/// `None` without plays, or if a number is not finite or an entry has more wins than plays. Cost: O(levels + games) times some
+/// thousand.
+///
+/// ```
+/// use infinite_arcade_statistics::scale::{MismatchPrior, PlayedGame, PlayedLevel, ability};
+/// let level = |difficulty: f64, won: f64| PlayedLevel { difficulty, own: 0.2, won, of: 4.0 };
+/// let game = |won| PlayedGame { common: 0.3, levels: vec![level(-1.0, won), level(1.0, won - 1.0)] };
+/// let games: Vec<PlayedGame> = (0..12).map(|at| game(f64::from(at % 3 + 1))).collect();
+/// let found = ability(&games, MismatchPrior::default(), 0.1).unwrap();
+/// assert!(found.interval.low < -0.2 && -0.5 < found.interval.high, "{found:?}");
+/// ```
+pub fn ability(games: &[PlayedGame], prior: MismatchPrior, link: f64) -> Option<Ability> {
+    let levels = || games.iter().flat_map(|game| &game.levels).filter(|level| level.of > 0.0);
+    let is_valid = levels().all(|level| {
+        level.difficulty.is_finite()
+            && level.own.is_finite()
+            && level.of.is_finite()
+            && (0.0..=level.of).contains(&level.won)
+    });
+    let is_valid = is_valid && games.iter().all(|game| game.common.is_finite());
+    if levels().next().is_none() || !is_valid || !link.is_finite() {
+        return None;
+    }
+    let density = Density::new(games, prior);
+    let (value, variance, mismatch_sd) = density.moments();
+    let sampling = density.sampling(value, mismatch_sd).min(variance);
+    let [low, high] = density.ends();
+    let widened = |end: f64| {
+        let (from, by) = (value - end, Z95 * link);
+        (from * from + by * by).sqrt()
+    };
+    let won: f64 = levels().map(|level| level.won).sum();
+    let of: f64 = levels().map(|level| level.of).sum();
+    Some(Ability {
+        value,
+        error: (variance + link * link).sqrt(),
+        sampling: sampling.sqrt(),
+        mismatch: (variance - sampling).max(0.0).sqrt(),
+        link,
+        interval: Interval { low: value - widened(low), high: value + widened(high) },
+        is_bounded: [won > 0.0, won < of],
+        mismatch_sd,
+    })
+}
+
+/// The posterior on a grid of abilities.
+struct Density<'a> {
+    games: &'a [PlayedGame],
+    /// Over abilities and mismatches, by mismatch; the sum is 1.
+    weights: Vec<Vec<f64>>,
+    mismatches: Vec<f64>,
+}
+
+impl<'a> Density<'a> {
+    fn new(games: &'a [PlayedGame], prior: MismatchPrior) -> Density<'a> {
+        let (least, ratio, count) = MISMATCHES;
+        let mismatches: Vec<f64> =
+            std::iter::successors(Some(least), |sd| Some(sd * ratio)).take(count).collect();
+        let mut logs: Vec<Vec<f64>> = (mismatches.iter())
+            .map(|sd| {
+                let z = (libm::log(*sd) - libm::log(prior.median)) / prior.log_sd;
+                let of_ability = |node: i32| {
+                    let at = f64::from(node) * STEP / ABILITY_SD;
+                    -0.5 * (at * at + z * z)
+                };
+                (-SIDE..=SIDE).map(of_ability).collect()
+            })
+            .collect();
+        for game in games.iter().filter(|game| game.levels.iter().any(|level| level.of > 0.0)) {
+            let widest = (mismatches[count - 1] * mismatches[count - 1] + game.common * game.common).sqrt();
+            let reach = SIDE + (TAIL * widest / STEP) as i32 + 1;
+            let likelihoods = game.likelihoods(reach);
+            for (logs, sd) in logs.iter_mut().zip(&mismatches) {
+                let kernel = kernel((sd * sd + game.common * game.common).sqrt());
+                let half = kernel.len() / 2;
+                for (at, log) in logs.iter_mut().enumerate() {
+                    let first = at + (reach - SIDE) as usize - half;
+                    let window = &likelihoods[first..first + kernel.len()];
+                    let mean: f64 = window.iter().zip(&kernel).map(|(value, weight)| value * weight).sum();
+                    *log += libm::log(mean);
+                }
+            }
+        }
+        let most = logs.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut weights = logs;
+        weights.iter_mut().flatten().for_each(|log| *log = libm::exp(*log - most));
+        let total: f64 = weights.iter().flatten().sum();
+        weights.iter_mut().flatten().for_each(|weight| *weight /= total);
+        Density { games, weights, mismatches }
+    }
+
+    /// Returns the density of abilities.
+    fn abilities(&self) -> Vec<f64> {
+        (0..self.weights[0].len()).map(|at| self.weights.iter().map(|of| of[at]).sum()).collect()
+    }
+
+    /// Returns the mean and the variance of the ability, and the mean mismatch.
+    fn moments(&self) -> (f64, f64, f64) {
+        let all = self.abilities();
+        let nodes = || (-SIDE..=SIDE).map(|node| f64::from(node) * STEP).zip(&all);
+        let mean: f64 = nodes().map(|(at, weight)| at * weight).sum();
+        let variance: f64 = nodes().map(|(at, weight)| (at - mean) * (at - mean) * weight).sum();
+        let mismatch = self.mismatches.iter().zip(&self.weights);
+        (mean, variance, mismatch.map(|(sd, weights)| sd * weights.iter().sum::<f64>()).sum())
+    }
+
+    /// Returns the 2.5 % and 97.5 % points, with the logarithm of the density interpolated by cubics.
+    fn ends(&self) -> [f64; 2] {
+        let logs: Vec<f64> =
+            self.abilities().into_iter().map(|weight| libm::log(weight.max(1e-300))).collect();
+        let last = logs.len() - 1;
+        let fine: Vec<f64> = (0..=last * PARTS)
+            .map(|place| {
+                let (at, part) = ((place / PARTS).clamp(1, last - 2), place as f64 / PARTS as f64);
+                let t = part - at as f64;
+                let [a, b, c, d] = [logs[at - 1], logs[at], logs[at + 1], logs[at + 2]];
+                let cubic = -a * t * (t - 1.0) * (t - 2.0) / 6.0
+                    + b * (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0
+                    - c * (t + 1.0) * t * (t - 2.0) / 2.0
+                    + d * (t + 1.0) * t * (t - 1.0) / 6.0;
+                libm::exp(cubic)
+            })
+            .collect();
+        let total: f64 = fine.iter().sum();
+        [0.025, 0.975].map(|share| {
+            let mut sum = 0.0;
+            let place = fine.iter().position(|weight| {
+                sum += weight;
+                sum >= share * total
+            });
+            let place = place.unwrap_or(last * PARTS);
+            // Each node stands for half a part on either side.
+            let over = (sum - share * total) / fine[place];
+            (place as f64 + 0.5 - over) / PARTS as f64 * STEP - f64::from(SIDE) * STEP
+        })
+    }
+
+    /// Returns the variance of an ability if the difficulty of each level for this player were known.
+    fn sampling(&self, ability: f64, mismatch: f64) -> f64 {
+        let information: f64 = (self.games.iter())
+            .flat_map(|game| game.levels.iter().map(move |level| (game, level)))
+            .map(|(game, level)| {
+                let variance = mismatch * mismatch + game.common * game.common + level.own * level.own;
+                let each = nodes().map(|(z, weight)| {
+                    let chance = logistic(ability - level.difficulty + variance.sqrt() * z);
+                    weight * chance * (1.0 - chance)
+                });
+                level.of * each.sum::<f64>()
+            })
+            .sum();
+        1.0 / information
+    }
+}
+
+impl PlayedGame {
+    /// Returns the likelihood of its plays for the logits from `-reach` to `reach` steps, with the own errors of its levels
+    /// integrated out.
+    fn likelihoods(&self, reach: i32) -> Vec<f64> {
+        let mut all = vec![1.0; 2 * reach as usize + 1];
+        for level in self.levels.iter().filter(|level| level.of > 0.0) {
+            for (at, node) in all.iter_mut().zip(-reach..) {
+                let centre = f64::from(node) * STEP - level.difficulty;
+                let each = nodes().map(|(z, weight)| {
+                    let logit = centre + level.own * z;
+                    weight * libm::exp(level.won * logit - level.of * softplus(logit))
+                });
+                *at *= each.sum::<f64>();
+            }
+        }
+        all
+    }
+}
+
+/// The nodes of an integral over a standard normal variable, with their weights: the trapezoid rule.
+pub(super) fn nodes() -> impl Iterator<Item = (f64, f64)> {
+    // exp(−z²/2) at 0 to 3, over their sum.
+    const WEIGHTS: [f64; 4] = [0.399050279652450, 0.242036229376345, 0.054005582622414, 0.004433048175244];
+    (-3i32..=3).map(|z| (f64::from(z), WEIGHTS[z.unsigned_abs() as usize]))
+}
+
+/// Returns the weights of a normal variable at the steps around 0.
+fn kernel(sd: f64) -> Vec<f64> {
+    let half = (TAIL * sd / STEP) as i32;
+    let mut weights: Vec<f64> = (-half..=half)
+        .map(|node| {
+            let z = f64::from(node) * STEP / sd;
+            libm::exp(-0.5 * z * z)
+        })
+        .collect();
+    let total: f64 = weights.iter().sum();
+    weights.iter_mut().for_each(|weight| *weight /= total);
+    weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn games(count: usize, won: f64, of: f64) -> Vec<PlayedGame> {
+        let level = |difficulty: f64| PlayedLevel { difficulty, own: 0.1, won, of };
+        vec![PlayedGame { common: 0.1, levels: vec![level(-0.5), level(0.5)] }; count]
+    }
+
+    #[test]
+    fn the_weights_of_nodes_are_a_distribution() {
+        let (sum, square) =
+            nodes().fold((0.0, 0.0), |(sum, square), (z, weight)| (sum + weight, square + weight * z * z));
+        assert!((sum - 1.0).abs() < 1e-12 && (square - 1.0).abs() < 0.03, "{sum}, {square}");
+    }
+
+    #[test]
+    fn half_of_the_plays_won_is_the_mean_difficulty() {
+        let found = ability(&games(30, 1.0, 2.0), MismatchPrior::default(), 0.0).unwrap();
+        assert!(found.value.abs() < 1e-9 && found.is_bounded == [true, true], "{found:?}");
+        let parts = found.sampling * found.sampling + found.mismatch * found.mismatch;
+        assert!((parts.sqrt() - found.error).abs() < 1e-12, "{found:?}");
+        // Symmetric, and as wide as its error says.
+        assert!((found.interval.high + found.interval.low).abs() < 1e-6, "{found:?}");
+        assert!((found.interval.high / found.error - Z95).abs() < 0.1, "{found:?}");
+    }
+
+    #[test]
+    fn the_link_widens() {
+        let sure = ability(&games(30, 1.0, 2.0), MismatchPrior::default(), 0.0).unwrap();
+        let linked = ability(&games(30, 1.0, 2.0), MismatchPrior::default(), 0.5).unwrap();
+        assert_eq!(linked.value, sure.value);
+        assert!((linked.error * linked.error - sure.error * sure.error - 0.25).abs() < 1e-12);
+        assert!(linked.interval.high > sure.interval.high + 0.3);
+    }
+
+    /// Without wins the ability may be anything below.
+    #[test]
+    fn no_wins_bound_one_side() {
+        let found = ability(&games(30, 0.0, 2.0), MismatchPrior::default(), 0.1).unwrap();
+        assert!(found.is_bounded == [false, true] && found.interval.high < -1.5, "{found:?}");
+        let found = ability(&games(30, 2.0, 2.0), MismatchPrior::default(), 0.1).unwrap();
+        assert!(found.is_bounded == [true, false] && found.interval.low > 1.5, "{found:?}");
+    }
+
+    #[test]
+    fn nothing_known() {
+        let none = |games: &[PlayedGame]| ability(games, MismatchPrior::default(), 0.1).is_none();
+        assert!(none(&[]) && none(&games(3, 0.0, 0.0)) && none(&games(3, 3.0, 2.0)));
+        assert!(none(&games(3, f64::NAN, 2.0)) && none(&games(3, 1.0, f64::INFINITY)));
+    }
+}

@@ -1,0 +1,267 @@
+//! The calibration of a first release, and of months that are added to it.
+
+use super::maximise::maximise;
+use super::plays::{Dimension, Examinee, GamePlays};
+use super::posterior::{Functional, Model, Modes, Posterior};
+use super::spreads::Spreads;
+use nalgebra::DMatrix;
+
+/// The dimensions, in the order of pairs.
+const BOTH: [Dimension; 2] = [Dimension::Planner, Dimension::Reader];
+
+/// A number and its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimated {
+    /// The number.
+    pub value: f64,
+    /// Its standard error.
+    pub error: f64,
+}
+
+impl Estimated {
+    /// Returns the 95 % interval.
+    pub fn interval(&self) -> crate::Interval {
+        let half = crate::Z95 * self.error;
+        crate::Interval { low: self.value - half, high: self.value + half }
+    }
+}
+
+/// The difficulties of the levels of a game in one dimension, in logits above the mean of the first release's levels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difficulties {
+    /// Of each level.
+    pub levels: Vec<Estimated>,
+    /// The error that the levels of the game have in common, without that of the link.
+    pub common: f64,
+}
+
+impl Difficulties {
+    /// Returns the error of a level that no other level of the game shares.
+    pub fn own(&self, level: usize) -> f64 {
+        let rest = self.levels[level].error * self.levels[level].error - self.common * self.common;
+        rest.max(0.0).sqrt()
+    }
+}
+
+/// The difficulties of a game, and how well its plays fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GameDifficulties {
+    /// For planners and for readers. The standard errors are without that of the link.
+    pub difficulties: [Difficulties; 2],
+    /// The mean squared standardised residual of its plays: about 1, more where they fit badly.
+    pub misfit: f64,
+}
+
+/// The levels of a release on the scale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Month {
+    /// The games, in the order of their plays.
+    pub games: Vec<GameDifficulties>,
+    /// The mean difficulty of its levels minus that of the first release's, for planners and readers in general, with the error of
+    /// the link to any player of that dimension.
+    pub shifts: [Estimated; 2],
+    /// The same for exactly the planners of the calibration, with the error of the link to these.
+    pub planners_shift: Estimated,
+    /// The standard error that all difficulties have in common, for planners and for readers. 0 for the first release.
+    pub link: [f64; 2],
+    /// By how much more difficult the month is for readers than follows from its difficulty for planners. `None` if no anchor
+    /// played.
+    pub drift: Option<Estimated>,
+}
+
+/// Examinees and a first release on one scale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    /// The examinees.
+    pub examinees: Vec<Examinee>,
+    /// The spreads.
+    pub spreads: Spreads,
+    /// The abilities of the examinees: their logit on an average game of those that the first release's are drawn from.
+    pub abilities: Vec<f64>,
+    /// The covariance of the abilities, the two origins and the ease, in this order, by rows.
+    pub covariance: Vec<f64>,
+    /// The mean difficulties of the first release's levels for planners and for readers: the zero of the scale.
+    pub origins: [f64; 2],
+    /// The mean logit of the planners on the first release.
+    pub ease: f64,
+}
+
+impl Calibration {
+    /// Calibrates a first release: estimates spreads, abilities and difficulties. Every examinee has to have plays.
+    ///
+    /// `None` without plays, if an entry of the plays is not valid, or if an examinee has none. Cost: O(games · effects³) for each
+    /// of some hundred evaluations.
+    pub fn new(examinees: &[Examinee], games: &[GamePlays]) -> Option<(Calibration, Month)> {
+        let model = checked(examinees, games, None)?;
+        let spreads = spreads_of(&model, Spreads::default())?;
+        Calibration::with_spreads(examinees, games, spreads)
+    }
+
+    /// Calibrates with these spreads.
+    pub fn with_spreads(
+        examinees: &[Examinee],
+        games: &[GamePlays],
+        spreads: Spreads,
+    ) -> Option<(Calibration, Month)> {
+        let model = checked(examinees, games, None)?;
+        let posterior = model.expected_posterior(&spreads)?;
+        let mut functionals: Vec<Functional> =
+            (0..examinees.len()).map(|at| model.shared_functional(at)).collect();
+        functionals.extend(BOTH.map(|dimension| model.mean_functional(&spreads, dimension)));
+        functionals.push(model.planners_functional(&spreads));
+        let size = functionals.len();
+        let mut covariance = vec![0.0; size * size];
+        for (i, one) in functionals.iter().enumerate() {
+            for (j, other) in functionals.iter().enumerate().take(i + 1) {
+                let (shared, games) = posterior.covariance(one, other);
+                covariance[i * size + j] = shared + games;
+                covariance[j * size + i] = shared + games;
+            }
+        }
+        let values: Vec<f64> = functionals.iter().map(|one| posterior.value(one)).collect();
+        let count = examinees.len();
+        let calibration = Calibration {
+            examinees: examinees.to_vec(),
+            spreads,
+            abilities: values[..count].to_vec(),
+            covariance,
+            origins: [values[count], values[count + 1]],
+            ease: values[count + 2],
+        };
+        let games = calibration.difficulties(&model, &posterior);
+        let nothing = Estimated { value: 0.0, error: 0.0 };
+        let base =
+            Month { games, shifts: [nothing; 2], planners_shift: nothing, link: [0.0; 2], drift: None };
+        Some((calibration, base))
+    }
+
+    /// Returns the ability of an examinee above the mean difficulty of the first release's levels for its dimension.
+    pub fn ability(&self, examinee: usize) -> Estimated {
+        let side = side(self.examinees[examinee].dimension);
+        let (count, at) = (self.examinees.len(), |i: usize, j: usize| self.covariance(i, j));
+        let origin = count + side;
+        let variance = at(examinee, examinee) + at(origin, origin) - 2.0 * at(examinee, origin);
+        Estimated { value: self.abilities[examinee] - self.origins[side], error: variance.max(0.0).sqrt() }
+    }
+
+    /// Adds a release by fixed-parameter calibration: abilities and spreads stay, the difficulties of the new levels are estimated.
+    ///
+    /// `None` as for [`Calibration::new`]; not every examinee has to play.
+    pub fn add(&self, games: &[GamePlays]) -> Option<Month> {
+        let model = checked(&self.examinees, games, Some(&self.abilities))?;
+        let posterior = model.expected_posterior(&self.spreads)?;
+        let difficulties = self.difficulties(&model, &posterior);
+        let count = self.examinees.len();
+        let mut link = [0.0; 2];
+        let shifts = BOTH.map(|dimension| {
+            let side = side(dimension);
+            let mean = model.mean_functional(&self.spreads, dimension);
+            let (shared, own) = posterior.covariance(&mean, &mean);
+            let mut moves = posterior.sensitivity(&mean, count);
+            moves.extend([0.0; 3]);
+            moves[count + side] = -1.0;
+            let shared = shared + self.variance_of(&moves);
+            link[side] = shared.max(0.0).sqrt();
+            let value = posterior.value(&mean) - self.origins[side];
+            Estimated { value, error: (shared + own).max(0.0).sqrt() }
+        });
+        let ease = model.planners_functional(&self.spreads);
+        let (shared, own) = posterior.covariance(&ease, &ease);
+        let mut moves = posterior.sensitivity(&ease, count);
+        let planners = self.examinees.iter().filter(|one| one.dimension == Dimension::Planner).count();
+        for (move_, examinee) in moves.iter_mut().zip(&self.examinees) {
+            if examinee.dimension == Dimension::Planner {
+                *move_ += 1.0 / planners as f64;
+            }
+        }
+        moves.extend([0.0, 0.0, -1.0]);
+        let error = (shared + own + self.variance_of(&moves)).max(0.0).sqrt();
+        let planners_shift = Estimated { value: self.ease - posterior.value(&ease), error };
+        let drift = model.has_readers().then(|| {
+            let rest = model.shared_functional(1);
+            let (shared, _) = posterior.covariance(&rest, &rest);
+            let mut moves = posterior.sensitivity(&rest, count);
+            moves.extend([0.0; 3]);
+            let error = (shared + self.variance_of(&moves)).max(0.0).sqrt();
+            Estimated { value: posterior.value(&rest), error }
+        });
+        Some(Month { games: difficulties, shifts, planners_shift, link, drift })
+    }
+
+    fn covariance(&self, i: usize, j: usize) -> f64 {
+        self.covariance[i * (self.examinees.len() + 3) + j]
+    }
+
+    /// Returns the variance of a linear function of abilities, origins and ease.
+    fn variance_of(&self, factors: &[f64]) -> f64 {
+        let size = factors.len();
+        let row = |i: usize| (0..size).map(|j| self.covariance(i, j) * factors[j]).sum::<f64>();
+        (0..size).map(|i| factors[i] * row(i)).sum()
+    }
+
+    fn difficulties(&self, model: &Model<'_>, posterior: &Posterior) -> Vec<GameDifficulties> {
+        let of_game = |game: usize| {
+            let difficulties = BOTH.map(|dimension| {
+                let functionals = model.game_functionals(&self.spreads, game, dimension);
+                let within = posterior.within_game(game, &functionals);
+                let levels = functionals.iter().enumerate().map(|(level, functional)| Estimated {
+                    value: posterior.value(functional) - self.origins[side(dimension)],
+                    error: within[(level, level)].max(0.0).sqrt(),
+                });
+                Difficulties { levels: levels.collect(), common: common(&within).sqrt() }
+            });
+            GameDifficulties { difficulties, misfit: model.misfit(&self.spreads, posterior, game) }
+        };
+        (0..model.games.len()).map(of_game).collect()
+    }
+}
+
+/// Returns the mean covariance of two levels, within 0 and the least variance.
+fn common(within: &DMatrix<f64>) -> f64 {
+    let count = within.nrows();
+    let least = (0..count).map(|at| within[(at, at)]).fold(f64::INFINITY, f64::min);
+    if count < 2 {
+        // All of a game with a single level is common.
+        return if count == 1 { least.max(0.0) } else { 0.0 };
+    }
+    let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let sum: f64 = pairs.map(|pair| within[pair]).sum();
+    (sum / (count * (count - 1) / 2) as f64).clamp(0.0, least.max(0.0))
+}
+
+/// Returns the place of a dimension in a pair.
+pub(super) fn side(dimension: Dimension) -> usize {
+    match dimension {
+        Dimension::Planner => 0,
+        Dimension::Reader => 1,
+    }
+}
+
+fn checked<'a>(
+    examinees: &'a [Examinee],
+    games: &'a [GamePlays],
+    abilities: Option<&'a [f64]>,
+) -> Option<Model<'a>> {
+    let is_valid = games.iter().all(|game| game.is_valid(examinees.len()) && game.levels > 0);
+    let plays = |at: usize| {
+        games.iter().flat_map(|game| &game.plays).any(|plays| plays.examinee == at && plays.of > 0.0)
+    };
+    let mut has_plays = (0..examinees.len()).map(plays);
+    let is_enough = if abilities.is_some() { has_plays.any(|one| one) } else { has_plays.all(|one| one) };
+    let is_enough = is_enough && !examinees.is_empty() && !games.is_empty();
+    (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
+}
+
+/// Returns the spreads with the largest posterior density, all effects integrated out.
+pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
+    let mut near: Option<Modes> = None;
+    let mut density = |parameters: &[f64]| {
+        let spreads = Spreads::from_parameters(parameters);
+        let Some(found) = model.posterior(&spreads, near.as_ref()) else { return f64::NAN };
+        let value = found.marginal + Spreads::log_prior(parameters);
+        near = Some(found.modes);
+        value
+    };
+    let found = maximise(&start.parameters(model.has_readers()), &mut density);
+    found.iter().all(|value| value.is_finite()).then(|| Spreads::from_parameters(&found))
+}

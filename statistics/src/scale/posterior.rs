@@ -1,0 +1,599 @@
+//! The mode and the curvature of the model, given its spreads (Laplace's method). Effects of one game meet those of another only
+//! through the few that all games share, so a step costs a Cholesky factor of a small matrix for each game and one of the Schur
+//! complement.
+//!
+//! Effects of games are in standard deviations: their prior is standard normal, and the spreads are in the loadings. So nothing
+//! breaks down where a spread goes to zero.
+
+use super::ability::nodes;
+use super::plays::{Dimension, Examinee, GamePlays};
+use super::spreads::Spreads;
+use arrayvec::ArrayVec;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// The precision of the prior of an ability or of the shift of a month: weak, and proper where nobody wins.
+const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
+/// The most Newton steps; 6 are usual, and 3 from a mode nearby.
+const STEPS: usize = 100;
+/// The length of a step after which the mode is found: Newton's steps square it.
+const FOUND: f64 = 1e-5;
+/// The same of a step to expected values, which is shortened by a factor only.
+const FOUND_EXPECTED: f64 = 1e-6;
+/// The most steps to expected values; 15 to 60 are usual.
+const EXPECTED_STEPS: usize = 200;
+/// The share of the change of variances that is taken: they follow the means, so whole changes can go to and fro.
+const DAMPING: f64 = 0.7;
+/// The number of steps after which half of that share is taken.
+const SETTLING: f64 = 50.0;
+/// The longest step of an effect: the likelihood is flat far from its maximum.
+const LONGEST: f64 = 3.0;
+
+/// The plays of some games, and the parameters that all games share: with `abilities` unknown, these; otherwise the shift of
+/// difficulty for planners and, where readers played, the shift for readers beyond what follows from it.
+pub(super) struct Model<'a> {
+    pub(super) examinees: &'a [Examinee],
+    pub(super) games: &'a [GamePlays],
+    pub(super) abilities: Option<&'a [f64]>,
+    layouts: Vec<Layout>,
+    has_readers: bool,
+}
+
+/// The places of the effects of a game.
+struct Layout {
+    size: usize,
+    levels: usize,
+    /// The first effect of readers: the game's, followed by the levels'. Without readers they keep the distribution of their prior.
+    readers: usize,
+    has_readers: bool,
+    /// The match of each examinee's family, and its own beyond that; a family of one has the first alone, a reader the second.
+    matches: Vec<(Option<usize>, Option<usize>)>,
+}
+
+/// A sparse row of a linear predictor.
+type Terms = ArrayVec<(usize, f64), 6>;
+
+impl<'a> Model<'a> {
+    pub(super) fn new(
+        examinees: &'a [Examinee],
+        games: &'a [GamePlays],
+        abilities: Option<&'a [f64]>,
+    ) -> Model<'a> {
+        let layouts: Vec<Layout> = games.iter().map(|game| Layout::new(examinees, game)).collect();
+        let has_readers = layouts.iter().any(|layout| layout.has_readers);
+        Model { examinees, games, abilities, layouts, has_readers }
+    }
+
+    /// Returns `true` if a reader played.
+    pub(super) fn has_readers(&self) -> bool {
+        self.has_readers
+    }
+
+    /// Returns the number of effects of a game.
+    pub(super) fn effects(&self, game: usize) -> usize {
+        self.layouts[game].size
+    }
+
+    /// Returns the number of parameters that all games share.
+    pub(super) fn shared(&self) -> usize {
+        self.abilities.map_or(self.examinees.len(), |_| 1 + usize::from(self.has_readers))
+    }
+
+    /// Returns the shared terms of an examinee's linear predictor, and what is fixed of it.
+    pub(super) fn shared_terms(&self, spreads: &Spreads, examinee: usize) -> (Terms, f64) {
+        let Some(abilities) = self.abilities else { return (Terms::from_iter([(examinee, 1.0)]), 0.0) };
+        let shift = self.shift_terms(spreads, self.examinees[examinee].dimension);
+        (shift.into_iter().map(|(at, factor)| (at, -factor)).collect(), abilities[examinee])
+    }
+
+    /// Returns the shared terms of the difficulty of a level.
+    fn shift_terms(&self, spreads: &Spreads, dimension: Dimension) -> Terms {
+        match (self.abilities, dimension) {
+            (None, _) => Terms::new(),
+            (Some(_), Dimension::Planner) => Terms::from_iter([(0, 1.0)]),
+            (Some(_), Dimension::Reader) if self.has_readers => {
+                Terms::from_iter([(0, spreads.game_slope), (1, 1.0)])
+            }
+            (Some(_), Dimension::Reader) => Terms::from_iter([(0, spreads.game_slope)]),
+        }
+    }
+
+    /// Returns the terms of the difficulty of a level within its game.
+    fn difficulty_terms(&self, spreads: &Spreads, game: usize, level: usize, dimension: Dimension) -> Terms {
+        let layout = &self.layouts[game];
+        match dimension {
+            Dimension::Planner => Terms::from_iter([(0, spreads.game), (1 + level, spreads.level)]),
+            Dimension::Reader => Terms::from_iter([
+                (0, spreads.game_slope * spreads.game),
+                (1 + level, spreads.level_slope * spreads.level),
+                (layout.readers, spreads.game_rest),
+                (layout.readers + 1 + level, spreads.level_rest),
+            ]),
+        }
+    }
+
+    /// Returns the terms of the linear predictor of an examinee on a level within its game.
+    pub(super) fn terms(&self, spreads: &Spreads, game: usize, examinee: usize, level: usize) -> Terms {
+        let dimension = self.examinees[examinee].dimension;
+        let mut terms = self.difficulty_terms(spreads, game, level, dimension);
+        terms.iter_mut().for_each(|(_, factor)| *factor = -*factor);
+        match (self.layouts[game].matches[examinee], dimension) {
+            ((Some(family), Some(own)), _) => {
+                terms.extend([(family, spreads.family), (own, spreads.planner)])
+            }
+            ((Some(only), None), _) => {
+                let both = spreads.family * spreads.family + spreads.planner * spreads.planner;
+                terms.push((only, both.sqrt()));
+            }
+            ((None, Some(own)), _) => terms.push((own, spreads.reader)),
+            ((None, None), _) => {}
+        }
+        terms
+    }
+
+    /// Returns the mode and the curvature there; `None` if they cannot be computed. `start` is a mode nearby.
+    pub(super) fn posterior(&self, spreads: &Spreads, start: Option<&Modes>) -> Option<Posterior> {
+        let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
+        let mut modes = start.cloned().unwrap_or_else(|| Modes {
+            shared: DVector::zeros(self.shared()),
+            games: self.layouts.iter().map(|layout| DVector::zeros(layout.size)).collect(),
+        });
+        for _ in 0..STEPS {
+            let step = self.curvature(&rows, &modes, None)?.step();
+            let (next, longest) = self.raised(&rows, modes, None, step)?;
+            modes = next;
+            if longest < FOUND {
+                break;
+            }
+        }
+        let height = self.height(&rows, &modes, None);
+        let curvature = self.curvature(&rows, &modes, None)?;
+        Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
+    }
+
+    /// Returns the normal distribution that is nearest to the posterior, given the spreads, by relative entropy (J. T. Ormerod and M. P.
+    /// Wand, "Gaussian variational approximate inference for generalized linear mixed models", 2012): its means are those of a skewed
+    /// distribution, where modes are drawn to the middle. The shared parameters solve the equation of the marginal likelihood, with
+    /// expected chances in it. `None` if it cannot be computed.
+    pub(super) fn expected_posterior(&self, spreads: &Spreads) -> Option<Posterior> {
+        let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
+        let start = self.posterior(spreads, None)?;
+        let (mut modes, marginal) = (start.modes, start.marginal);
+        let mut variances = start.curvature.variances(&rows);
+        for step in 1..=EXPECTED_STEPS {
+            let curvature = self.curvature(&rows, &modes, Some(&variances))?;
+            let (next, longest) = self.raised(&rows, modes, Some(&variances), curvature.step())?;
+            modes = next;
+            let found = curvature.variances(&rows);
+            let pairs = || variances.iter().flatten().zip(found.iter().flatten());
+            let apart = pairs().map(|(old, new)| (new - old).abs() / (1.0 + new)).fold(0.0, f64::max);
+            // Where nearly nothing is known the variances are so large that the quadrature is rough, and they do not settle.
+            if longest.max(apart) < FOUND_EXPECTED || step == EXPECTED_STEPS {
+                return Some(Posterior::new(modes, marginal, curvature, &rows, Some(&variances)));
+            }
+            let damping = DAMPING / (1.0 + step as f64 / SETTLING);
+            for (old, new) in variances.iter_mut().flatten().zip(found.iter().flatten()) {
+                *old += damping * (new - *old);
+            }
+        }
+        None
+    }
+
+    /// Returns the modes after a step that raises the height, and how long it was at most; half of it is taken until it does.
+    fn raised(
+        &self,
+        rows: &[Vec<Row>],
+        modes: Modes,
+        variances: Option<&[Vec<f64>]>,
+        (shared, games): (DVector<f64>, Vec<DVector<f64>>),
+    ) -> Option<(Modes, f64)> {
+        let height = self.height(rows, &modes, variances);
+        let longest = games.iter().map(|step| step.amax()).fold(shared.amax(), f64::max);
+        let mut length = if longest > LONGEST { LONGEST / longest } else { 1.0 };
+        while length > 1e-8 {
+            let next = Modes {
+                shared: &modes.shared + &shared * length,
+                games: modes.games.iter().zip(&games).map(|(at, step)| at + step * length).collect(),
+            };
+            // Near the mode the sum of thousands of terms is no more exact than this.
+            if self.height(rows, &next, variances) >= height - 1e-10 * height.abs() {
+                return Some((next, longest * length));
+            }
+            length *= 0.5;
+        }
+        None
+    }
+
+    fn rows(&self, spreads: &Spreads, game: usize) -> Vec<Row> {
+        let plays = self.games[game].plays.iter().filter(|plays| plays.of > 0.0);
+        let row = |plays: &super::Plays| {
+            let (shared, offset) = self.shared_terms(spreads, plays.examinee);
+            let own = self.terms(spreads, game, plays.examinee, plays.level);
+            Row { examinee: plays.examinee, won: plays.won, of: plays.of, offset, shared, own }
+        };
+        plays.map(row).collect()
+    }
+
+    /// Returns the logarithm of likelihood and prior, up to a constant; with variances of the linear predictors, the expected one.
+    fn height(&self, rows: &[Vec<Row>], modes: &Modes, variances: Option<&[Vec<f64>]>) -> f64 {
+        let mut sum = -0.5 * FIXED_PRECISION * modes.shared.norm_squared();
+        for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
+            sum -= 0.5 * own.norm_squared();
+            for (at, row) in rows.iter().enumerate() {
+                let logit = row.logit(&modes.shared, own);
+                let softplus = match variances {
+                    None => softplus(logit),
+                    Some(variances) => {
+                        let sd = variances[game][at].max(0.0).sqrt();
+                        nodes().map(|(z, weight)| weight * softplus(logit + sd * z)).sum()
+                    }
+                };
+                sum += row.won * logit - row.of * softplus;
+            }
+        }
+        sum
+    }
+
+    /// Returns the curvature at the modes; with the variances of the linear predictors, the one expected around them.
+    fn curvature(
+        &self,
+        rows: &[Vec<Row>],
+        modes: &Modes,
+        variances: Option<&[Vec<f64>]>,
+    ) -> Option<Curvature> {
+        let shared = self.shared();
+        let mut schur = DMatrix::identity(shared, shared) * FIXED_PRECISION;
+        let mut gradient = &modes.shared * -FIXED_PRECISION;
+        let mut games = Vec::with_capacity(rows.len());
+        for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
+            let size = own.len();
+            let (mut within, mut cross) =
+                (DMatrix::identity(size, size), DMatrix::<f64>::zeros(size, shared));
+            let mut slope = -own;
+            for (at, row) in rows.iter().enumerate() {
+                let logit = row.logit(&modes.shared, own);
+                let (chance, spread) = match variances {
+                    None => {
+                        let chance = logistic(logit);
+                        (chance, chance * (1.0 - chance))
+                    }
+                    Some(variances) => expected(logit, variances[game][at]),
+                };
+                let (rest, weight) = (row.won - row.of * chance, row.of * spread);
+                for &(i, a) in &row.own {
+                    slope[i] += a * rest;
+                    // The lower triangle is all that is read.
+                    for &(j, b) in row.own.iter().filter(|(j, _)| *j <= i) {
+                        within[(i, j)] += weight * a * b;
+                    }
+                    for &(j, b) in &row.shared {
+                        cross[(i, j)] += weight * a * b;
+                    }
+                }
+                for &(i, a) in &row.shared {
+                    gradient[i] += a * rest;
+                    for &(j, b) in &row.shared {
+                        schur[(i, j)] += weight * a * b;
+                    }
+                }
+            }
+            let within = Cholesky::new(within)?;
+            let gain = within.solve(&cross);
+            let alone = within.solve(&slope);
+            schur -= cross.tr_mul(&gain);
+            gradient -= cross.tr_mul(&alone);
+            games.push(GameCurvature { within, gain, alone });
+        }
+        Some(Curvature { schur: Cholesky::new(schur)?, gradient, games })
+    }
+}
+
+impl Layout {
+    fn new(examinees: &[Examinee], game: &GamePlays) -> Layout {
+        let mut size = 1 + game.levels;
+        let played =
+            |examinee: usize| game.plays.iter().any(|plays| plays.examinee == examinee && plays.of > 0.0);
+        let mut matches = vec![(None, None); examinees.len()];
+        let mut families: Vec<(usize, usize)> = Vec::new();
+        for (at, examinee) in examinees.iter().enumerate() {
+            if !played(at) {
+                continue;
+            }
+            let mut next = || {
+                size += 1;
+                size - 1
+            };
+            if examinee.dimension == Dimension::Reader {
+                matches[at] = (None, Some(next()));
+                continue;
+            }
+            let is_kin =
+                |other: &Examinee| other.dimension == Dimension::Planner && other.family == examinee.family;
+            let known = families.iter().find(|(family, _)| *family == examinee.family);
+            let family = known.map_or_else(&mut next, |(_, place)| *place);
+            families.push((examinee.family, family));
+            let is_alone = examinees.iter().filter(|other| is_kin(other)).count() == 1;
+            matches[at] = (Some(family), (!is_alone).then(next));
+        }
+        let has_readers =
+            examinees.iter().enumerate().any(|(at, one)| one.dimension == Dimension::Reader && played(at));
+        Layout { size: size + 1 + game.levels, levels: game.levels, readers: size, has_readers, matches }
+    }
+}
+
+/// The plays of an examinee on a level, with the terms of its linear predictor.
+struct Row {
+    examinee: usize,
+    won: f64,
+    of: f64,
+    offset: f64,
+    shared: Terms,
+    own: Terms,
+}
+
+impl Row {
+    fn logit(&self, shared: &DVector<f64>, own: &DVector<f64>) -> f64 {
+        let shared = self.shared.iter().map(|&(at, factor)| factor * shared[at]);
+        let own = self.own.iter().map(|&(at, factor)| factor * own[at]);
+        self.offset + shared.sum::<f64>() + own.sum::<f64>()
+    }
+}
+
+/// Returns the expected chance, and its expected variance, for a normal logit.
+fn expected(mean: f64, variance: f64) -> (f64, f64) {
+    let sd = variance.max(0.0).sqrt();
+    nodes().fold((0.0, 0.0), |(chances, spreads), (z, weight)| {
+        let chance = logistic(mean + sd * z);
+        (chances + weight * chance, spreads + weight * chance * (1.0 - chance))
+    })
+}
+
+/// Returns ln(1 + eˣ), without overflow.
+pub(super) fn softplus(x: f64) -> f64 {
+    x.max(0.0) + libm::log1p(libm::exp(-x.abs()))
+}
+
+pub(super) fn logistic(x: f64) -> f64 {
+    1.0 / (1.0 + libm::exp(-x))
+}
+
+/// The values of all effects.
+#[derive(Clone)]
+pub(super) struct Modes {
+    pub(super) shared: DVector<f64>,
+    pub(super) games: Vec<DVector<f64>>,
+}
+
+/// The negative second derivatives, factored, and the gradient of the shared parameters after the elimination of the games.
+struct Curvature {
+    schur: Cholesky<f64, Dyn>,
+    gradient: DVector<f64>,
+    games: Vec<GameCurvature>,
+}
+
+struct GameCurvature {
+    /// Among the effects of the game.
+    within: Cholesky<f64, Dyn>,
+    /// By how much they fall when a shared parameter grows by one.
+    gain: DMatrix<f64>,
+    /// Newton's step with the shared parameters kept.
+    alone: DVector<f64>,
+}
+
+impl Curvature {
+    /// Returns Newton's step.
+    fn step(&self) -> (DVector<f64>, Vec<DVector<f64>>) {
+        let shared = self.schur.solve(&self.gradient);
+        let games = self.games.iter().map(|game| &game.alone - &game.gain * &shared).collect();
+        (shared, games)
+    }
+
+    /// Returns the variances of the linear predictors, given the shared parameters.
+    fn variances(&self, rows: &[Vec<Row>]) -> Vec<Vec<f64>> {
+        let of_game = |(game, rows): (&GameCurvature, &Vec<Row>)| {
+            let inverse = game.within.inverse();
+            let quadratic = |row: &Row| {
+                let terms = row.own.iter().flat_map(|one| row.own.iter().map(move |other| (one, other)));
+                terms.map(|((i, a), (j, b))| a * b * inverse[(*i, *j)]).sum::<f64>()
+            };
+            rows.iter().map(quadratic).collect()
+        };
+        self.games.iter().zip(rows).map(of_game).collect()
+    }
+
+    /// Returns half the logarithm of the determinant.
+    fn half_log_determinant(&self) -> f64 {
+        let of = |factor: &Cholesky<f64, Dyn>| {
+            let factor = factor.l_dirty();
+            (0..factor.nrows()).map(|at| libm::log(factor[(at, at)])).sum::<f64>()
+        };
+        self.games.iter().map(|game| of(&game.within)).sum::<f64>() + of(&self.schur)
+    }
+}
+
+/// A linear function of all effects, with a constant.
+pub(super) struct Functional {
+    pub(super) constant: f64,
+    pub(super) shared: DVector<f64>,
+    pub(super) games: Vec<DVector<f64>>,
+}
+
+/// The normal distribution around the mode.
+pub(super) struct Posterior {
+    pub(super) modes: Modes,
+    /// The logarithm of the likelihood with all effects integrated out, up to a constant.
+    pub(super) marginal: f64,
+    curvature: Curvature,
+    /// The covariance of the shared parameters.
+    pub(super) covariance: DMatrix<f64>,
+    /// The expected weight of each row with its terms, by game; empty at a mode.
+    weights: Vec<Vec<(usize, f64, Terms, Terms)>>,
+}
+
+impl Posterior {
+    fn new(
+        modes: Modes,
+        marginal: f64,
+        curvature: Curvature,
+        rows: &[Vec<Row>],
+        variances: Option<&[Vec<f64>]>,
+    ) -> Posterior {
+        let of_game = |((rows, own), variances): ((&Vec<Row>, &DVector<f64>), &Vec<f64>)| {
+            let weight = |(row, variance): (&Row, &f64)| {
+                let (_, spread) = expected(row.logit(&modes.shared, own), *variance);
+                (row.examinee, row.of * spread, row.shared.clone(), row.own.clone())
+            };
+            rows.iter().zip(variances).map(weight).collect()
+        };
+        let games = rows.iter().zip(&modes.games).zip(variances.unwrap_or_default());
+        let weights = games.map(of_game).collect();
+        let covariance = curvature.schur.inverse();
+        Posterior { modes, marginal, curvature, covariance, weights }
+    }
+
+    pub(super) fn value(&self, functional: &Functional) -> f64 {
+        let games = functional.games.iter().zip(&self.modes.games).map(|(terms, own)| terms.dot(own));
+        functional.constant + functional.shared.dot(&self.modes.shared) + games.sum::<f64>()
+    }
+
+    /// Returns how a functional moves with the shared parameters, the effects of games following.
+    fn slope(&self, functional: &Functional) -> DVector<f64> {
+        let mut slope = functional.shared.clone();
+        for (game, terms) in self.curvature.games.iter().zip(&functional.games) {
+            slope -= game.gain.tr_mul(terms);
+        }
+        slope
+    }
+
+    /// Returns the covariance of two functionals: that by the shared parameters, and that by the games given these.
+    pub(super) fn covariance(&self, one: &Functional, other: &Functional) -> (f64, f64) {
+        let (left, right) = (self.slope(one), self.slope(other));
+        let shared = left.dot(&(&self.covariance * right));
+        let games = self.curvature.games.iter().zip(one.games.iter().zip(&other.games));
+        let within = games.filter(|(_, (left, right))| left.amax() > 0.0 && right.amax() > 0.0);
+        (shared, within.map(|(game, (left, right))| left.dot(&game.within.solve(right))).sum())
+    }
+
+    /// Returns the covariance of functionals of one game, given the shared parameters.
+    pub(super) fn within_game(&self, game: usize, functionals: &[Functional]) -> DMatrix<f64> {
+        let columns: Vec<DVector<f64>> = functionals.iter().map(|one| one.games[game].clone()).collect();
+        let terms = DMatrix::from_columns(&columns);
+        terms.tr_mul(&self.curvature.games[game].within.solve(&terms))
+    }
+
+    /// Returns by how much a functional moves when the fixed ability of each examinee grows by one.
+    pub(super) fn sensitivity(&self, functional: &Functional, examinees: usize) -> Vec<f64> {
+        let shared = &self.covariance * self.slope(functional);
+        let mut moves = vec![0.0; examinees];
+        for (game, (terms, rows)) in
+            self.curvature.games.iter().zip(functional.games.iter().zip(&self.weights))
+        {
+            let own = game.within.solve(terms) - &game.gain * &shared;
+            for (examinee, weight, shared_terms, own_terms) in rows {
+                let by_shared: f64 = shared_terms.iter().map(|&(at, factor)| factor * shared[at]).sum();
+                let by_own: f64 = own_terms.iter().map(|&(at, factor)| factor * own[at]).sum();
+                moves[*examinee] -= weight * (by_shared + by_own);
+            }
+        }
+        moves
+    }
+}
+
+impl Model<'_> {
+    /// Returns the mean squared standardised residual of the plays on a game: the sum of the squared residuals over that of their
+    /// variances.
+    pub(super) fn misfit(&self, spreads: &Spreads, posterior: &Posterior, game: usize) -> f64 {
+        let (mut squares, mut variances) = (0.0, 0.0);
+        for row in self.rows(spreads, game) {
+            let chance = logistic(row.logit(&posterior.modes.shared, &posterior.modes.games[game]));
+            let rest = row.won - row.of * chance;
+            squares += rest * rest;
+            variances += row.of * chance * (1.0 - chance);
+        }
+        squares / variances
+    }
+
+    /// Returns a functional that is zero everywhere.
+    fn nothing(&self) -> Functional {
+        Functional {
+            constant: 0.0,
+            shared: DVector::zeros(self.shared()),
+            games: self.layouts.iter().map(|layout| DVector::zeros(layout.size)).collect(),
+        }
+    }
+
+    /// Returns a shared parameter.
+    pub(super) fn shared_functional(&self, at: usize) -> Functional {
+        let mut found = self.nothing();
+        found.shared[at] = 1.0;
+        found
+    }
+
+    /// Returns the difficulties of the levels of a game.
+    pub(super) fn game_functionals(
+        &self,
+        spreads: &Spreads,
+        game: usize,
+        dimension: Dimension,
+    ) -> Vec<Functional> {
+        let of_level = |level: usize| {
+            let mut found = self.nothing();
+            self.add_level(&mut found, spreads, (game, level), dimension, 1.0);
+            found
+        };
+        (0..self.layouts[game].levels).map(of_level).collect()
+    }
+
+    fn add_level(
+        &self,
+        to: &mut Functional,
+        spreads: &Spreads,
+        (game, level): (usize, usize),
+        dimension: Dimension,
+        share: f64,
+    ) {
+        for (at, factor) in self.shift_terms(spreads, dimension) {
+            to.shared[at] += share * factor;
+        }
+        for (at, factor) in self.difficulty_terms(spreads, game, level, dimension) {
+            to.games[game][at] += share * factor;
+        }
+    }
+
+    /// Returns the levels, by game.
+    fn levels(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let layouts = self.layouts.iter().enumerate();
+        layouts.flat_map(|(game, layout)| (0..layout.levels).map(move |level| (game, level)))
+    }
+
+    /// Returns the mean difficulty of all levels.
+    pub(super) fn mean_functional(&self, spreads: &Spreads, dimension: Dimension) -> Functional {
+        let mut found = self.nothing();
+        let share = 1.0 / self.levels().count() as f64;
+        for level in self.levels() {
+            self.add_level(&mut found, spreads, level, dimension, share);
+        }
+        found
+    }
+
+    /// Returns the mean logit of the planners on all levels: the ease of the levels for exactly these.
+    pub(super) fn planners_functional(&self, spreads: &Spreads) -> Functional {
+        let mut found = self.nothing();
+        let planners: Vec<usize> = (0..self.examinees.len())
+            .filter(|&at| self.examinees[at].dimension == Dimension::Planner)
+            .collect();
+        let share = 1.0 / (self.levels().count() * planners.len()) as f64;
+        for (game, level) in self.levels() {
+            for &planner in &planners {
+                let (shared, offset) = self.shared_terms(spreads, planner);
+                found.constant += share * offset;
+                for (at, factor) in shared {
+                    found.shared[at] += share * factor;
+                }
+                for (at, factor) in self.terms(spreads, game, planner, level) {
+                    found.games[game][at] += share * factor;
+                }
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,111 @@
+//! The parametric bootstrap of a calibration: the same examinees on as many new games, drawn from the model that was found. Laplace's
+//! method shrinks spreads where plays are few; replicates say by how much, and how much they vary.
+
+use super::calibration::{Calibration, spreads_of};
+use super::plays::{GamePlays, Plays};
+use super::posterior::{Model, logistic};
+use super::spreads::Spreads;
+use crate::draws::Draws;
+use crate::wilson::{Interval, Z95};
+
+/// A correlation with its interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correlated {
+    /// The correlation.
+    pub value: f64,
+    /// Its 95 % interval.
+    pub interval: Interval,
+}
+
+impl Calibration {
+    /// Returns the spreads that are found in plays of the same examinees on new games of the model, as many as `games` has, with the
+    /// same levels and numbers of plays. Cost: that of [`Calibration::new`].
+    pub fn replicate(&self, games: &[GamePlays], seed: u64) -> Option<Spreads> {
+        let mut draws = Draws::new(seed);
+        let model = Model::new(&self.examinees, games, None);
+        let of_game = |(game, given): (usize, &GamePlays)| {
+            let effects: Vec<f64> = (0..model.effects(game)).map(|_| draws.normal()).collect();
+            let replay = |plays: &Plays| {
+                let terms = model.terms(&self.spreads, game, plays.examinee, plays.level);
+                let logit: f64 = terms.iter().map(|&(at, factor)| factor * effects[at]).sum();
+                let chance = logistic(self.abilities[plays.examinee] + logit);
+                Plays { won: draws.successes(chance, plays.of as u64) as f64, ..*plays }
+            };
+            GamePlays { levels: given.levels, plays: given.plays.iter().map(replay).collect() }
+        };
+        let games: Vec<GamePlays> = games.iter().enumerate().map(of_game).collect();
+        spreads_of(&Model::new(&self.examinees, &games, None), self.spreads)
+    }
+
+    /// Returns the spreads without the bias that replicates have: logarithms of standard deviations and slopes are moved by the mean
+    /// difference, in opposite direction. Without replicates nothing is moved.
+    pub fn corrected(&self, replicates: &[Spreads]) -> Spreads {
+        let has_readers = self.has_readers();
+        let found = self.spreads.parameters(has_readers);
+        let parameters: Vec<Vec<f64>> = replicates.iter().map(|one| one.parameters(has_readers)).collect();
+        let moved = found.iter().enumerate().map(|(at, value)| {
+            let mean = parameters.iter().map(|one| one[at]).sum::<f64>() / parameters.len().max(1) as f64;
+            if parameters.is_empty() { *value } else { 2.0 * value - mean }
+        });
+        Spreads::from_parameters(&moved.collect::<Vec<f64>>())
+    }
+
+    /// Returns the correlation of the difficulty of levels for planners and for readers, with the bias and the spread of replicates
+    /// (on Fisher's scale). `None` without readers, or with fewer than two replicates.
+    pub fn correlation(&self, replicates: &[Spreads]) -> Option<Correlated> {
+        if replicates.len() < 2 || !self.has_readers() {
+            return None;
+        }
+        let scale = |spreads: &Spreads| libm::atanh(spreads.correlation().clamp(-0.9999, 0.9999));
+        let found: Vec<f64> = replicates.iter().map(scale).collect();
+        let count = found.len() as f64;
+        let mean = found.iter().sum::<f64>() / count;
+        let variance = found.iter().map(|one| (one - mean) * (one - mean)).sum::<f64>() / (count - 1.0);
+        let value = 2.0 * scale(&self.spreads) - mean;
+        // The bias is known as exactly as the replicates are many.
+        let half = Z95 * (variance + variance / count).sqrt();
+        let [low, high] = [value - half, value + half].map(libm::tanh);
+        Some(Correlated { value: libm::tanh(value), interval: Interval { low, high } })
+    }
+
+    /// Returns `true` if a reader took part.
+    pub fn has_readers(&self) -> bool {
+        self.examinees.iter().any(|one| one.dimension == super::Dimension::Reader)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scale::simulated::{Plan, Simulator};
+
+    fn calibrated(anchors: usize) -> (Calibration, Vec<GamePlays>) {
+        let spreads = Spreads { game: 1.6, level: 1.6, family: 1.5, ..Spreads::default() };
+        let plan =
+            Plan { games: 30, levels: 3, families: vec![1; 4], runs: 3, anchors, anchor_runs: 3, spreads };
+        let mut simulator = Simulator::new(plan, 3);
+        let plays = simulator.month(0.0, 0.0).plays;
+        (Calibration::new(&simulator.examinees, &plays).unwrap().0, plays)
+    }
+
+    #[test]
+    fn correlations_have_intervals() {
+        let (found, plays) = calibrated(3);
+        let replicates: Vec<Spreads> = (0..6).map(|seed| found.replicate(&plays, seed).unwrap()).collect();
+        let correlation = found.correlation(&replicates).unwrap();
+        assert!(correlation.interval.low < 0.75 && 0.6 < correlation.interval.high, "{correlation:?}");
+        assert!(correlation.interval.low < correlation.value, "{correlation:?}");
+        assert_eq!(found.correlation(&replicates[..1]), None);
+    }
+
+    #[test]
+    fn corrections_move_against_the_bias() {
+        let (found, plays) = calibrated(0);
+        let all: Vec<Spreads> = (0..3).map(|seed| found.replicate(&plays, seed).unwrap()).collect();
+        let corrected = found.corrected(&all);
+        let mean = all.iter().map(|one| libm::log(one.game)).sum::<f64>() / 3.0;
+        assert!((libm::log(corrected.game) - 2.0 * libm::log(found.spreads.game) + mean).abs() < 1e-12);
+        assert_eq!(found.corrected(&[]).game, found.spreads.game);
+        assert_eq!(found.correlation(&all), None);
+    }
+}

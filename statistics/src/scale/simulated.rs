@@ -1,0 +1,315 @@
+//! Simulated months under the model of the scale, with all that is hidden in real ones: how large the errors are, and how often the
+//! intervals cover. `cargo xtask simulate` prints tables; the tests of this crate run small ones.
+
+use super::ability::{MismatchPrior, PlayedGame, PlayedLevel};
+use super::calibration::{Calibration, Difficulties, Month, side};
+use super::plays::{Dimension, Examinee, GamePlays, Plays};
+use super::posterior::logistic;
+use super::spreads::Spreads;
+use crate::draws::Draws;
+
+/// The size of a month, and who plays it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Games.
+    pub games: usize,
+    /// Levels of each game.
+    pub levels: usize,
+    /// The number of planners of each family.
+    pub families: Vec<usize>,
+    /// Plays of each planner on each level.
+    pub runs: u32,
+    /// Readers that take part.
+    pub anchors: usize,
+    /// Plays of each reader on each level.
+    pub anchor_runs: u32,
+    /// The true spreads.
+    pub spreads: Spreads,
+}
+
+/// A simulated month, with what is hidden.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulatedMonth {
+    /// The plays of the examinees.
+    pub plays: Vec<GamePlays>,
+    /// The true difficulties for planners and readers, by game and level.
+    pub difficulties: [Vec<Vec<f64>>; 2],
+    /// The true mean logit of the planners on all levels.
+    pub ease: f64,
+}
+
+impl SimulatedMonth {
+    /// Returns the true mean difficulty.
+    pub fn mean(&self, dimension: Dimension) -> f64 {
+        let games = &self.difficulties[side(dimension)];
+        let count = games.iter().map(Vec::len).sum::<usize>() as f64;
+        games.iter().flatten().sum::<f64>() / count
+    }
+}
+
+/// A stream of months; the same seed gives the same.
+pub struct Simulator {
+    draws: Draws,
+    plan: Plan,
+    /// The examinees.
+    pub examinees: Vec<Examinee>,
+    /// Their true abilities.
+    pub abilities: Vec<f64>,
+}
+
+impl Simulator {
+    /// Creates a simulator: planners from weak to strong, readers weaker.
+    pub fn new(plan: Plan, seed: u64) -> Simulator {
+        let mut examinees = Vec::new();
+        let mut abilities = Vec::new();
+        let planners: usize = plan.families.iter().sum();
+        for (family, &members) in plan.families.iter().enumerate() {
+            for _ in 0..members {
+                let place = examinees.len() as f64 / (planners.max(2) - 1) as f64;
+                examinees.push(Examinee { dimension: Dimension::Planner, family });
+                abilities.push(-1.5 + 3.5 * place);
+            }
+        }
+        for anchor in 0..plan.anchors {
+            examinees.push(Examinee { dimension: Dimension::Reader, family: 0 });
+            abilities.push(-1.5 + anchor as f64 * 0.75);
+        }
+        Simulator { draws: Draws::new(seed), plan, examinees, abilities }
+    }
+
+    /// Draws a month that is `shift` logits harder for planners than the mean of all games, and for readers `drift` logits harder
+    /// than follows from it.
+    pub fn month(&mut self, shift: f64, drift: f64) -> SimulatedMonth {
+        let Plan { games, levels, spreads, .. } = self.plan.clone();
+        let planners = self.plan.families.iter().sum::<usize>();
+        let (mut plays, mut difficulties, mut ease) = (Vec::new(), [Vec::new(), Vec::new()], 0.0);
+        for _ in 0..games {
+            let (game, rest) = (spreads.game * self.draws.normal(), spreads.game_rest * self.draws.normal());
+            let pairs: Vec<[f64; 2]> = (0..levels)
+                .map(|_| {
+                    let (level, own) =
+                        (spreads.level * self.draws.normal(), spreads.level_rest * self.draws.normal());
+                    let readers = spreads.game_slope * (shift + game)
+                        + spreads.level_slope * level
+                        + rest
+                        + own
+                        + drift;
+                    [shift + game + level, readers]
+                })
+                .collect();
+            let families: Vec<f64> =
+                self.plan.families.clone().iter().map(|_| spreads.family * self.draws.normal()).collect();
+            let mut found = GamePlays { levels, plays: Vec::new() };
+            for (at, examinee) in self.examinees.clone().iter().enumerate() {
+                let (match_, of) = match examinee.dimension {
+                    Dimension::Planner => {
+                        (families[examinee.family] + spreads.planner * self.draws.normal(), self.plan.runs)
+                    }
+                    Dimension::Reader => (spreads.reader * self.draws.normal(), self.plan.anchor_runs),
+                };
+                for (level, pair) in pairs.iter().enumerate() {
+                    let logit = self.abilities[at] - pair[side(examinee.dimension)] + match_;
+                    if examinee.dimension == Dimension::Planner {
+                        ease += logit / (games * levels * planners) as f64;
+                    }
+                    if of > 0 {
+                        let won = self.wins(logit, of);
+                        found.plays.push(Plays { examinee: at, level, won, of: f64::from(of) });
+                    }
+                }
+            }
+            plays.push(found);
+            for (side, of) in difficulties.iter_mut().enumerate() {
+                of.push(pairs.iter().map(|pair| pair[side]).collect());
+            }
+        }
+        SimulatedMonth { plays, difficulties, ease }
+    }
+
+    /// Draws the plays of a player on `episodes` levels of a month, one on each, spread over the games first. `month` is its
+    /// calibration.
+    pub fn person(
+        &mut self,
+        truth: &SimulatedMonth,
+        month: &Month,
+        dimension: Dimension,
+        (ability, mismatch): (f64, f64),
+        episodes: usize,
+    ) -> Vec<PlayedGame> {
+        let side = side(dimension);
+        let of_game = |this: &mut Simulator, game: usize| {
+            let match_ = mismatch * this.draws.normal();
+            let known: &Difficulties = &month.games[game].difficulties[side];
+            let share = this.plan.games.min(episodes).max(1);
+            let count = (episodes / share + usize::from(game < episodes % share)).min(this.plan.levels);
+            let levels = (0..count).filter(|_| game < share).map(|level| PlayedLevel {
+                difficulty: known.levels[level].value,
+                own: known.own(level),
+                won: this.wins(ability - truth.difficulties[side][game][level] + match_, 1),
+                of: 1.0,
+            });
+            PlayedGame { common: known.common, levels: levels.collect() }
+        };
+        (0..self.plan.games).map(|game| of_game(self, game)).collect()
+    }
+
+    fn wins(&mut self, logit: f64, of: u32) -> f64 {
+        self.draws.successes(logistic(logit), u64::from(of)) as f64
+    }
+}
+
+/// The errors of the link of a month: found minus true, and the errors stated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkTrial {
+    /// To exactly the planners of the calibration.
+    pub to_these: (f64, f64),
+    /// To any planner.
+    pub to_any: (f64, f64),
+    /// Of the difficulties of the month for readers.
+    pub to_readers: (f64, f64),
+    /// The drift that anchors see, and its error; 0 and infinite without anchors.
+    pub drift: (f64, f64),
+    /// The spreads that were found.
+    pub spreads: Spreads,
+}
+
+/// The ability of a player: found minus true, and the error stated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AbilityTrial {
+    /// Found minus true.
+    pub off: f64,
+    /// The error stated.
+    pub error: f64,
+    /// Whether the 95 % interval covers the truth.
+    pub is_covered: bool,
+}
+
+/// Calibrates a first month, and adds a second that is `shift` harder and has drifted; `None` if a month cannot be calibrated.
+pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
+    let mut simulator = Simulator::new(plan.clone(), seed);
+    let (first, second) = (simulator.month(0.0, 0.0), simulator.month(shift, drift));
+    let (calibration, _) = Calibration::new(&simulator.examinees, &first.plays)?;
+    let month = calibration.add(&second.plays)?;
+    let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);
+    let off = |found: super::Estimated, truth: f64| (found.value - truth, found.error);
+    Some(LinkTrial {
+        to_these: off(month.planners_shift, first.ease - second.ease),
+        to_any: off(month.shifts[0], apart(Dimension::Planner)),
+        to_readers: off(month.shifts[1], apart(Dimension::Reader)),
+        drift: month.drift.map_or((0.0, f64::INFINITY), |found| (found.value, found.error)),
+        spreads: calibration.spreads,
+    })
+}
+
+/// Calibrates two months, and has `persons` players of an ability and a mismatch play on the second.
+pub fn ability_trials(
+    plan: &Plan,
+    dimension: Dimension,
+    (ability, mismatch): (f64, f64),
+    episodes: usize,
+    persons: usize,
+    seed: u64,
+) -> Option<Vec<AbilityTrial>> {
+    let mut simulator = Simulator::new(plan.clone(), seed);
+    let (first, second) = (simulator.month(0.0, 0.0), simulator.month(0.0, 0.0));
+    let (calibration, _) = Calibration::new(&simulator.examinees, &first.plays)?;
+    let month = calibration.add(&second.plays)?;
+    let truth = ability - first.mean(dimension);
+    let trials = (0..persons).map(|_| {
+        let games = simulator.person(&second, &month, dimension, (ability, mismatch), episodes);
+        let found = super::ability(&games, MismatchPrior::default(), month.link[side(dimension)])?;
+        Some(AbilityTrial {
+            off: found.value - truth,
+            error: found.error,
+            is_covered: found.interval.low <= truth && truth <= found.interval.high,
+        })
+    });
+    trials.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(families: usize, anchors: usize) -> Plan {
+        let spreads = Spreads { game: 1.6, level: 1.6, family: 1.5, ..Spreads::default() };
+        Plan { games: 24, levels: 3, families: vec![1; families], runs: 4, anchors, anchor_runs: 2, spreads }
+    }
+
+    /// Links of small months err as they say, and those to the planners themselves least.
+    #[test]
+    fn links_are_as_exact_as_stated() {
+        let trials: Vec<LinkTrial> =
+            (0..12).map(|seed| link_trial(&plan(5, 0), 0.4, 0.0, seed).unwrap()).collect();
+        let mean_square = |of: fn(&LinkTrial) -> f64| {
+            trials.iter().map(|trial| of(trial) * of(trial)).sum::<f64>() / trials.len() as f64
+        };
+        let these = mean_square(|trial| trial.to_these.0 / trial.to_these.1);
+        let any = mean_square(|trial| trial.to_any.0 / trial.to_any.1);
+        assert!((0.3..2.5).contains(&these) && (0.3..2.5).contains(&any), "{these}, {any}");
+        assert!(trials.iter().all(|trial| trial.to_these.1 < trial.to_any.1), "{trials:?}");
+    }
+
+    #[test]
+    fn spreads_are_found() {
+        let found = link_trial(&Plan { games: 60, ..plan(5, 0) }, 0.0, 0.0, 7).unwrap().spreads;
+        assert!((1.2..2.0).contains(&found.game) && (1.3..1.9).contains(&found.level), "{found:?}");
+        let match_ = (found.family * found.family + found.planner * found.planner).sqrt();
+        assert!((1.3..1.9).contains(&match_), "{found:?}");
+    }
+
+    #[test]
+    fn abilities_are_covered() {
+        let trials = ability_trials(&plan(5, 0), Dimension::Planner, (0.3, 1.0), 60, 40, 3).unwrap();
+        let covered = trials.iter().filter(|trial| trial.is_covered).count();
+        assert!(covered >= 33, "{covered} of 40");
+        assert!(trials.iter().all(|trial| (0.2..0.8).contains(&trial.error)), "{trials:?}");
+    }
+
+    #[test]
+    fn anchors_see_a_drift() {
+        let found = link_trial(&plan(4, 2), 0.3, 2.0, 5).unwrap().drift;
+        assert!(found.0 > 2.0 * found.1 && (found.0 - 2.0).abs() < 3.0 * found.1, "{found:?}");
+        let found = link_trial(&plan(4, 2), 0.3, 0.0, 5).unwrap().drift;
+        assert!(found.0.abs() < 2.0 * found.1, "{found:?}");
+    }
+
+    /// A month that is much harder is not drawn to the middle.
+    #[test]
+    fn large_shifts_have_no_bias() {
+        let plan = Plan { games: 60, ..plan(6, 0) };
+        let off = (0..6).map(|seed| link_trial(&plan, 1.5, 0.0, seed).unwrap().to_these.0);
+        let mean = off.sum::<f64>() / 6.0;
+        assert!(mean.abs() < 0.1, "{mean}");
+    }
+
+    /// Nothing is won, or everything: there is no more to know than the priors say, and no failure.
+    #[test]
+    fn one_sided_months_are_calibrated() {
+        for all in [false, true] {
+            let mut simulator = Simulator::new(Plan { games: 3, runs: 1, ..plan(9, 1) }, 2);
+            let mut plays = simulator.month(0.0, 0.0).plays;
+            for one in plays.iter_mut().flat_map(|game| &mut game.plays) {
+                one.won = if all { one.of } else { 0.0 };
+            }
+            let (found, _) = Calibration::new(&simulator.examinees, &plays).unwrap();
+            assert!(found.abilities.iter().all(|ability| (*ability > 0.0) == all));
+            assert!(found.add(&plays).is_some() && found.replicate(&plays, 1).is_some());
+        }
+    }
+
+    /// The bits are the same on every machine.
+    #[test]
+    fn golden_bits() {
+        let found = link_trial(&Plan { games: 6, ..plan(3, 1) }, 0.0, 0.0, 1).unwrap();
+        assert_eq!(
+            found.to_these.0.to_bits(),
+            GOLDEN,
+            "{:#x} {}",
+            found.to_these.0.to_bits(),
+            found.to_these.0
+        );
+    }
+
+    const GOLDEN: u64 = 0x3fd0_2f2a_5c4c_49ec;
+}

@@ -1,0 +1,148 @@
+//! The standard deviations of the model, and how strongly readers find hard what planners find hard.
+
+/// Standard deviations in logits, and two slopes.
+///
+/// The difficulty of a game for planners is `game` · z with z standard normal; for readers it is the slope times that of planners,
+/// plus a rest of their own. Levels likewise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spreads {
+    /// Of the difficulty of games for planners.
+    pub game: f64,
+    /// Of the difficulty of levels within a game for planners.
+    pub level: f64,
+    /// Of the match of a family of planners and a game.
+    pub family: f64,
+    /// Of the match of a planner and a game, beyond that of its family.
+    pub planner: f64,
+    /// The difficulty of a game for readers for each logit for planners.
+    pub game_slope: f64,
+    /// The same for levels within a game.
+    pub level_slope: f64,
+    /// Of the rest of the difficulty of games for readers.
+    pub game_rest: f64,
+    /// Of the rest of the difficulty of levels for readers.
+    pub level_rest: f64,
+    /// Of the match of a reader and a game.
+    pub reader: f64,
+}
+
+impl Default for Spreads {
+    fn default() -> Spreads {
+        Spreads {
+            game: 1.3,
+            level: 1.0,
+            family: 1.0,
+            planner: 0.5,
+            game_slope: 0.7,
+            level_slope: 0.7,
+            game_rest: 0.9,
+            level_rest: 0.7,
+            reader: 0.9,
+        }
+    }
+}
+
+/// The number of parameters of a model without readers.
+pub(super) const PLANNERS_ONLY: usize = 4;
+/// The mean and the standard deviation of the prior of a logarithm of a standard deviation: within 0.14 and 7 logits.
+const LOG_PRIOR: (f64, f64) = (0.0, 1.0);
+/// The same of a slope.
+const SLOPE_PRIOR: (f64, f64) = (0.0, 1.0);
+
+impl Spreads {
+    /// Returns the parameters of a maximisation: logarithms of standard deviations, and slopes.
+    pub(super) fn parameters(&self, has_readers: bool) -> Vec<f64> {
+        let mut all: Vec<f64> = [self.game, self.level, self.family, self.planner].map(libm::log).to_vec();
+        if has_readers {
+            all.extend([self.game_slope, self.level_slope]);
+            all.extend([self.game_rest, self.level_rest, self.reader].map(libm::log));
+        }
+        all
+    }
+
+    /// Returns the spreads of parameters; those of readers are the default where there are none.
+    pub(super) fn from_parameters(parameters: &[f64]) -> Spreads {
+        let sd = |at: usize| libm::exp(parameters[at]);
+        let planners =
+            Spreads { game: sd(0), level: sd(1), family: sd(2), planner: sd(3), ..Spreads::default() };
+        if parameters.len() == PLANNERS_ONLY {
+            return planners;
+        }
+        Spreads {
+            game_slope: parameters[4],
+            level_slope: parameters[5],
+            game_rest: sd(6),
+            level_rest: sd(7),
+            reader: sd(8),
+            ..planners
+        }
+    }
+
+    /// Returns the logarithm of the density of the prior, up to a constant.
+    pub(super) fn log_prior(parameters: &[f64]) -> f64 {
+        let each = parameters.iter().enumerate().map(|(at, value)| {
+            let (mean, sd) = if at == 4 || at == 5 { SLOPE_PRIOR } else { LOG_PRIOR };
+            let z = (value - mean) / sd;
+            -0.5 * z * z
+        });
+        each.sum()
+    }
+
+    /// Returns the variances of the difficulty of a level for planners and for readers, and their covariance.
+    fn moments(&self) -> (f64, f64, f64) {
+        let (game, level) = (self.game * self.game, self.level * self.level);
+        let planners = game + level;
+        let readers = self.game_slope * self.game_slope * game
+            + self.level_slope * self.level_slope * level
+            + self.game_rest * self.game_rest
+            + self.level_rest * self.level_rest;
+        (planners, readers, self.game_slope * game + self.level_slope * level)
+    }
+
+    /// Returns the correlation of the difficulties of levels for planners and for readers.
+    pub fn correlation(&self) -> f64 {
+        let (planners, readers, both) = self.moments();
+        both / (planners * readers).sqrt()
+    }
+
+    /// Returns the standard deviation of the difficulty of a level.
+    pub fn total(&self, dimension: super::Dimension) -> f64 {
+        let (planners, readers, _) = self.moments();
+        match dimension {
+            super::Dimension::Planner => planners.sqrt(),
+            super::Dimension::Reader => readers.sqrt(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scale::Dimension;
+
+    #[test]
+    fn parameters_stand_for_spreads() {
+        let given = Spreads { game: 2.0, level_slope: -0.25, reader: 1.5, ..Spreads::default() };
+        let found = Spreads::from_parameters(&given.parameters(true));
+        assert!((found.game - 2.0).abs() < 1e-12 && (found.reader - 1.5).abs() < 1e-12);
+        assert_eq!(found.level_slope, -0.25);
+        let planners = Spreads::from_parameters(&given.parameters(false));
+        assert!((planners.game - 2.0).abs() < 1e-12 && planners.reader == Spreads::default().reader);
+    }
+
+    /// Slopes of 1 without a rest: readers find hard exactly what planners find hard.
+    #[test]
+    fn correlations() {
+        let same = Spreads {
+            game_slope: 1.0,
+            level_slope: 1.0,
+            game_rest: 0.0,
+            level_rest: 0.0,
+            ..Spreads::default()
+        };
+        assert!((same.correlation() - 1.0).abs() < 1e-12);
+        assert!((same.total(Dimension::Planner) - same.total(Dimension::Reader)).abs() < 1e-12);
+        let none = Spreads { game_slope: 0.0, level_slope: 0.0, ..same };
+        assert!(Spreads { game_rest: 1.0, ..none }.correlation() == 0.0);
+    }
+}

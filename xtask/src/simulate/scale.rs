@@ -1,0 +1,132 @@
+//! Simulations of the scale: the errors of links, of abilities and of drifts, stated and true.
+
+use super::{Args, share};
+use rayon::prelude::*;
+use report::{Table, TableCell};
+use statistics::scale::simulated::{AbilityTrial, LinkTrial, Plan, ability_trials, link_trial};
+use statistics::scale::{Dimension, Spreads};
+
+/// The players of one calibration.
+const PERSONS: usize = 40;
+
+fn plan(families: Vec<usize>, runs: u32) -> Plan {
+    let spreads = Spreads { game: 1.6, level: 1.6, family: 1.5, planner: 0.5, ..Spreads::default() };
+    Plan { games: 120, levels: 5, families, runs, anchors: 0, anchor_runs: 0, spreads }
+}
+
+/// Returns all trials that could be calibrated; each has a seed of its own.
+fn trials<T: Send>(args: &Args, trials: u64, case: usize, one: impl Fn(u64) -> Option<T> + Sync) -> Vec<T> {
+    let seed = args.seed * 1_000_003 + case as u64 * 10_007;
+    (0..trials).into_par_iter().filter_map(|trial| one(seed + trial)).collect()
+}
+
+/// Returns the root of the mean square, the mean error stated, and the fraction that their 95 % intervals cover.
+fn errors(found: &[(f64, f64)]) -> [TableCell; 3] {
+    let count = found.len() as f64;
+    let square = found.iter().map(|(off, _)| off * off).sum::<f64>() / count;
+    let stated = found.iter().map(|(_, error)| error).sum::<f64>() / count;
+    let covered = found.iter().filter(|(off, error)| off.abs() <= statistics::Z95 * error).count();
+    [share(square.sqrt()), share(stated), share(covered as f64 / count)]
+}
+
+/// The link of two months of 120 games × 5 levels.
+pub(super) fn link(args: &Args) -> Table {
+    let count = args.trials.unwrap_or(200);
+    let cases = [
+        ("2 families of 3 and 1", plan(vec![3, 1], 4)),
+        ("8 families", plan(vec![1; 8], 1)),
+        ("8 families", plan(vec![1; 8], 2)),
+        ("8 families", plan(vec![1; 8], 4)),
+        ("8 families, 4 with two members", plan(vec![2, 2, 2, 2, 1, 1, 1, 1], 2)),
+        ("16 families", plan(vec![1; 16], 2)),
+    ];
+    let note = format!(
+        "{count} pairs of months each, the second 0.3 logits harder. Standard deviation of games and levels 1.6, of family and game \
+         1.5, of planner and game 0.5 logit. Errors in logits."
+    );
+    let columns = [
+        "planners",
+        "plays of each on a level",
+        "to these",
+        "stated",
+        "coverage",
+        "to any",
+        "stated",
+        "coverage",
+    ];
+    let mut table = Table::new("link", "Errors of the link of two months", &note, &columns);
+    for (case, (name, plan)) in cases.iter().enumerate() {
+        let found: Vec<LinkTrial> = trials(args, count, case, |seed| link_trial(plan, 0.3, 0.0, seed));
+        let these = errors(&found.iter().map(|trial| trial.to_these).collect::<Vec<_>>());
+        let any = errors(&found.iter().map(|trial| trial.to_any).collect::<Vec<_>>());
+        let runs = TableCell::Count(u64::from(plan.runs));
+        table.rows.push([TableCell::text(*name), runs].into_iter().chain(these).chain(any).collect());
+    }
+    table
+}
+
+/// The ability of a player on a month that is linked.
+pub(super) fn ability(args: &Args) -> Table {
+    let count = args.trials.unwrap_or(50);
+    let alone = plan(vec![1; 8], 2);
+    let anchored = Plan { anchors: 3, anchor_runs: 1, ..alone.clone() };
+    let mut cases = Vec::new();
+    for (name, plan, dimension) in
+        [("planners'", &alone, Dimension::Planner), ("readers', 3 anchors", &anchored, Dimension::Reader)]
+    {
+        for (mismatch, ability) in [(1.0, 0.0), (1.0, -2.0), (2.0, 0.0), (2.0, -2.0)] {
+            cases
+                .extend([100, 200, 600].map(|episodes| (name, plan, dimension, ability, mismatch, episodes)));
+        }
+    }
+    let note = format!(
+        "{} players each, {PERSONS} on each of {count} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
+         plays of each on a level; an episode on each level, spread over games. Errors in logits.",
+        count * PERSONS as u64
+    );
+    let columns = ["difficulty", "mismatch SD", "ability", "episodes", "error", "stated", "coverage"];
+    let mut table = Table::new("ability", "Errors of abilities", &note, &columns);
+    for (case, (name, plan, dimension, ability, mismatch, episodes)) in cases.into_iter().enumerate() {
+        // The same months for all players of a dimension.
+        let case = case / 12;
+        let found: Vec<Vec<AbilityTrial>> = trials(args, count, case, |seed| {
+            ability_trials(plan, dimension, (ability, mismatch), episodes, PERSONS, seed)
+        });
+        let found: Vec<AbilityTrial> = found.into_iter().flatten().collect();
+        let pairs: Vec<(f64, f64)> = found.iter().map(|trial| (trial.off, trial.error)).collect();
+        let [off, stated, _] = errors(&pairs);
+        let covered = found.iter().filter(|trial| trial.is_covered).count() as f64 / found.len() as f64;
+        let place = [TableCell::text(name), TableCell::number(mismatch, 0), TableCell::number(ability, 0)];
+        let episodes = TableCell::Count(episodes as u64);
+        table.rows.push(place.into_iter().chain([episodes, off, stated, share(covered)]).collect());
+    }
+    table
+}
+
+/// The drift of a month for readers that anchors see.
+pub(super) fn drift(args: &Args) -> Table {
+    let count = args.trials.unwrap_or(100);
+    let mut cases = Vec::new();
+    for (games, anchors) in [(40, 3), (120, 3), (120, 6)] {
+        cases.extend([0.0, 0.5].map(|drift| (games, anchors, drift)));
+    }
+    let note = format!(
+        "{count} pairs of months each, of 5 levels a game, the second 0.3 logits harder for planners; each anchor plays each level \
+         once. Flagged at 5 %."
+    );
+    let columns = ["games", "levels", "anchors", "planted drift", "flagged", "error", "stated", "coverage"];
+    let mut table = Table::new("drift", "Drift as anchors see it", &note, &columns);
+    for (case, (games, anchors, drift)) in cases.into_iter().enumerate() {
+        let plan = Plan { games, anchors, anchor_runs: 1, ..plan(vec![1; 8], 2) };
+        // The same months with and without drift.
+        let found: Vec<LinkTrial> = trials(args, count, case / 2, |seed| link_trial(&plan, 0.3, drift, seed));
+        let flagged = found.iter().filter(|trial| trial.drift.0.abs() > statistics::Z95 * trial.drift.1);
+        let flagged = flagged.count() as f64 / found.len() as f64;
+        let pairs: Vec<(f64, f64)> =
+            found.iter().map(|trial| (trial.drift.0 - drift, trial.drift.1)).collect();
+        let sizes = [games, games * 5, anchors].map(|count| TableCell::Count(count as u64));
+        let shares = [TableCell::number(drift, 1), share(flagged)];
+        table.rows.push(sizes.into_iter().chain(shares).chain(errors(&pairs)).collect());
+    }
+    table
+}
