@@ -26,6 +26,7 @@ mod protected;
 mod set_report;
 mod shell;
 mod threads;
+mod trusted;
 mod usage;
 mod verbs;
 mod version;
@@ -75,6 +76,9 @@ verbs! {
     Merge: merge,
     Regenerate: regenerate,
     Verify: verify,
+    Keygen: keygen,
+    Keys: keys,
+    Sign: sign,
     Validate: validate,
     Generate: generate,
     Run: run,

@@ -20,7 +20,7 @@ pub(crate) enum Contents {
 ///
 /// # Errors
 /// See [`check_integrity`] and [`Archive::check`].
-pub(crate) fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
+pub fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
     if is_file(place) { Archive::check(place) } else { check_integrity(place) }
 }
 

@@ -77,6 +77,7 @@ mod witness;
 
 pub use ancestry::{AncestryError, follow};
 pub use canary::canary;
+pub use contents::integrity_of;
 pub use corpus::{Corpus, CorpusCard, CorpusGame, Intent};
 pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;

@@ -33,5 +33,8 @@ struct Forge;
 #[doc = include_str!("../../snapshots/README.md")]
 struct Snapshots;
 
+#[doc = include_str!("../../trust/README.md")]
+struct Trust;
+
 #[doc = include_str!("../../evaluation/README.md")]
 struct Evaluation;

@@ -20,5 +20,6 @@ mod served;
 mod server;
 mod shards;
 mod tracks;
+mod trust;
 mod usage;
 mod validate;

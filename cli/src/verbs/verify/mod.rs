@@ -6,6 +6,7 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::protected;
+use crate::trusted::{self, TrustArgs};
 use engine::Digest;
 use serde::Serialize;
 use serde_json::json;
@@ -15,6 +16,7 @@ use snapshots::{Bounds, MANIFEST_FILE, Manifest, SnapshotError, Verification, Wi
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use trust::Signed;
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
 ///
@@ -22,6 +24,9 @@ use std::path::{Path, PathBuf};
 /// is the published one. Witnesses of another arcade's semantics cannot be replayed here: the answer is no, unless
 /// --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to sixty
 /// seconds of one core; --max-work sets another bound (`arcade docs limits`).
+///
+/// With --key, the root has to be signed by that key, or by enough keys of that set, as `arcade sign` does it
+/// (`arcade docs trust`).
 ///
 /// With --chain, follows the roots back through the releases before it. With --item and --write-proof, writes a small
 /// file that proves one file or one game; with --item, --proof and --root, checks such a proof against the file or
@@ -51,6 +56,8 @@ pub(crate) struct Args {
     /// The published root, to compare with
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
+    #[command(flatten)]
+    trust: TrustArgs,
     /// Accept a snapshot of other semantics as sound although its witnesses were not replayed
     #[arg(long)]
     accept_unreplayed: bool,
@@ -70,6 +77,9 @@ struct Document<'a> {
     verification: &'a Verification,
     /// `true` if the root was compared with one from another source.
     root_compared: bool,
+    /// The signatures, if they were checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    signed: Option<&'a Signed>,
     #[serde(skip_serializing_if = "Option::is_none")]
     chain: Option<&'a Chain>,
 }
@@ -101,6 +111,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let problem = format!("{MANIFEST_FILE}: the root is {}, not {root}", verification.root);
         verification.problems.push(problem);
     }
+    let signed = args.trust.judge(&args.snapshot, &verification.name, &verification.root)?;
+    verification.problems.extend(signed.iter().flat_map(|signed| signed.problems.clone()));
     let chain = match args.chain.as_slice() {
         [] => None,
         folders => Some(follow(Link::of(&verification.manifest, &args.snapshot), folders)?),
@@ -113,8 +125,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         _ => None,
     };
     let root_compared = args.root.is_some();
-    console.document(&Document { verification: &verification, root_compared, chain: chain.as_ref() })?;
-    say(&verification, args, console);
+    let document = Document {
+        verification: &verification,
+        root_compared,
+        signed: signed.as_ref(),
+        chain: chain.as_ref(),
+    };
+    console.document(&document)?;
+    say(&verification, args, signed.as_ref(), console);
     if let Some(chain) = &chain {
         say_chain(chain, console);
     }
@@ -126,7 +144,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(sound)
 }
 
-fn say(verification: &Verification, args: &Args, console: &Console) {
+fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, console: &Console) {
     let Verification {
         name, root, files, games, levels, witnesses, exceeded, papers, ignored, problems, ..
     } = verification;
@@ -168,13 +186,17 @@ fn say(verification: &Verification, args: &Args, console: &Console) {
             });
         }
     }
-    console.say(match args.root {
-        Some(_) => format!("root {root}, as given"),
-        None => format!(
+    console.say(match (args.root, signed) {
+        (Some(_), _) => format!("root {root}, as given"),
+        (None, Some(_)) => format!("root {root}"),
+        (None, None) => format!(
             "root {root}\nconsistent in itself; that it is the published release, only its published root shows: compare \
-             it, or give it with --root"
+             it, or give it with --root, or the publisher's key with --key"
         ),
     });
+    if let Some(signed) = signed {
+        console.say(trusted::sentence(signed));
+    }
     if *papers > 0 {
         console.say(format_args!("papers: {}, not covered by the root", count(*papers, "file")));
     }

@@ -27,6 +27,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("report", &["engine", "statistics"]),
     ("forge", &["engine", "agents", "generators", "validators", "report", "statistics"]),
     ("snapshots", &["engine", "agents", "generators", "validators", "forge", "report", "statistics"]),
+    ("trust", &["engine", "report"]),
     ("render", &["engine"]),
     ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
     (
@@ -38,6 +39,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "validators",
             "forge",
             "snapshots",
+            "trust",
             "report",
             "statistics",
             "render",
@@ -68,6 +70,10 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("nalgebra", &["statistics"]),
     ("tar", &["snapshots"]),
     ("zstd", &["snapshots"]),
+    ("minisign", &["trust"]),
+    ("ed25519", &["trust"]),
+    ("sha2", &["trust"]),
+    ("rpassword", &["cli"]),
 ];
 
 /// The greatest length of a Rust file, in lines.

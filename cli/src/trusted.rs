@@ -1,0 +1,129 @@
+//! Keys as the user names them, and the judgement of a release's signatures that several verbs share.
+
+use crate::failure::Failure;
+use crate::paths;
+use engine::Digest;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use trust::{Anchor, MAX_KEY_FILE, SecretKey, Signatures, Signed, TrustError, is_encrypted, read_bounded};
+
+/// The folder of the signatures of a release, below it.
+pub(crate) const SIGNATURES: &str = "papers/signatures";
+
+/// The greatest size of a file with a set of keys, in bytes.
+const MAX_ANCHOR: u64 = 1 << 16;
+
+/// The source of trust in a release's root.
+#[derive(clap::Args)]
+pub(crate) struct TrustArgs {
+    /// The publisher's public key (NAME.pub) or set of keys (keys-N.json), from elsewhere: the root has to be signed by it
+    #[arg(long, value_name = "FILE")]
+    key: Option<PathBuf>,
+    /// The folder of the signatures; `papers/signatures` in the snapshot if not given, and `NAME.signatures` beside an archive
+    #[arg(long, value_name = "DIR", requires = "key")]
+    signatures: Option<PathBuf>,
+}
+
+impl TrustArgs {
+    /// Judges whether the root of a release is signed; `None` if no key was given.
+    pub(crate) fn judge(&self, place: &Path, name: &str, root: &Digest) -> Result<Option<Signed>, Failure> {
+        let Some(file) = &self.key else { return Ok(None) };
+        let anchor = anchor(file)?;
+        let folder = self.signatures.clone().unwrap_or_else(|| signatures_of(place));
+        if !paths::metadata(&folder)?.is_some_and(|found| found.is_dir()) {
+            let problem = format!(
+                "there are no signatures at `{}`: sign the release with `arcade sign`, or name their folder with \
+                 --signatures",
+                folder.display()
+            );
+            return Ok(Some(Signed { problems: vec![problem], ..Signed::default() }));
+        }
+        Ok(Some(Signatures::read(&folder)?.judge(name, root, &anchor)))
+    }
+}
+
+/// The place of a release's signatures, unless another one is named.
+pub(crate) fn signatures_of(release: &Path) -> PathBuf {
+    if !release.is_file() {
+        return release.join(SIGNATURES);
+    }
+    let name = release.file_name().unwrap_or_default().to_string_lossy();
+    let name = name.strip_suffix(".zst").unwrap_or(&name);
+    release.with_file_name(format!("{}.signatures", name.strip_suffix(".tar").unwrap_or(name)))
+}
+
+/// Reads a public key or a set of keys.
+pub(crate) fn anchor(file: &Path) -> Result<Anchor, Failure> {
+    Ok(Anchor::parse(&read_bounded(file, MAX_ANCHOR)?, &file.display().to_string())?)
+}
+
+/// The sentence about signatures that hold.
+pub(crate) fn sentence(signed: &Signed) -> String {
+    let keys = signed.keys.map_or(String::new(), |version| format!("; newest set of keys: {version}"));
+    let commit = signed.commit.as_ref().map_or(String::new(), |commit| format!("; sources: commit {commit}"));
+    format!("signed by {} ({} needed{keys}){commit}", signed.signers.join(", "), signed.threshold)
+}
+
+/// The secret keys that sign.
+#[derive(clap::Args)]
+pub(crate) struct SecretArgs {
+    /// The secret keys that sign (NAME.key)
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub(crate) secret: Vec<PathBuf>,
+    /// The password of the secret keys, on the first line of a file, instead of asking on the terminal
+    #[arg(long, value_name = "FILE")]
+    pub(crate) password_file: Option<PathBuf>,
+}
+
+impl SecretArgs {
+    /// Opens the secret keys, asking for passwords where they take one.
+    pub(crate) fn open(&self) -> Result<Vec<SecretKey>, Failure> {
+        self.secret.iter().map(|file| open_secret(file, self.password_file.as_deref())).collect()
+    }
+}
+
+/// Opens a secret key, asking for its password if it takes one.
+pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<SecretKey, Failure> {
+    let named = |error: TrustError| malformed!("`{}`: {error}", file.display());
+    let text = read_bounded(file, MAX_KEY_FILE)?;
+    let text = String::from_utf8_lossy(&text);
+    let password = match is_encrypted(&text).map_err(named)? {
+        true => Some(password(&format!("Password of {}: ", file.display()), password_file)?),
+        false => None,
+    };
+    SecretKey::open(&text, password.as_deref()).map_err(named)
+}
+
+/// Reads a password: the first line of a file, or what is typed on the terminal, unseen.
+pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
+    if let Some(file) = file {
+        let text = read_bounded(file, MAX_KEY_FILE)?;
+        let text = String::from_utf8_lossy(&text);
+        return Ok(text.lines().next().unwrap_or_default().to_owned());
+    }
+    rpassword::prompt_password(prompt).map_err(|_| {
+        malformed!("there is no terminal to ask for the password on: give it with --password-file FILE")
+    })
+}
+
+/// A file that is not there, or not what it should be, is a malformed question; a disk failure is not.
+impl From<TrustError> for Failure {
+    fn from(error: TrustError) -> Failure {
+        match error {
+            TrustError::Io { action: "read" | "list", ref path, ref source }
+                if matches!(
+                    source.kind(),
+                    ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory
+                ) =>
+            {
+                let shown = path.display();
+                match source.kind() {
+                    ErrorKind::IsADirectory => malformed!("`{shown}` is a folder: name a file in it"),
+                    _ => malformed!("`{shown}` does not exist: check the path"),
+                }
+            }
+            TrustError::Io { .. } => Failure::Environment(error.into()),
+            _ => Failure::Malformed(error.into()),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! `arcade keygen`: a new pair of keys.
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::protected;
+use crate::trusted::{open_secret, password};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use trust::{Access, Disk, PublicKey, generate};
+
+/// Makes a pair of Ed25519 keys, in the files of minisign: NAME.key, which only its owner can read, and NAME.pub.
+///
+/// The secret key is encrypted with a password, which is asked for on the terminal. If NAME.key exists and NAME.pub
+/// does not, the public key is written again. No key is ever overwritten. How to sign: `arcade docs trust`.
+///
+/// Example: arcade keygen ada
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The name of the files, without `.key` and `.pub`
+    #[arg(value_name = "NAME")]
+    name: PathBuf,
+    /// Do not encrypt the secret key: whoever reads the file can sign
+    #[arg(long, conflicts_with = "password_file")]
+    no_password: bool,
+    /// The password, on the first line of a file, instead of asking on the terminal
+    #[arg(long, value_name = "FILE")]
+    password_file: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let named = |end: &str| {
+        let mut name = args.name.clone().into_os_string();
+        name.push(end);
+        PathBuf::from(name)
+    };
+    let (secret, public) = (named(".key"), named(".pub"));
+    protected::check(&secret)?;
+    if public.exists() {
+        bail!("`{}` exists, and a key is never overwritten: choose another name", public.display());
+    }
+    if secret.exists() {
+        let key = open_secret(&secret, args.password_file.as_deref())?.public();
+        write(&public, key.to_file().as_bytes(), Access::Shared)?;
+        return answer(&key, &secret, &public, console);
+    }
+    let password = match args.no_password {
+        true => None,
+        false => Some(new_password(args.password_file.as_deref())?),
+    };
+    let new = generate(password.as_deref())?;
+    // The secret first: from it the public key can be written again.
+    write(&secret, new.secret_file.as_bytes(), Access::Private)?;
+    write(&public, new.public.to_file().as_bytes(), Access::Shared)?;
+    answer(&new.public, &secret, &public, console)
+}
+
+/// Asks for a new password twice, unless it is in a file.
+fn new_password(file: Option<&Path>) -> Result<String, Failure> {
+    let first = password("Password of the new key: ", file)?;
+    if first.is_empty() {
+        bail!("the password is empty: choose one, or take a secret key without with --no-password");
+    }
+    if file.is_none() && password("The same again: ", None)? != first {
+        bail!("the two passwords differ: try again");
+    }
+    Ok(first)
+}
+
+fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
+    Disk::new().write(path, bytes, access).map_err(|error| Failure::write(path, error))
+}
+
+fn answer(key: &PublicKey, secret: &Path, public: &Path, console: &Console) -> Answer {
+    let (secret, public) = (secret.display().to_string(), public.display().to_string());
+    console
+        .document(&json!({ "id": key.id(), "key": key.to_base64(), "public": public, "secret": secret }))?;
+    console.say(format_args!("key {}\npublish {public}: {}", key.id(), key.to_base64()));
+    console.say(format_args!("keep {secret} private, and a copy where it is not lost"));
+    Ok(true)
+}

@@ -1,0 +1,117 @@
+//! Signed releases: keys, sets of keys, and what `verify` and others make of them.
+
+use crate::arcade::{copy_of_tiny, run, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+fn json(folder: &Path, args: &[&str], status: i32) -> Value {
+    let args: Vec<&str> = ["--json"].into_iter().chain(args.iter().copied()).collect();
+    serde_json::from_slice(&run(folder, &args, status).stdout).unwrap()
+}
+
+#[track_caller]
+fn says(folder: &Path, args: &[&str], status: i32, words: &str) {
+    let output = run(folder, args, status);
+    let said = text(&output.stdout) + &text(&output.stderr);
+    assert!(said.contains(words), "{said}");
+}
+
+#[test]
+fn releases_are_signed_by_enough_keys() {
+    let (home, _) = copy_of_tiny();
+    let folder = home.path();
+    for name in ["ada", "bo", "cy"] {
+        json(folder, &["keygen", name, "--no-password"], 0);
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = fs::metadata(folder.join("ada.key")).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+    }
+    says(folder, &["keygen", "ada", "--no-password"], 2, "a key is never overwritten");
+    // A lost public key is written again.
+    let public = fs::read(folder.join("ada.pub")).unwrap();
+    fs::remove_file(folder.join("ada.pub")).unwrap();
+    run(folder, &["keygen", "ada", "--no-password"], 0);
+    assert_eq!(fs::read(folder.join("ada.pub")).unwrap(), public);
+
+    says(
+        folder,
+        &["verify", "tiny", "--key", "ada.pub"],
+        1,
+        "there are no signatures at `tiny/papers/signatures`",
+    );
+    says(folder, &["sign", "tiny"], 2, "--secret FILE");
+    says(folder, &["sign", "tiny", "--secret", "ada.key"], 0, "signed by");
+    says(folder, &["verify", "tiny", "--key", "ada.pub"], 0, "(1 needed)");
+    says(folder, &["verify", "tiny", "--key", "bo.pub"], 1, "signed by none");
+
+    let add =
+        ["keys", "trust", "--add", "ada=ada.pub", "bo=bo.pub", "--threshold", "2", "--secret", "ada.key"];
+    says(folder, &add, 0, "2 of 2 keys have to sign");
+    says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 1, "names no set of keys");
+    let keys = ["--keys", "trust/keys-1.json"];
+    says(folder, &["sign", "tiny", "--secret", "cy.key", keys[0], keys[1]], 2, "is not in the set");
+    says(folder, &["sign", "tiny", "--secret", "ada.key", keys[0], keys[1]], 1, "more keys have to sign");
+    let signed =
+        json(folder, &["sign", "tiny", "--secret", "bo.key", keys[0], keys[1], "--commit", "0123abc"], 1);
+    assert_eq!(signed["signed"]["signers"], serde_json::json!(["bo"]), "another statement");
+    says(folder, &["sign", "tiny", "--secret", "bo.key", keys[0], keys[1]], 0, "signed by ada, bo (2 needed");
+    says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 0, "signed by ada, bo (2 needed");
+
+    // `bo` lost the key, and `cy` takes the place; both of the old set would have to sign, so a threshold of all keys
+    // cannot lose one.
+    let next =
+        ["keys", "trust", "--add", "cy=cy.pub", "--revoke", "bo=lost", "--secret", "ada.key", "cy.key"];
+    says(folder, &next, 1, "keys-2.json: signed by ada of the set before, and 2 have to");
+    says(folder, &["keys", "trust", "--secret", "bo.key"], 0, "it follows from keys-1.json");
+    let keys = ["--keys", "trust/keys-2.json"];
+    says(
+        folder,
+        &["sign", "tiny", "--secret", "ada.key", "cy.key", keys[0], keys[1]],
+        0,
+        "newest set of keys: 2",
+    );
+    says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 0, "signed by ada, cy (2 needed");
+    says(folder, &["verify", "tiny", "--key", "bo.pub"], 1, "the key of `bo` is revoked: lost");
+
+    // The same for an archive, beside which its signatures lie.
+    run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0);
+    says(
+        folder,
+        &["verify", "tiny.tar.zst", "--key", "ada.pub"],
+        1,
+        "there are no signatures at `tiny.signatures`",
+    );
+    says(folder, &["sign", "tiny.tar.zst", "--secret", "ada.key"], 0, "signed by");
+    let found = json(folder, &["verify", "tiny.tar.zst", "--key", "ada.pub"], 0);
+    assert_eq!(found["signed"]["threshold"], 1);
+
+    // A changed release is not signed.
+    fs::write(folder.join("tiny/README.md"), "changed").unwrap();
+    says(
+        folder,
+        &["sign", "tiny", "--secret", "ada.key"],
+        2,
+        "does not verify, so nothing was signed: README.md",
+    );
+}
+
+#[test]
+fn passwords_are_kept() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("pass"), "correct horse\n").unwrap();
+    fs::write(folder.join("wrong"), "battery\n").unwrap();
+    run(folder, &["keygen", "ada", "--password-file", "pass"], 0);
+    fs::remove_file(folder.join("ada.pub")).unwrap();
+    says(folder, &["keygen", "ada", "--password-file", "wrong"], 2, "`ada.key`: wrong password");
+    run(folder, &["keygen", "ada", "--password-file", "pass"], 0);
+    fs::write(folder.join("empty"), "").unwrap();
+    says(folder, &["keygen", "bo", "--password-file", "empty"], 2, "the password is empty");
+    says(folder, &["keys", "trust"], 2, "make the first set with --add");
+    says(folder, &["keys", "trust", "--add", "ada"], 2, "write NAME=FILE");
+    says(folder, &["keys", "trust", "--add", "ada=ada.key"], 2, "`ada.key`: not a public key of minisign");
+}

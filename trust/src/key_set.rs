@@ -1,0 +1,271 @@
+//! Sets of keys: who may sign for a publisher, how many of them have to, and which keys are revoked.
+//!
+//! A set is a file `keys-N.json`, canonical JSON. The next one names the digest of the one before, and is signed by
+//! enough keys of both: so whoever knows one set can follow all later ones.
+
+use crate::error::TrustError;
+use crate::key::PublicKey;
+use engine::Digest;
+use report::canonical::to_canonical_json;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// The greatest number of keys of a set, and of its revoked keys.
+pub const MAX_KEYS: usize = 64;
+/// The version of the format of sets.
+const FORMAT: u32 = 1;
+
+/// The keys that may sign.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeySet {
+    /// The version of this format: 1.
+    pub format: u32,
+    /// The number of the set, from 1.
+    pub version: u32,
+    /// The number of keys that have to sign.
+    pub threshold: u32,
+    /// The keys.
+    pub keys: Vec<NamedKey>,
+    /// The keys that no longer count, whatever they signed.
+    pub revoked: Vec<RevokedKey>,
+    /// The digest of the file of the set before; `None` for the first.
+    pub previous: Option<Digest>,
+}
+
+/// A key of a set.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NamedKey {
+    /// The name of its holder: lower-case letters, digits, `-`.
+    pub name: String,
+    /// The public key, in the digits of minisign.
+    pub key: String,
+}
+
+/// A key that no longer counts.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RevokedKey {
+    /// The name that its holder had.
+    pub name: String,
+    /// The public key, in the digits of minisign.
+    pub key: String,
+    /// The reason, such as `lost`.
+    pub reason: String,
+}
+
+impl KeySet {
+    /// Makes the set that follows `previous`, or the first one.
+    ///
+    /// # Errors
+    /// The set that would result is not sound.
+    pub fn next(
+        previous: Option<&KeySet>,
+        threshold: Option<u32>,
+        add: Vec<NamedKey>,
+        revoke: &[(String, String)],
+    ) -> Result<KeySet, TrustError> {
+        let (mut keys, mut revoked) =
+            previous.map_or_else(Default::default, |set| (set.keys.clone(), set.revoked.clone()));
+        for (name, reason) in revoke {
+            let Some(at) = keys.iter().position(|key| key.name == *name) else {
+                let names: Vec<&str> = keys.iter().map(|key| key.name.as_str()).collect();
+                let names = names.join(", ");
+                return Err(TrustError::Refused(format!(
+                    "no key `{name}` is in the set, so none can be revoked: it has {names}"
+                )));
+            };
+            let NamedKey { name, key } = keys.remove(at);
+            revoked.push(RevokedKey { name, key, reason: reason.clone() });
+        }
+        keys.extend(add);
+        let threshold = threshold.or(previous.map(|set| set.threshold)).unwrap_or(1);
+        let version = previous.map_or(1, |set| set.version.saturating_add(1));
+        let previous = previous.map(KeySet::digest).transpose()?;
+        let set = KeySet { format: FORMAT, version, threshold, keys, revoked, previous };
+        set.check().map_err(TrustError::Refused)?;
+        Ok(set)
+    }
+
+    /// Reads the file of a set.
+    ///
+    /// # Errors
+    /// It is no set, or not a sound one.
+    pub fn parse(bytes: &[u8], place: &str) -> Result<KeySet, TrustError> {
+        let set: KeySet = canonical(bytes, place)?;
+        set.check().map_err(|fault| TrustError::document(place, fault))?;
+        Ok(set)
+    }
+
+    /// Checks the values.
+    fn check(&self) -> Result<(), String> {
+        if self.format != FORMAT {
+            return Err(format!("is of format {}; this arcade reads {FORMAT}", self.format));
+        }
+        if self.version == 0 || (self.version == 1) != self.previous.is_none() {
+            return Err("its `version` and `previous` contradict each other".to_owned());
+        }
+        if self.keys.len() > MAX_KEYS || self.revoked.len() > MAX_KEYS {
+            return Err(format!("has more than {MAX_KEYS} keys"));
+        }
+        if self.threshold == 0 || self.threshold as usize > self.keys.len() {
+            let count = self.keys.len();
+            return Err(format!(
+                "its threshold is {}, and it has {count} keys: take 1 to {count}",
+                self.threshold
+            ));
+        }
+        let mut points = BTreeSet::new();
+        let mut names = BTreeSet::new();
+        for NamedKey { name, key } in &self.keys {
+            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+            if name.is_empty() || name.len() > 40 || !name.chars().all(plain) {
+                return Err(format!(
+                    "the name `{}` of a key is not 1 to 40 lower-case letters, digits and `-`",
+                    name.escape_debug()
+                ));
+            }
+            if !names.insert(name) {
+                return Err(format!("two keys have the name `{name}`"));
+            }
+            let point =
+                PublicKey::parse(key).map_err(|error| format!("the key of `{name}` is {error}"))?.point();
+            if !points.insert(point) {
+                return Err(format!("the key of `{name}` is in it twice"));
+            }
+        }
+        for RevokedKey { name, key, .. } in &self.revoked {
+            let key =
+                PublicKey::parse(key).map_err(|error| format!("the revoked key of `{name}` is {error}"))?;
+            if !points.insert(key.point()) {
+                return Err(format!("the revoked key of `{name}` is in it twice, or not revoked"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The bytes of the file, which are what is signed.
+    ///
+    /// # Errors
+    /// Never for a set that was read or made.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
+        let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
+        Ok(text.into_bytes())
+    }
+
+    /// The digest of the file.
+    ///
+    /// # Errors
+    /// As for [`KeySet::to_bytes`].
+    pub fn digest(&self) -> Result<Digest, TrustError> {
+        Ok(Digest::of(&self.to_bytes()?))
+    }
+
+    /// The name of the file.
+    pub fn file(&self) -> String {
+        format!("keys-{}.json", self.version)
+    }
+
+    /// The names of the keys of this set that signed a message, and faults of signatures that claim to be theirs. A
+    /// key counts once.
+    pub fn signers(&self, message: &[u8], signatures: &[String]) -> Signers {
+        let mut signers = Signers::default();
+        for NamedKey { name, key } in &self.keys {
+            let Ok(key) = PublicKey::parse(key) else { continue };
+            let claimed = signatures.iter().filter(|text| crate::key::signer_of(text) == Some(key.id()));
+            let results: Vec<Result<String, String>> =
+                claimed.map(|signature| key.verify(message, signature)).collect();
+            if results.iter().any(Result::is_ok) {
+                signers.names.push(name.clone());
+            } else if let Some(Err(fault)) = results.first() {
+                signers.faults.push(format!("the signature of `{name}` does not hold: {fault}"));
+            }
+        }
+        signers
+    }
+
+    /// The revoked key with this point.
+    fn revokes(&self, key: &NamedKey) -> Option<&RevokedKey> {
+        self.revoked.iter().find(|revoked| revoked.key == key.key)
+    }
+
+    /// This set without the keys that a later one revokes, each with the reason.
+    pub(crate) fn unrevoked(&self, later: &KeySet) -> (KeySet, Vec<String>) {
+        let mut gone = Vec::new();
+        let mut set = self.clone();
+        set.keys.retain(|key| {
+            let revoked = later.revokes(key);
+            gone.extend(revoked.map(|r| format!("the key of `{}` is revoked: {}", r.name, r.reason)));
+            revoked.is_none()
+        });
+        (set, gone)
+    }
+
+    /// Checks that a set may follow this one: the file `bytes`, with the signatures beside it.
+    ///
+    /// # Errors
+    /// The reasons why not.
+    pub fn admits(&self, next: &KeySet, signatures: &[String]) -> Result<(), Vec<String>> {
+        let mut problems = Vec::new();
+        let place = next.file();
+        let (Ok(bytes), Ok(digest)) = (next.to_bytes(), self.digest()) else {
+            return Err(vec![format!("{place}: not a set of keys")]);
+        };
+        if next.version != self.version.saturating_add(1) || next.previous != Some(digest) {
+            problems.push(format!("{place}: it does not follow {}, whose digest is {digest}", self.file()));
+        }
+        for RevokedKey { name, key, .. } in &self.revoked {
+            if !next.revoked.iter().any(|revoked| revoked.key == *key) {
+                problems.push(format!("{place}: the revoked key of `{name}` is not revoked any more"));
+            }
+        }
+        for (set, of) in [(self, "the set before"), (next, "its own set")] {
+            let signers = set.signers(&bytes, signatures);
+            if (signers.names.len() as u32) < set.threshold {
+                problems.push(format!(
+                    "{place}: signed by {} of {of}, and {} have to{}",
+                    signers.listed(),
+                    set.threshold,
+                    signers.excuse()
+                ));
+            }
+        }
+        if problems.is_empty() { Ok(()) } else { Err(problems) }
+    }
+}
+
+/// The keys that signed a message.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Signers {
+    /// The names of those whose signature holds.
+    pub names: Vec<String>,
+    /// The faults of other signatures.
+    pub faults: Vec<String>,
+}
+
+impl Signers {
+    /// The names, for a message.
+    pub(crate) fn listed(&self) -> String {
+        if self.names.is_empty() { "none".to_owned() } else { self.names.join(", ") }
+    }
+
+    /// The faults, for the end of a message.
+    pub(crate) fn excuse(&self) -> String {
+        self.faults.iter().map(|fault| format!("; {fault}")).collect()
+    }
+}
+
+/// Reads canonical JSON.
+pub(crate) fn canonical<T: Serialize + for<'a> Deserialize<'a>>(
+    bytes: &[u8],
+    place: &str,
+) -> Result<T, TrustError> {
+    let wrong = |fault: String| TrustError::document(place, fault);
+    let value: T = serde_json::from_slice(bytes).map_err(|error| wrong(error.to_string()))?;
+    let text = to_canonical_json(&value).map_err(|error| wrong(error.to_string()))?;
+    match text.as_bytes() == bytes {
+        true => Ok(value),
+        false => Err(wrong("is not canonical JSON: it was changed after it was written".to_owned())),
+    }
+}

@@ -1,0 +1,342 @@
+//! A folder of statements, sets of keys and their signatures: written by signers, judged without trust.
+
+use crate::disk::{Access, Disk};
+use crate::error::TrustError;
+use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
+use crate::key_set::{KeySet, NamedKey};
+use crate::statement::Statement;
+use engine::Digest;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+/// The greatest number of files that are read of a folder.
+const MAX_FILES: usize = 1000;
+/// The greatest size of a document, in bytes.
+const MAX_DOCUMENT: u64 = 1 << 16;
+/// The end of the name of a signature.
+const SIGNATURE_END: &str = ".minisig";
+
+/// The source of trust, which a user has from elsewhere.
+#[derive(Clone, Debug)]
+pub enum Anchor {
+    /// One key, which has to have signed.
+    Key(PublicKey),
+    /// A set of keys, which later ones can follow.
+    Set(Box<KeySet>),
+}
+
+impl Anchor {
+    /// Reads a public key or a set of keys.
+    ///
+    /// # Errors
+    /// It is neither.
+    pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
+        if bytes.starts_with(b"{") {
+            return Ok(Anchor::Set(Box::new(KeySet::parse(bytes, place)?)));
+        }
+        let text = std::str::from_utf8(bytes).unwrap_or_default();
+        match PublicKey::parse(text) {
+            Ok(key) => Ok(Anchor::Key(key)),
+            Err(_) => Err(TrustError::document(
+                place,
+                "is neither a public key of minisign (NAME.pub) nor a set of keys (keys-N.json)",
+            )),
+        }
+    }
+}
+
+/// The answer to the question who signed a root.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Signed {
+    /// The names of the keys that signed, or the identifier of a single key.
+    pub signers: Vec<String>,
+    /// The number that had to.
+    pub threshold: u32,
+    /// The number of the newest set of keys that was followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keys: Option<u32>,
+    /// The commit of the sources that the signed statement names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
+    /// The reasons why the root is not signed as it has to be; empty if it is.
+    pub problems: Vec<String>,
+}
+
+/// The documents of a folder.
+#[derive(Clone, Debug, Default)]
+pub struct Signatures {
+    /// Sets of keys, by number, with the fault of those that cannot be read.
+    sets: BTreeMap<String, Result<KeySet, String>>,
+    /// Statements, by file.
+    statements: BTreeMap<String, Result<Statement, String>>,
+    /// Signatures, by the file that they sign.
+    signatures: BTreeMap<String, Vec<String>>,
+}
+
+impl Signatures {
+    /// Reads the documents of a folder. Others in it are left alone.
+    ///
+    /// # Errors
+    /// The folder or a document cannot be read.
+    pub fn read(folder: &Path) -> Result<Signatures, TrustError> {
+        let mut found = Signatures::default();
+        let mut names = BTreeSet::new();
+        for entry in fs::read_dir(folder).map_err(TrustError::io("list", folder))? {
+            let entry = entry.map_err(TrustError::io("list", folder))?;
+            let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+            let Some(name) = entry.file_name().to_str().map(str::to_owned) else { continue };
+            let document = name.strip_suffix(SIGNATURE_END).unwrap_or(&name);
+            if is_file && (document.starts_with("keys-") || document.starts_with("root-")) {
+                names.insert(name);
+            }
+            if names.len() > MAX_FILES {
+                return Err(TrustError::document(folder.display().to_string(), "has too many files"));
+            }
+        }
+        for name in names {
+            let path = folder.join(&name);
+            let bytes = read_bounded(&path, MAX_DOCUMENT)?;
+            if let Some(signed) = name.strip_suffix(SIGNATURE_END) {
+                // NAME.json.IDENTIFIER.minisig, or NAME.json.minisig as minisign calls it.
+                let end = signed.find(".json").map_or(signed.len(), |at| at + ".json".len());
+                let text = String::from_utf8_lossy(&bytes).into_owned();
+                found.signatures.entry(signed[..end].to_owned()).or_default().push(text);
+            } else if name.starts_with("keys-") {
+                let set = KeySet::parse(&bytes, &name).map_err(|error| error.to_string());
+                found.sets.insert(name, set);
+            } else {
+                let statement = Statement::parse(&bytes, &name).map_err(|error| error.to_string());
+                found.statements.insert(name, statement);
+            }
+        }
+        Ok(found)
+    }
+
+    /// The files of the sets of keys up to a number, with their signatures, in an order in which they can be copied: a
+    /// set comes after its signatures.
+    ///
+    /// # Errors
+    /// The folder or a file cannot be read.
+    pub fn files_of_sets(folder: &Path, newest: u32) -> Result<Vec<(String, Vec<u8>)>, TrustError> {
+        let mut names = BTreeSet::new();
+        for entry in fs::read_dir(folder).map_err(TrustError::io("list", folder))? {
+            let entry = entry.map_err(TrustError::io("list", folder))?;
+            let Some(name) = entry.file_name().to_str().map(str::to_owned) else { continue };
+            let number = name
+                .strip_prefix("keys-")
+                .and_then(|rest| rest.split_once(".json"))
+                .map(|(number, _)| number);
+            if let Some(number) =
+                number.and_then(|number| number.parse::<u32>().ok()).filter(|n| *n <= newest)
+            {
+                names.insert((number, !name.ends_with(SIGNATURE_END), name));
+            }
+        }
+        // The signatures come first: `false` is before `true`.
+        let read = |(_, _, name): (u32, bool, String)| {
+            Ok((name.clone(), read_bounded(&folder.join(&name), MAX_DOCUMENT)?))
+        };
+        names.into_iter().map(read).collect()
+    }
+
+    /// The signatures of a document.
+    pub fn of(&self, file: &str) -> &[String] {
+        self.signatures.get(file).map_or(&[], Vec::as_slice)
+    }
+
+    /// The set of keys with this number; it may be anybody's.
+    pub fn set(&self, version: u32) -> Option<&KeySet> {
+        self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
+    }
+
+    /// The newest set that follows from one that is trusted.
+    fn newest(&self, anchor: &KeySet, problems: &mut Vec<String>) -> KeySet {
+        let mut newest = anchor.clone();
+        // Ends: each set has a higher number, and is a file of its own.
+        while let Some(next) = self.sets.get(&format!("keys-{}.json", newest.version.saturating_add(1))) {
+            match next {
+                Ok(next) => match newest.admits(next, self.of(&next.file())) {
+                    Ok(()) => newest = next.clone(),
+                    Err(reasons) => {
+                        problems.extend(reasons);
+                        break;
+                    }
+                },
+                Err(fault) => {
+                    problems.push(fault.clone());
+                    break;
+                }
+            }
+        }
+        newest
+    }
+
+    /// The set with this number and digest, if it belongs to the history of `newest`, which is trusted.
+    fn ancestor(&self, newest: &KeySet, version: u32, digest: Digest) -> Option<KeySet> {
+        let mut set = newest.clone();
+        while set.version > version {
+            let (previous, stated) = (self.set(set.version - 1)?, set.previous?);
+            if previous.digest().ok()? != stated {
+                return None;
+            }
+            set = previous.clone();
+        }
+        (set.version == version && set.digest().ok()? == digest).then_some(set)
+    }
+
+    /// Judges whether the root of a release is signed, as far as the holder of this anchor can tell.
+    pub fn judge(&self, release: &str, root: &Digest, anchor: &Anchor) -> Signed {
+        let mut faults = Vec::new();
+        let mut best: Option<Signed> = None;
+        for (file, statement) in &self.statements {
+            let statement = match statement {
+                Ok(statement) => statement,
+                Err(fault) => {
+                    faults.push(fault.clone());
+                    continue;
+                }
+            };
+            if statement.root != *root || statement.release != release {
+                let (name, other) = (&statement.release, statement.root);
+                faults.push(format!("{file}: it is about `{name}` with root {other}"));
+                continue;
+            }
+            let signed = self.judge_statement(file, statement, anchor);
+            if signed.problems.is_empty() {
+                return signed;
+            }
+            best = best.or(Some(signed));
+        }
+        best.unwrap_or_else(|| {
+            let mut problems = vec![format!("no signed statement says that `{release}` has the root {root}")];
+            problems.extend(faults);
+            Signed { problems, ..Signed::default() }
+        })
+    }
+
+    /// Judges one statement of the folder, as [`Signatures::judge`] does.
+    pub fn judge_file(&self, file: &str, anchor: &Anchor) -> Signed {
+        match self.statements.get(file) {
+            Some(Ok(statement)) => self.judge_statement(file, statement, anchor),
+            Some(Err(fault)) => Signed { problems: vec![fault.clone()], ..Signed::default() },
+            None => {
+                Signed { problems: vec![format!("{file}: there is no such statement")], ..Signed::default() }
+            }
+        }
+    }
+
+    fn judge_statement(&self, file: &str, statement: &Statement, anchor: &Anchor) -> Signed {
+        let Ok(message) = statement.to_bytes() else { return Signed::default() };
+        let mut problems = Vec::new();
+        let commit = statement.provenance.commit.clone();
+        let (set, newest) = match anchor {
+            Anchor::Key(key) => {
+                let alone = single(key);
+                // A set that has the key says who may replace it.
+                let sets = self.sets.values().filter_map(|set| set.as_ref().ok());
+                let with = sets.filter(|set| set.keys.iter().any(|named| named.key == key.to_base64()));
+                let newest = with.min_by_key(|set| set.version).map(|set| self.newest(set, &mut problems));
+                (alone, newest)
+            }
+            Anchor::Set(anchor) => {
+                let newest = self.newest(anchor, &mut problems);
+                let Some(keys) = statement.keys else {
+                    problems.push(format!("{file}: it names no set of keys, and so may be outdated"));
+                    return Signed { problems, keys: Some(newest.version), commit, ..Signed::default() };
+                };
+                match self.ancestor(&newest, keys.version, keys.digest) {
+                    Some(set) => (set, Some(newest)),
+                    None => {
+                        problems.push(format!(
+                            "{file}: it names the set of keys {} with digest {}, which does not lead to or from the one \
+                             that you trust, {} ({})",
+                            keys.version,
+                            keys.digest,
+                            anchor.version,
+                            anchor.digest().map_or_else(|_| String::new(), |digest| digest.to_string())
+                        ));
+                        return Signed { problems, keys: Some(newest.version), commit, ..Signed::default() };
+                    }
+                }
+            }
+        };
+        let (counting, gone) = match &newest {
+            Some(newest) => set.unrevoked(newest),
+            None => (set.clone(), Vec::new()),
+        };
+        let signers = counting.signers(&message, self.of(file));
+        if (signers.names.len() as u32) < set.threshold {
+            problems.push(format!(
+                "{file}: signed by {}, and {} of {} have to{}{}",
+                signers.listed(),
+                set.threshold,
+                set.keys.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(", "),
+                signers.excuse(),
+                gone.iter().map(|gone| format!("; {gone}")).collect::<String>()
+            ));
+        }
+        let keys = newest.map(|newest| newest.version);
+        Signed { signers: signers.names, threshold: set.threshold, keys, commit, problems }
+    }
+}
+
+/// A set of one key, whose name is its identifier.
+fn single(key: &PublicKey) -> KeySet {
+    let keys = vec![NamedKey { name: key.id(), key: key.to_base64() }];
+    KeySet { format: 1, version: 1, threshold: 1, keys, revoked: Vec::new(), previous: None }
+}
+
+/// Signs a document with each key, and writes it into a folder: first the signatures, the document last, so that a
+/// document that is there has all signatures of the run that wrote it. A signature that is there and holds is kept.
+///
+/// Returns the files written.
+///
+/// # Errors
+/// The file system refuses, or the system provides no random bytes.
+pub fn sign_into(
+    folder: &Path,
+    file: &str,
+    document: &[u8],
+    comment: &str,
+    secrets: &[SecretKey],
+    disk: &Disk,
+) -> Result<Vec<String>, TrustError> {
+    let mut written = Vec::new();
+    for secret in secrets {
+        let public = secret.public();
+        let name = format!("{file}.{}{SIGNATURE_END}", public.id());
+        let path = folder.join(&name);
+        let holds = read_bounded(&path, MAX_KEY_FILE)
+            .is_ok_and(|found| public.verify(document, &String::from_utf8_lossy(&found)).is_ok());
+        if holds {
+            continue;
+        }
+        let signature = secret.sign(document, comment)?;
+        disk.write(&path, signature.as_bytes(), Access::Shared).map_err(TrustError::io("write", &path))?;
+        written.push(name);
+    }
+    let path = folder.join(file);
+    if read_bounded(&path, MAX_DOCUMENT).is_ok_and(|found| found == document) {
+        return Ok(written);
+    }
+    disk.write(&path, document, Access::Shared).map_err(TrustError::io("write", &path))?;
+    written.push(file.to_owned());
+    Ok(written)
+}
+
+/// Reads a file of at most so many bytes.
+///
+/// # Errors
+/// It cannot be read, or is larger.
+pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
+    read.map_err(TrustError::io("read", path))?;
+    match bytes.len() as u64 > limit {
+        true => Err(TrustError::document(path.display().to_string(), format!("has more than {limit} bytes"))),
+        false => Ok(bytes),
+    }
+}

@@ -1,0 +1,3 @@
+//! Trust as publishers and readers meet it: signatures, key sets, the log.
+
+mod keys;
