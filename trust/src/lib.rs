@@ -2,17 +2,21 @@
 //!
 //! A publisher signs a [`Statement`] about the root of a release with keys whose files are those of minisign. A
 //! [`KeySet`] says how many keys have to sign, and which no longer count. [`Signatures`] judges what a folder holds, from
-//! an [`Anchor`] that its reader has from elsewhere.
+//! an [`Anchor`] that its reader has from elsewhere. A [`log`] states in public what was committed to and released, in an
+//! order that nobody can change unnoticed.
 //!
 //! Nothing here reads a clock. What is written is complete or absent: see [`Disk`].
 
+mod beacon;
 mod disk;
 mod error;
 mod key;
 mod key_set;
+pub mod log;
 mod signatures;
 mod statement;
 
+pub use beacon::{Drawn, MAX_BEACON};
 pub use disk::{Access, Disk};
 pub use error::TrustError;
 pub use key::{MAX_KEY_FILE, NewKey, PublicKey, SecretKey, generate, is_encrypted};

@@ -61,6 +61,9 @@ pub struct Signed {
     /// The commit of the sources that the signed statement names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
+    /// The digest of `Cargo.lock` that it names, which no root covers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lockfile: Option<Digest>,
     /// The reasons why the root is not signed as it has to be; empty if it is.
     pub problems: Vec<String>,
 }
@@ -217,6 +220,19 @@ impl Signatures {
         })
     }
 
+    /// The digest of the statement about a root that has most signatures; `None` if there is none.
+    ///
+    /// # Errors
+    /// Never: it is plain data.
+    pub fn statement_of(&self, root: &Digest) -> Result<Option<Digest>, TrustError> {
+        let about = |(file, statement): (&String, &Result<Statement, String>)| {
+            let statement = statement.as_ref().ok().filter(|statement| statement.root == *root)?;
+            Some((self.of(file).len(), statement.clone()))
+        };
+        let most = self.statements.iter().filter_map(about).max_by_key(|(count, _)| *count);
+        most.map(|(_, statement)| Ok(Digest::of(&statement.to_bytes()?))).transpose()
+    }
+
     /// Judges one statement of the folder, as [`Signatures::judge`] does.
     pub fn judge_file(&self, file: &str, anchor: &Anchor) -> Signed {
         match self.statements.get(file) {
@@ -232,6 +248,7 @@ impl Signatures {
         let Ok(message) = statement.to_bytes() else { return Signed::default() };
         let mut problems = Vec::new();
         let commit = statement.provenance.commit.clone();
+        let lockfile = Some(statement.provenance.lockfile);
         let (set, newest) = match anchor {
             Anchor::Key(key) => {
                 let alone = single(key);
@@ -245,7 +262,13 @@ impl Signatures {
                 let newest = self.newest(anchor, &mut problems);
                 let Some(keys) = statement.keys else {
                     problems.push(format!("{file}: it names no set of keys, and so may be outdated"));
-                    return Signed { problems, keys: Some(newest.version), commit, ..Signed::default() };
+                    return Signed {
+                        problems,
+                        keys: Some(newest.version),
+                        commit,
+                        lockfile,
+                        ..Signed::default()
+                    };
                 };
                 match self.ancestor(&newest, keys.version, keys.digest) {
                     Some(set) => (set, Some(newest)),
@@ -258,7 +281,13 @@ impl Signatures {
                             anchor.version,
                             anchor.digest().map_or_else(|_| String::new(), |digest| digest.to_string())
                         ));
-                        return Signed { problems, keys: Some(newest.version), commit, ..Signed::default() };
+                        return Signed {
+                            problems,
+                            keys: Some(newest.version),
+                            commit,
+                            lockfile,
+                            ..Signed::default()
+                        };
                     }
                 }
             }
@@ -279,7 +308,7 @@ impl Signatures {
             ));
         }
         let keys = newest.map(|newest| newest.version);
-        Signed { signers: signers.names, threshold: set.threshold, keys, commit, problems }
+        Signed { signers: signers.names, threshold: set.threshold, keys, commit, lockfile, problems }
     }
 }
 

@@ -1,0 +1,234 @@
+//! The rules that the entries of a log obey together: who commits first, and what may follow.
+
+use super::entry::{Entry, Revealed, Round};
+use engine::Digest;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Computes the commitment to a secret that was revealed.
+pub type CommitmentOf<'a> = &'a dyn Fn(&Revealed) -> Digest;
+
+/// What the entries so far have fixed.
+#[derive(Default)]
+struct History {
+    keys: Option<(u32, Digest)>,
+    commitments: BTreeMap<String, Commitment>,
+    beacons: BTreeMap<Round, Digest>,
+    roots: BTreeMap<String, Root>,
+    revealed: BTreeSet<String>,
+    results: BTreeSet<Digest>,
+}
+
+struct Commitment {
+    commitment: Digest,
+    recipe: Digest,
+    parent: Option<Digest>,
+    beacon: Option<Round>,
+}
+
+struct Root {
+    root: Digest,
+    commitment: Option<Digest>,
+}
+
+/// The entries that break a rule, each with its number and the reason.
+pub fn problems(entries: &[Entry], commitment_of: CommitmentOf<'_>) -> Vec<String> {
+    let mut history = History::default();
+    let mut problems = Vec::new();
+    for (number, entry) in entries.iter().enumerate() {
+        let found = history.take(entry, commitment_of);
+        problems.extend(found.into_iter().map(|problem| format!("entry {number}: {problem}")));
+    }
+    problems
+}
+
+impl History {
+    /// Takes an entry, and returns its faults.
+    fn take(&mut self, entry: &Entry, commitment_of: CommitmentOf<'_>) -> Vec<String> {
+        match entry {
+            Entry::Keys { version, digest, previous } => self.keys(*version, *digest, *previous),
+            Entry::Commitment { release, commitment, recipe, parent, beacon } => {
+                let new = Commitment {
+                    commitment: *commitment,
+                    recipe: *recipe,
+                    parent: *parent,
+                    beacon: beacon.clone(),
+                };
+                self.commitment(release, new)
+            }
+            Entry::Beacon { round, value } => match self.beacons.insert(round.clone(), *value) {
+                Some(before) if before != *value => vec![format!(
+                    "round {} of {} has two values: {before} before, and now {value}",
+                    round.round, round.source
+                )],
+                _ => Vec::new(),
+            },
+            Entry::Root { release, root, parent, commitment, beacon, .. } => {
+                self.root(release, *root, *parent, *commitment, *beacon)
+            }
+            Entry::Reveal(revealed) => self.reveal(revealed, commitment_of),
+            Entry::Calibration { release, root, .. } => self.known(release, root).into_iter().collect(),
+            Entry::Result(row) => {
+                let twice = (!self.results.insert(row.results))
+                    .then(|| format!("the results {} are in the log already", row.results));
+                self.known(&row.release, &row.root).into_iter().chain(twice).collect()
+            }
+        }
+    }
+
+    fn keys(&mut self, version: u32, digest: Digest, previous: Option<Digest>) -> Vec<String> {
+        let expect =
+            self.keys.map_or((1, None), |(version, digest)| (version.saturating_add(1), Some(digest)));
+        self.keys = Some((version, digest));
+        match (version, previous) == expect {
+            true => Vec::new(),
+            false => vec![format!("the set of keys {version} does not follow the one before it in the log")],
+        }
+    }
+
+    fn commitment(&mut self, release: &str, new: Commitment) -> Vec<String> {
+        let mut problems = Vec::new();
+        if let Some(before) = self.commitments.get(release) {
+            problems.push(format!(
+                "a second commitment for `{release}`: {} came first, and a publisher commits once",
+                before.commitment
+            ));
+            return problems;
+        }
+        if self.roots.contains_key(release) {
+            problems.push(format!("a commitment for `{release}`, whose root is in the log already"));
+        }
+        if let Some(round) = new.beacon.as_ref().filter(|round| self.beacons.contains_key(*round)) {
+            problems.push(format!(
+                "the commitment for `{release}` names round {} of {}, which was known before it",
+                round.round, round.source
+            ));
+        }
+        let same = |other: &&Commitment| other.beacon.is_some() && other.beacon == new.beacon;
+        if let (Some(_), Some(round)) = (self.commitments.values().find(same), &new.beacon) {
+            problems.push(format!(
+                "the commitment for `{release}` names round {} of {}, as another does: one of the two could be chosen",
+                round.round, round.source
+            ));
+        }
+        self.commitments.insert(release.to_owned(), new);
+        problems
+    }
+
+    fn root(
+        &mut self,
+        release: &str,
+        root: Digest,
+        parent: Option<Digest>,
+        commitment: Option<Digest>,
+        beacon: Option<Digest>,
+    ) -> Vec<String> {
+        if let Some(before) = self.roots.get(release) {
+            return vec![format!(
+                "a second root for `{release}`: {} came first; two releases of one name are two histories",
+                before.root
+            )];
+        }
+        let mut problems = Vec::new();
+        if let Some(parent) = parent.filter(|parent| !self.roots.values().any(|root| root.root == *parent)) {
+            problems
+                .push(format!("`{release}` follows a release with root {parent}, which is not in the log"));
+        }
+        if self.roots.values().any(|other| other.root == root) {
+            problems.push(format!("the root {root} is in the log under another name than `{release}`"));
+        }
+        match (commitment, self.commitments.get(release)) {
+            (None, None) => {}
+            (None, Some(_)) => {
+                problems.push(format!("`{release}` was committed to, and its root states no commitment"))
+            }
+            (Some(_), None) => {
+                problems.push(format!("`{release}` is sealed, and no commitment came before its root"))
+            }
+            (Some(stated), Some(before)) => {
+                if stated != before.commitment {
+                    problems.push(format!(
+                        "`{release}` has the commitment {stated}, and {} was committed to",
+                        before.commitment
+                    ));
+                }
+                if parent != before.parent {
+                    problems.push(format!("`{release}` has another parent than was committed to"));
+                }
+                let awaited = before.beacon.as_ref().map(|round| (round, self.beacons.get(round)));
+                match (awaited, beacon) {
+                    (None, None) => {}
+                    (None, Some(_)) => {
+                        problems.push(format!("`{release}` has a beacon, and committed to none"))
+                    }
+                    (Some((round, None)), _) => problems.push(format!(
+                        "`{release}` takes round {} of {}, whose value is not in the log",
+                        round.round, round.source
+                    )),
+                    (Some((round, Some(value))), stated) if stated != Some(*value) => problems.push(format!(
+                        "`{release}` was minted with another value than round {} of {} has: {value}",
+                        round.round, round.source
+                    )),
+                    (Some(_), _) => {}
+                }
+            }
+        }
+        self.roots.insert(release.to_owned(), Root { root, commitment });
+        problems
+    }
+
+    /// The fault of an entry about a release that is not in the log.
+    fn known(&self, release: &str, root: &Digest) -> Option<String> {
+        match self.roots.get(release) {
+            Some(found) if found.root == *root => None,
+            Some(found) => {
+                Some(format!("it is about `{release}` with root {root}, and the log has {}", found.root))
+            }
+            None => Some(format!("it is about `{release}`, which is not in the log")),
+        }
+    }
+
+    fn reveal(&mut self, revealed: &Revealed, commitment_of: CommitmentOf<'_>) -> Vec<String> {
+        let release = &revealed.release;
+        let mut problems: Vec<String> = self.known(release, &revealed.root).into_iter().collect();
+        if !self.revealed.insert(release.clone()) {
+            problems.push(format!("`{release}` is revealed a second time"));
+        }
+        let committed = self.roots.get(release).and_then(|root| root.commitment);
+        if committed != Some(commitment_of(revealed)) {
+            problems.push(format!("the secret of `{release}` is not the one that was committed to"));
+        }
+        if self.commitments.get(release).is_some_and(|before| before.recipe != revealed.recipe) {
+            problems.push(format!(
+                "the secret of `{release}` was drawn for another recipe than was committed to"
+            ));
+        }
+        problems
+    }
+}
+
+/// The releases that were committed to, and whose root is not in the log: not minted yet, or dropped.
+pub fn unkept(entries: &[Entry]) -> Vec<String> {
+    let is_minted =
+        |name: &str| entries.iter().any(|e| matches!(e, Entry::Root { release, .. } if release == name));
+    let committed = entries.iter().filter_map(|entry| match entry {
+        Entry::Commitment { release, .. } => Some(release),
+        _ => None,
+    });
+    committed.filter(|name| !is_minted(name)).cloned().collect()
+}
+
+/// The fault of a log that a reader expects to have reached a month, such as `2027-03`: a frozen copy is told by its
+/// newest release.
+pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
+    let roots = entries.iter().filter_map(|entry| match entry {
+        Entry::Root { release, .. } => Some(release.as_str()),
+        _ => None,
+    });
+    match roots.max() {
+        Some(newest) if newest >= month => None,
+        Some(newest) => Some(format!(
+            "the log has no release of {month} or later: its newest is {newest}, so it may be frozen; ask another source"
+        )),
+        None => Some(format!("the log has no release, and {month} was expected")),
+    }
+}

@@ -1,0 +1,229 @@
+//! An append-only log: entries under a Merkle tree, whose signed states nobody can take back.
+
+mod entry;
+mod history;
+mod note;
+mod proof;
+mod tiles;
+mod tree;
+
+pub use entry::{Entry, ResultRow, Revealed, Round};
+pub use history::{CommitmentOf, frozen, problems, unkept};
+pub use note::{Checkpoint, MAX_CHECKPOINT, check_name, verifier_key};
+pub use proof::{Consistency, Inclusion};
+pub use tiles::{MAX_ENTRY, WIDTH};
+pub use tree::Hash;
+
+use crate::disk::{Access, Disk};
+use crate::error::TrustError;
+use crate::key::{PublicKey, SecretKey};
+use crate::signatures::read_bounded;
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+
+/// The file of the newest checkpoint, in the folder of a log.
+pub const CHECKPOINT_FILE: &str = "checkpoint";
+/// The greatest number of entries that are read.
+const MAX_ENTRIES: u64 = 1 << 20;
+
+/// A log, read as a whole.
+#[derive(Clone, Debug)]
+pub struct Log {
+    folder: PathBuf,
+    /// The newest checkpoint.
+    pub checkpoint: Checkpoint,
+    entries: Vec<Vec<u8>>,
+    leaves: Vec<Hash>,
+}
+
+impl Log {
+    /// Reads a log, checking nothing but its form; `None` if there is none in the folder.
+    ///
+    /// # Errors
+    /// A file cannot be read, or has another form.
+    pub fn open(folder: &Path) -> Result<Option<Log>, TrustError> {
+        let file = folder.join(CHECKPOINT_FILE);
+        if !file.exists() {
+            return Ok(None);
+        }
+        let text = String::from_utf8_lossy(&read_bounded(&file, MAX_CHECKPOINT)?).into_owned();
+        let checkpoint = Checkpoint::parse(&text, &file.display().to_string())?;
+        if checkpoint.size > MAX_ENTRIES {
+            let fault = format!("states {} entries; {MAX_ENTRIES} are read at most", checkpoint.size);
+            return Err(TrustError::document(file.display().to_string(), fault));
+        }
+        let mut entries = Vec::new();
+        for (path, width) in tiles::entry_files(checkpoint.size) {
+            let place = folder.join(&path);
+            let limit = width * (MAX_ENTRY as u64 + 2);
+            let bytes = read_bounded(&place, limit).map_err(|error| match place.exists() {
+                true => error,
+                false => TrustError::document(
+                    place.display().to_string(),
+                    format!("is missing: the log is cut, its checkpoint states {} entries", checkpoint.size),
+                ),
+            })?;
+            let found = tiles::split(&bytes, width);
+            let fault = || {
+                TrustError::document(place.display().to_string(), format!("does not hold {width} entries"))
+            };
+            entries.extend(found.ok_or_else(fault)?);
+        }
+        let leaves = entries.iter().map(|entry| tree::leaf(entry)).collect();
+        Ok(Some(Log { folder: folder.to_path_buf(), checkpoint, entries, leaves }))
+    }
+
+    /// The faults of the log itself: its signature, its root, its files.
+    pub fn faults(&self, key: &PublicKey) -> Vec<String> {
+        let mut faults: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
+        if tree::root(&self.leaves) != self.checkpoint.root {
+            faults.push(
+                "the entries are not those that the checkpoint was signed for: one was changed, added, or left out"
+                    .to_owned(),
+            );
+            return faults;
+        }
+        for file in tiles::files(&self.entries, &self.leaves, 0) {
+            let found = read_bounded(&self.folder.join(&file.path), file.bytes.len() as u64);
+            if !found.is_ok_and(|found| found == file.bytes) {
+                faults.push(format!("{}: it is missing, or does not follow from the entries", file.path));
+            }
+        }
+        faults
+    }
+
+    /// The fault of this log for a reader who has seen an earlier checkpoint of it.
+    pub fn fork(&self, seen: &Checkpoint) -> Option<String> {
+        let Checkpoint { origin, size, root, .. } = &self.checkpoint;
+        if seen.origin != *origin {
+            return Some(format!(
+                "it is the log `{origin}`, and the checkpoint seen before is of `{}`",
+                seen.origin
+            ));
+        }
+        if seen.size > *size {
+            return Some(format!(
+                "the log was rolled back: it has {size} entries, and {} were seen before",
+                seen.size
+            ));
+        }
+        let before = tree::root(&self.leaves[..(seen.size as usize).min(self.leaves.len())]);
+        (before != seen.root || (seen.size == *size && seen.root != *root)).then(|| {
+            format!(
+                "the log has forked: its first {} entries are not those that were seen before; keep both checkpoints, \
+                 each with its signature: together they prove it",
+                seen.size
+            )
+        })
+    }
+
+    /// The entries, as far as they can be read.
+    ///
+    /// # Errors
+    /// One of them is of a kind that this arcade does not know, or not canonical.
+    pub fn entries(&self) -> Result<Vec<Entry>, TrustError> {
+        self.entries
+            .iter()
+            .enumerate()
+            .map(|(number, bytes)| Entry::parse(bytes, &format!("entry {number}")))
+            .collect()
+    }
+
+    /// The bytes of an entry.
+    pub fn entry(&self, number: u64) -> Option<&[u8]> {
+        self.entries.get(usize::try_from(number).ok()?).map(Vec::as_slice)
+    }
+
+    /// The proof that an entry is in the log; `None` if there is no such entry.
+    pub fn prove(&self, number: u64) -> Option<Inclusion> {
+        let hashes = tree::inclusion(&self.leaves, usize::try_from(number).ok()?)?;
+        Some(Inclusion { index: number, hashes, checkpoint: self.checkpoint.clone() })
+    }
+
+    /// The proof that the log of an earlier size is a beginning of this one; `None` if it was never of that size.
+    pub fn prove_growth(&self, old: u64) -> Option<Consistency> {
+        let hashes = tree::consistency(&self.leaves, usize::try_from(old).ok()?)?;
+        Some(Consistency { old, hashes, checkpoint: self.checkpoint.clone() })
+    }
+
+    /// Replaces the checkpoint by one with more signatures.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn write_checkpoint(&self, checkpoint: &Checkpoint, disk: &Disk) -> Result<(), TrustError> {
+        let path = self.folder.join(CHECKPOINT_FILE);
+        disk.write(&path, checkpoint.to_text().as_bytes(), Access::Shared)
+            .map_err(TrustError::io("write", &path))
+    }
+}
+
+/// Appends entries to a log, or starts one with the name `origin`. The new files are written first, and the checkpoint
+/// last: until then, the log is the old one. `rules` returns the faults of all entries together: those of releases are
+/// [`problems`].
+///
+/// # Errors
+/// The log is not sound under this key, an entry breaks a rule, another process appends, or the file system refuses.
+pub fn append(
+    folder: &Path,
+    origin: Option<&str>,
+    secret: &SecretKey,
+    new: &[Entry],
+    rules: &dyn Fn(&[Entry]) -> Vec<String>,
+    disk: &Disk,
+) -> Result<Log, TrustError> {
+    disk.create_folder(folder).map_err(TrustError::io("create", folder))?;
+    let _lock = lock(folder)?;
+    let refuse = |reason: String| Err(TrustError::Refused(reason));
+    let old = Log::open(folder)?;
+    if let Some(fault) = old.as_ref().and_then(|log| log.faults(&secret.public()).into_iter().next()) {
+        return refuse(format!("nothing was appended, because the log is not sound: {fault}"));
+    }
+    let origin = match (&old, origin) {
+        (Some(log), Some(origin)) if log.checkpoint.origin != origin => {
+            return refuse(format!(
+                "the log is called `{}`, not `{origin}`: omit --origin",
+                log.checkpoint.origin
+            ));
+        }
+        (Some(log), _) => log.checkpoint.origin.clone(),
+        (None, Some(origin)) => origin.to_owned(),
+        (None, None) => return refuse("a new log takes a name: --origin example.org/arcade".to_owned()),
+    };
+    check_name(&origin)?;
+    let (mut known, mut entries, mut leaves) = match old {
+        Some(log) => (log.entries()?, log.entries, log.leaves),
+        None => Default::default(),
+    };
+    let size = entries.len() as u64;
+    let before = rules(&known).len();
+    known.extend_from_slice(new);
+    if let Some(problem) = rules(&known).get(before) {
+        return refuse(format!("nothing was appended: {problem}"));
+    }
+    for entry in new {
+        let bytes = entry.to_bytes()?;
+        leaves.push(tree::leaf(&bytes));
+        entries.push(bytes);
+    }
+    for tile in tiles::files(&entries, &leaves, size) {
+        let path = folder.join(&tile.path);
+        disk.write(&path, &tile.bytes, Access::Shared).map_err(TrustError::io("write", &path))?;
+    }
+    let checkpoint = Checkpoint::sign(&origin, entries.len() as u64, tree::root(&leaves), secret);
+    let log = Log { folder: folder.to_path_buf(), checkpoint, entries, leaves };
+    log.write_checkpoint(&log.checkpoint, disk)?;
+    Ok(log)
+}
+
+/// Keeps other processes from appending, until it is dropped.
+fn lock(folder: &Path) -> Result<File, TrustError> {
+    let path = folder.join(".lock");
+    let file = File::create(&path).map_err(TrustError::io("write", &path))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            Err(TrustError::Refused(format!("another process appends to `{}`: try again", folder.display())))
+        }
+        // A file system without locks has none to offer.
+        _ => Ok(file),
+    }
+}

@@ -1,0 +1,199 @@
+//! Signed notes and checkpoints, in the forms of C2SP `signed-note`, `tlog-checkpoint` and `tlog-cosignature`.
+
+use super::tree::Hash;
+use crate::error::TrustError;
+use crate::key::{PublicKey, SecretKey};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use sha2::{Digest as _, Sha256};
+
+/// The kind of a bare Ed25519 signature of a note.
+const ED25519: u8 = 1;
+/// The kind of a cosignature with a time.
+const COSIGNATURE: u8 = 4;
+/// The greatest size of a checkpoint, in bytes.
+pub const MAX_CHECKPOINT: u64 = 1 << 16;
+
+/// A statement of a log about its size and its root, with signatures.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checkpoint {
+    /// The name of the log.
+    pub origin: String,
+    /// The number of entries.
+    pub size: u64,
+    /// The root over them.
+    pub root: Hash,
+    /// The signatures, in the order of the file.
+    signatures: Vec<Signature>,
+}
+
+/// A line of signatures.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Signature {
+    name: String,
+    /// The hash of the key, then the signature.
+    bytes: Vec<u8>,
+}
+
+/// Checks the name of a log or a witness: it has no blanks and no `+`.
+///
+/// # Errors
+/// The requirement.
+pub fn check_name(name: &str) -> Result<(), TrustError> {
+    let is_bad = |c: char| c.is_whitespace() || c == '+' || c.is_control();
+    match name.is_empty() || name.len() > 200 || name.chars().any(is_bad) {
+        true => Err(TrustError::Refused(format!(
+            "`{}` cannot name a log or a witness: take a text like example.org/arcade, without blanks and `+`",
+            name.escape_debug()
+        ))),
+        false => Ok(()),
+    }
+}
+
+/// The first bytes of a signature: they tell whose it is.
+fn key_hash(name: &str, kind: u8, key: &PublicKey) -> [u8; 4] {
+    let hash =
+        Sha256::new().chain_update(name).chain_update([b'\n', kind]).chain_update(key.point()).finalize();
+    [hash[0], hash[1], hash[2], hash[3]]
+}
+
+/// The key of a log or a witness as other tools take it: `NAME+HASH+KEY`.
+pub fn verifier_key(name: &str, key: &PublicKey, is_witness: bool) -> String {
+    let kind = if is_witness { COSIGNATURE } else { ED25519 };
+    let hash: String = key_hash(name, kind, key).iter().map(|byte| format!("{byte:02x}")).collect();
+    format!("{name}+{hash}+{}", STANDARD.encode([&[kind][..], &key.point()].concat()))
+}
+
+impl Checkpoint {
+    /// A checkpoint that the log has signed.
+    pub fn sign(origin: &str, size: u64, root: Hash, secret: &SecretKey) -> Checkpoint {
+        let mut checkpoint = Checkpoint { origin: origin.to_owned(), size, root, signatures: Vec::new() };
+        let signature = secret.sign_bare(checkpoint.body().as_bytes());
+        let hash = key_hash(origin, ED25519, &secret.public());
+        let bytes = [&hash[..], &signature].concat();
+        checkpoint.signatures.push(Signature { name: origin.to_owned(), bytes });
+        checkpoint
+    }
+
+    /// Adds the signature of a witness at a time, in seconds since 1970.
+    pub fn cosign(&mut self, witness: &str, seconds: u64, secret: &SecretKey) {
+        let signature = secret.sign_bare(self.cosigned(seconds).as_bytes());
+        let hash = key_hash(witness, COSIGNATURE, &secret.public());
+        let bytes = [&hash[..], &seconds.to_be_bytes(), &signature].concat();
+        self.signatures.retain(|found| !(found.name == witness && found.bytes.starts_with(&hash)));
+        self.signatures.push(Signature { name: witness.to_owned(), bytes });
+    }
+
+    /// The text that is signed.
+    fn body(&self) -> String {
+        format!("{}\n{}\n{}\n", self.origin, self.size, STANDARD.encode(self.root))
+    }
+
+    fn cosigned(&self, seconds: u64) -> String {
+        format!("cosignature/v1\ntime {seconds}\n{}", self.body())
+    }
+
+    /// The text of the file.
+    pub fn to_text(&self) -> String {
+        let line = |s: &Signature| format!("\u{2014} {} {}\n", s.name, STANDARD.encode(&s.bytes));
+        format!("{}\n{}", self.body(), self.signatures.iter().map(line).collect::<String>())
+    }
+
+    /// Reads a checkpoint; no signature is checked.
+    ///
+    /// # Errors
+    /// It is no checkpoint.
+    pub fn parse(text: &str, place: &str) -> Result<Checkpoint, TrustError> {
+        Checkpoint::read(text)
+            .filter(|found| found.to_text() == text)
+            .ok_or_else(|| TrustError::document(place, "is not the checkpoint of a log"))
+    }
+
+    fn read(text: &str) -> Option<Checkpoint> {
+        let (body, signatures) = text.split_once("\n\n")?;
+        let mut lines = body.lines();
+        let (origin, size, root) = (lines.next()?, lines.next()?, lines.next()?);
+        let signature = |line: &str| {
+            let (name, bytes) = line.strip_prefix("\u{2014} ")?.split_once(' ')?;
+            check_name(name).ok()?;
+            Some(Signature { name: name.to_owned(), bytes: STANDARD.decode(bytes).ok()? })
+        };
+        let found = Checkpoint {
+            origin: origin.to_owned(),
+            size: size.parse().ok()?,
+            root: STANDARD.decode(root).ok()?.try_into().ok()?,
+            signatures: signatures.lines().map(signature).collect::<Option<_>>()?,
+        };
+        (lines.next().is_none() && check_name(origin).is_ok()).then_some(found)
+    }
+
+    /// Checks that the log has signed it.
+    ///
+    /// # Errors
+    /// The fault, in words.
+    pub fn check(&self, key: &PublicKey) -> Result<(), String> {
+        let hash = key_hash(&self.origin, ED25519, key);
+        let body = self.body();
+        let holds = |s: &Signature| {
+            s.name == self.origin
+                && s.bytes.starts_with(&hash)
+                && key.verify_bare(body.as_bytes(), &s.bytes[4..])
+        };
+        match self.signatures.iter().any(holds) {
+            true => Ok(()),
+            false => {
+                Err(format!("the checkpoint of {} entries is not signed by the key {}", self.size, key.id()))
+            }
+        }
+    }
+
+    /// The time at which a witness has signed it, in seconds since 1970; `None` if it has not.
+    pub fn witnessed(&self, witness: &str, key: &PublicKey) -> Option<u64> {
+        let hash = key_hash(witness, COSIGNATURE, key);
+        let time = |s: &Signature| {
+            let rest =
+                s.bytes.strip_prefix(&hash[..]).filter(|rest| s.name == witness && rest.len() == 72)?;
+            let (seconds, signature) = rest.split_at(8);
+            let seconds = u64::from_be_bytes(seconds.try_into().ok()?);
+            key.verify_bare(self.cosigned(seconds).as_bytes(), signature).then_some(seconds)
+        };
+        self.signatures.iter().find_map(time)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::key::generate;
+
+    #[test]
+    fn checkpoints_are_signed_and_witnessed() {
+        let [log, witness] = [(), ()].map(|()| generate(None).expect("random bytes"));
+        let secret =
+            |key: &crate::key::NewKey| SecretKey::open(&key.secret_file, None).expect("a secret key");
+        let mut checkpoint = Checkpoint::sign("example.org/arcade", 3, [7; 32], &secret(&log));
+        assert_eq!(checkpoint.check(&log.public), Ok(()));
+        assert!(checkpoint.check(&witness.public).is_err());
+        assert_eq!(checkpoint.witnessed("w.example", &witness.public), None);
+        checkpoint.cosign("w.example", 1_800_000_000, &secret(&witness));
+        checkpoint.cosign("w.example", 1_800_000_001, &secret(&witness));
+        assert_eq!(checkpoint.witnessed("w.example", &witness.public), Some(1_800_000_001));
+        assert_eq!(checkpoint.witnessed("v.example", &witness.public), None);
+        let text = checkpoint.to_text();
+        assert_eq!(text.lines().count(), 6);
+        assert!(text.starts_with("example.org/arcade\n3\nBwcH"), "{text}");
+        let read = Checkpoint::parse(&text, "x").expect("what was written");
+        assert_eq!(read, checkpoint);
+        for (old, new) in
+            [("\n3\n", "\n4\n"), ("\n3\n", "\n03\n"), ("arcade\n3", "arcada\n3"), ("BwcH", "BwcI")]
+        {
+            let altered = Checkpoint::parse(&text.replacen(old, new, 1), "x");
+            assert!(
+                altered.is_err() || altered.is_ok_and(|found| found.check(&log.public).is_err()),
+                "{new}"
+            );
+        }
+        assert!(check_name("a b").is_err() && check_name("a+b").is_err() && check_name("").is_err());
+        assert!(verifier_key("w.example", &witness.public, true).starts_with("w.example+"));
+    }
+}

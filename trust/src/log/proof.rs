@@ -1,0 +1,132 @@
+//! Proofs about a log as files: that an entry is in it, and that it has only grown.
+
+use super::note::Checkpoint;
+use super::tree::{self, Hash};
+use crate::error::TrustError;
+use crate::key::PublicKey;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+/// The first lines of the two kinds of files; the first is that of C2SP `tlog-proof`.
+const INCLUSION: &str = "c2sp.org/tlog-proof@v1";
+const CONSISTENCY: &str = "infinite-arcade/log-growth@v1";
+/// The greatest number of hashes of a proof.
+const MAX_HASHES: usize = 64;
+
+/// The proof that an entry is in a log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Inclusion {
+    /// The number of the entry.
+    pub index: u64,
+    /// The hashes, from the entry's neighbour up.
+    pub hashes: Vec<Hash>,
+    /// The checkpoint that they lead to.
+    pub checkpoint: Checkpoint,
+}
+
+/// The proof that a log has grown from an earlier size, and nothing before was changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Consistency {
+    /// The earlier size.
+    pub old: u64,
+    /// The hashes.
+    pub hashes: Vec<Hash>,
+    /// The later checkpoint.
+    pub checkpoint: Checkpoint,
+}
+
+impl Inclusion {
+    /// The text of the file.
+    pub fn to_text(&self) -> String {
+        write(INCLUSION, "index", self.index, &self.hashes, &self.checkpoint)
+    }
+
+    /// Reads a proof.
+    ///
+    /// # Errors
+    /// It is none.
+    pub fn parse(text: &str, place: &str) -> Result<Inclusion, TrustError> {
+        let (index, hashes, checkpoint) = read(INCLUSION, "index", text, place)?;
+        let proof = Inclusion { index, hashes, checkpoint };
+        same(proof.to_text() == text, proof, place)
+    }
+
+    /// Checks that it proves an entry, to a checkpoint that the log has signed.
+    ///
+    /// # Errors
+    /// The reasons why not.
+    pub fn check(&self, entry: &[u8], key: &PublicKey) -> Result<(), Vec<String>> {
+        let mut problems: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
+        let leaf = tree::leaf(entry);
+        if !tree::includes(&leaf, self.index, self.checkpoint.size, &self.hashes, &self.checkpoint.root) {
+            problems.push(format!("the entry is not number {} of the log at this checkpoint", self.index));
+        }
+        if problems.is_empty() { Ok(()) } else { Err(problems) }
+    }
+}
+
+impl Consistency {
+    /// The text of the file.
+    pub fn to_text(&self) -> String {
+        write(CONSISTENCY, "old", self.old, &self.hashes, &self.checkpoint)
+    }
+
+    /// Reads a proof.
+    ///
+    /// # Errors
+    /// It is none.
+    pub fn parse(text: &str, place: &str) -> Result<Consistency, TrustError> {
+        let (old, hashes, checkpoint) = read(CONSISTENCY, "old", text, place)?;
+        let proof = Consistency { old, hashes, checkpoint };
+        same(proof.to_text() == text, proof, place)
+    }
+
+    /// Checks that it leads from an earlier checkpoint to a later one, both signed by the log.
+    ///
+    /// # Errors
+    /// The reasons why not.
+    pub fn check(&self, seen: &Checkpoint, key: &PublicKey) -> Result<(), Vec<String>> {
+        let mut problems: Vec<String> =
+            [seen, &self.checkpoint].iter().filter_map(|c| c.check(key).err()).collect();
+        let new = &self.checkpoint;
+        if seen.origin != new.origin || seen.size != self.old {
+            problems.push(format!(
+                "it is a proof for the first {} entries of `{}`, not for the {} of `{}`",
+                self.old, new.origin, seen.size, seen.origin
+            ));
+        } else if !tree::extends(seen.size, new.size, &seen.root, &new.root, &self.hashes) {
+            problems.push(format!(
+                "the log has forked: the state of {} entries does not continue the state of {}",
+                new.size, seen.size
+            ));
+        }
+        if problems.is_empty() { Ok(()) } else { Err(problems) }
+    }
+}
+
+fn same<T>(is_same: bool, proof: T, place: &str) -> Result<T, TrustError> {
+    if is_same { Ok(proof) } else { Err(not_a_proof(place)) }
+}
+
+fn not_a_proof(place: &str) -> TrustError {
+    TrustError::document(place, "is not a proof of `arcade log prove`")
+}
+
+fn write(kind: &str, key: &str, number: u64, hashes: &[Hash], checkpoint: &Checkpoint) -> String {
+    let lines: String = hashes.iter().map(|hash| format!("{}\n", STANDARD.encode(hash))).collect();
+    format!("{kind}\n{key} {number}\n{lines}\n{}", checkpoint.to_text())
+}
+
+fn read(kind: &str, key: &str, text: &str, place: &str) -> Result<(u64, Vec<Hash>, Checkpoint), TrustError> {
+    let parse = || {
+        let (head, checkpoint) = text.split_once("\n\n")?;
+        let mut lines = head.lines();
+        let is_kind = lines.next()? == kind;
+        let number = lines.next()?.strip_prefix(key)?.strip_prefix(' ')?.parse().ok()?;
+        let hash = |line: &str| STANDARD.decode(line).ok()?.try_into().ok();
+        let hashes = lines.take(MAX_HASHES + 1).map(hash).collect::<Option<Vec<Hash>>>()?;
+        (is_kind && hashes.len() <= MAX_HASHES).then_some((number, hashes, checkpoint))
+    };
+    let (number, hashes, checkpoint) = parse().ok_or_else(|| not_a_proof(place))?;
+    Ok((number, hashes, Checkpoint::parse(checkpoint, place)?))
+}

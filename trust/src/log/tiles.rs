@@ -1,0 +1,128 @@
+//! The files of a log, as C2SP `tlog-tiles` lays them out, so that any web server can hold them.
+//!
+//! `checkpoint` is the newest signed state. `tile/entries/N` holds 256 entries, each after its length in two bytes,
+//! `tile/L/N` 256 hashes of level L; the last of each is partial, `N.p/W` with W of them.
+
+use super::tree::{self, Hash};
+
+/// The number of entries, or of hashes, in a full tile.
+pub const WIDTH: u64 = 256;
+/// The greatest size of an entry, in bytes.
+pub const MAX_ENTRY: usize = 65535;
+
+/// A file of a log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Tile {
+    /// The path below the log's folder.
+    pub(super) path: String,
+    /// The content.
+    pub(super) bytes: Vec<u8>,
+}
+
+/// The path of a tile; `level` is `entries` or a number.
+fn path(level: &str, number: u64, width: u64) -> String {
+    let mut text = format!("{:03}", number % 1000);
+    let mut rest = number / 1000;
+    while rest > 0 {
+        text = format!("x{:03}/{text}", rest % 1000);
+        rest /= 1000;
+    }
+    match width {
+        WIDTH => format!("tile/{level}/{text}"),
+        _ => format!("tile/{level}/{text}.p/{width}"),
+    }
+}
+
+/// The widths of the tiles of `count` things, from tile `first` on.
+fn widths(count: u64, first: u64) -> impl Iterator<Item = (u64, u64)> {
+    (first..count.div_ceil(WIDTH)).map(move |number| (number, (count - number * WIDTH).min(WIDTH)))
+}
+
+/// The paths of the files of entries of a log of this size, each with the number of entries in it.
+pub(super) fn entry_files(size: u64) -> Vec<(String, u64)> {
+    widths(size, 0).map(|(number, width)| (path("entries", number, width), width)).collect()
+}
+
+/// The files that a log needs after it has grown from `old` entries to all of these.
+pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile> {
+    let mut files = Vec::new();
+    let of = |number: u64, width: u64| (number * WIDTH) as usize..(number * WIDTH + width) as usize;
+    for (number, width) in widths(entries.len() as u64, old / WIDTH) {
+        let mut bytes = Vec::new();
+        for entry in &entries[of(number, width)] {
+            let length = u16::try_from(entry.len()).expect("entries are bounded");
+            bytes.extend_from_slice(&length.to_be_bytes());
+            bytes.extend_from_slice(entry);
+        }
+        files.push(Tile { path: path("entries", number, width), bytes });
+    }
+    let (mut level, mut hashes, mut old) = (0, leaves.to_vec(), old);
+    while !hashes.is_empty() {
+        for (number, width) in widths(hashes.len() as u64, old / WIDTH) {
+            let bytes = hashes[of(number, width)].concat();
+            files.push(Tile { path: path(&level.to_string(), number, width), bytes });
+        }
+        hashes = hashes.chunks_exact(WIDTH as usize).map(tree::root).collect();
+        old /= WIDTH;
+        level += 1;
+    }
+    files
+}
+
+/// Splits a file of entries; `None` if it does not hold exactly so many.
+pub(super) fn split(bytes: &[u8], width: u64) -> Option<Vec<Vec<u8>>> {
+    let mut entries = Vec::new();
+    let mut rest = bytes;
+    for _ in 0..width {
+        let (length, after) = rest.split_first_chunk::<2>()?;
+        let (entry, after) = after.split_at_checked(u16::from_be_bytes(*length).into())?;
+        entries.push(entry.to_vec());
+        rest = after;
+    }
+    rest.is_empty().then_some(entries)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_those_of_the_specification() {
+        assert_eq!(path("0", 1_234_067, 256), "tile/0/x001/x234/067");
+        assert_eq!(path("entries", 0, 5), "tile/entries/000.p/5");
+        assert_eq!(path("1", 1000, 256), "tile/1/x001/000");
+    }
+
+    /// A log that grows in steps has the files of one that is written at once, and those only.
+    #[test]
+    fn growth_writes_what_is_missing() {
+        let entries: Vec<Vec<u8>> = (0..600_u32).map(|n| n.to_be_bytes().to_vec()).collect();
+        let leaves: Vec<Hash> = entries.iter().map(|entry| tree::leaf(entry)).collect();
+        let paths =
+            |old: u64| files(&entries, &leaves, old).into_iter().map(|file| file.path).collect::<Vec<_>>();
+        let all = [
+            "tile/entries/000",
+            "tile/entries/001",
+            "tile/entries/002.p/88",
+            "tile/0/000",
+            "tile/0/001",
+            "tile/0/002.p/88",
+            "tile/1/000.p/2",
+        ];
+        assert_eq!(paths(0), all);
+        assert_eq!(paths(599), ["tile/entries/002.p/88", "tile/0/002.p/88", "tile/1/000.p/2"]);
+        assert_eq!(paths(256).len(), 5);
+        let read: Vec<Vec<u8>> = entry_files(600)
+            .iter()
+            .flat_map(|(name, width)| {
+                let file =
+                    files(&entries, &leaves, 0).into_iter().find(|file| file.path == *name).expect("there");
+                split(&file.bytes, *width).expect("whole")
+            })
+            .collect();
+        assert_eq!(read, entries);
+        assert_eq!(split(&[0, 1, 7], 2), None);
+        assert_eq!(split(&[0, 2, 7], 1), None);
+        assert_eq!(split(&[0, 1, 7, 0], 1), None);
+    }
+}

@@ -1,0 +1,453 @@
+//! The log of a year, and attacks on it. Each attack is tried in many ways: 1,000 in a sweep (`cargo xtask sweep`).
+
+use engine::{Digest, Sampler, Seed};
+use infinite_arcade_trust::log::{
+    CHECKPOINT_FILE, Checkpoint, Consistency, Entry, Inclusion, Log, ResultRow, Revealed, Round, append,
+    frozen, problems, unkept,
+};
+use infinite_arcade_trust::{Disk, SecretKey, generate};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// The number of ways in which an attack is tried.
+fn mutations() -> u64 {
+    if std::env::var_os("ARCADE_SWEEP").is_some() { 1000 } else { 20 }
+}
+
+fn chance(purpose: &str, number: u64) -> Sampler {
+    Seed::from_text(purpose).child("mutation", number).sampler()
+}
+
+fn digest(text: &str) -> Digest {
+    Digest::of(text.as_bytes())
+}
+
+/// The formula of these tests; that of releases is in `snapshots`.
+fn commitment_of(revealed: &Revealed) -> Digest {
+    digest(&format!("{} {} {}", revealed.seed, revealed.nonce, revealed.recipe))
+}
+
+fn rules(entries: &[Entry]) -> Vec<String> {
+    problems(entries, &commitment_of)
+}
+
+fn secret_of(month: &str) -> Revealed {
+    Revealed {
+        release: month.to_owned(),
+        root: digest(month),
+        seed: format!("seed of {month}"),
+        nonce: digest(&format!("nonce of {month}")),
+        recipe: digest(&format!("recipe of {month}")),
+    }
+}
+
+fn months() -> Vec<String> {
+    (1..=12).map(|month| format!("2027-{month:02}")).collect()
+}
+
+/// A year as its publisher states it: each month is committed to, waits for its beacon, is minted, revealed, calibrated,
+/// and played by somebody.
+fn year() -> Vec<Entry> {
+    let first_keys = Entry::Keys { version: 1, digest: digest("keys 1"), previous: None };
+    let mut entries = vec![first_keys];
+    let mut parent = None;
+    for (number, month) in (1..).zip(months()) {
+        let secret = secret_of(&month);
+        let round = Round { source: "drand quicknet".to_owned(), round: 1000 * number };
+        let (release, root) = (month.clone(), secret.root);
+        let commitment = commitment_of(&secret);
+        let value = digest(&format!("round {number}"));
+        entries.push(Entry::Commitment {
+            release: release.clone(),
+            commitment,
+            recipe: secret.recipe,
+            parent,
+            beacon: Some(round.clone()),
+        });
+        entries.push(Entry::Beacon { round, value });
+        entries.push(Entry::Root {
+            release: release.clone(),
+            root,
+            parent,
+            commitment: Some(commitment),
+            beacon: Some(value),
+            statement: Some(digest(&format!("statement of {month}"))),
+        });
+        entries.push(Entry::Reveal(secret));
+        entries.push(Entry::Calibration { release: release.clone(), root, file: digest("scale") });
+        entries.push(Entry::Result(ResultRow {
+            release,
+            root,
+            results: digest(&format!("results of {month}")),
+            player: "mcts:100".to_owned(),
+            track: Some("told@1".to_owned()),
+            horizon: "1".to_owned(),
+            episodes: 600,
+            open: 0,
+            wins: 150,
+            rate: 0.25,
+            interval: (0.21, 0.3),
+            score: Some(3.5),
+        }));
+        parent = Some(root);
+    }
+    entries.push(Entry::Keys { version: 2, digest: digest("keys 2"), previous: Some(digest("keys 1")) });
+    entries
+}
+
+struct Publisher {
+    secret: SecretKey,
+}
+
+impl Publisher {
+    fn new() -> Publisher {
+        Publisher { secret: SecretKey::open(&generate(None).unwrap().secret_file, None).unwrap() }
+    }
+
+    fn append(&self, folder: &Path, entries: &[Entry]) -> Result<Log, String> {
+        append(folder, Some("example.org/arcade"), &self.secret, entries, &rules, &Disk::new())
+            .map_err(|error| error.to_string())
+    }
+
+    /// Writes a log whatever its entries say: publishers who attack their readers do not ask `append`.
+    fn forge(&self, entries: &[Entry]) -> (TempDir, Log) {
+        let home = tempfile::tempdir().unwrap();
+        let no_rules = |_: &[Entry]| Vec::new();
+        let name = Some("example.org/arcade");
+        let log = append(home.path(), name, &self.secret, entries, &no_rules, &Disk::new()).unwrap();
+        (home, log)
+    }
+}
+
+fn read(folder: &Path) -> Log {
+    Log::open(folder).unwrap().unwrap()
+}
+
+#[test]
+fn a_year_is_sound() {
+    let home = tempfile::tempdir().unwrap();
+    let publisher = Publisher::new();
+    let key = publisher.secret.public();
+    let entries = year();
+    let mut seen: Option<Checkpoint> = None;
+    // In steps, as a year goes.
+    for step in entries.chunks(5) {
+        let log = publisher.append(home.path(), step).unwrap();
+        assert_eq!(log.faults(&key), [""; 0]);
+        if let Some(seen) = &seen {
+            assert_eq!(log.fork(seen), None);
+            let growth = log.prove_growth(seen.size).unwrap().to_text();
+            let growth = Consistency::parse(&growth, "growth").unwrap();
+            assert_eq!(growth.check(seen, &key), Ok(()));
+        }
+        seen = Some(log.checkpoint.clone());
+    }
+    let log = read(home.path());
+    assert_eq!(log.entries().unwrap(), entries);
+    assert_eq!(rules(&entries), [""; 0]);
+    assert_eq!((unkept(&entries), frozen(&entries, "2027-12")), (Vec::new(), None));
+    for number in 0..entries.len() as u64 {
+        let proof = Inclusion::parse(&log.prove(number).unwrap().to_text(), "proof").unwrap();
+        let entry = log.entry(number).unwrap();
+        assert_eq!(proof.check(entry, &key), Ok(()));
+        assert!(
+            proof.check(b"{}", &key).is_err()
+                && proof.check(entry, &Publisher::new().secret.public()).is_err()
+        );
+    }
+    // A second writer and another name are refused.
+    let other = append(home.path(), Some("other"), &publisher.secret, &[], &rules, &Disk::new());
+    assert!(other.unwrap_err().to_string().contains("omit --origin"));
+    assert!(Publisher::new().append(home.path(), &[]).unwrap_err().contains("is not signed by the key"));
+}
+
+/// Whenever the power is lost while a month is appended, the log is the old one or the new one; appending again gives the
+/// bytes of an undisturbed log.
+#[test]
+fn a_loss_of_power_leaves_the_old_log_or_the_new_one() {
+    let publisher = Publisher::new();
+    let entries = year();
+    let (old, new) = entries.split_at(7);
+    let whole = tempfile::tempdir().unwrap();
+    publisher.append(whole.path(), old).unwrap();
+    publisher.append(whole.path(), &new[..6]).unwrap();
+    for steps in 0.. {
+        let home = tempfile::tempdir().unwrap();
+        publisher.append(home.path(), old).unwrap();
+        let cut = Disk::losing_power_after(steps);
+        let done = append(home.path(), None, &publisher.secret, &new[..6], &rules, &cut);
+        let log = read(home.path());
+        assert_eq!(log.faults(&publisher.secret.public()), [""; 0], "after {steps} steps");
+        let size = log.checkpoint.size;
+        assert!(size == 7 || size == 13, "{size} entries after {steps} steps");
+        if size == 7 {
+            publisher.append(home.path(), &new[..6]).unwrap();
+        }
+        assert_eq!(
+            fs::read(home.path().join(CHECKPOINT_FILE)).unwrap(),
+            fs::read(whole.path().join(CHECKPOINT_FILE)).unwrap()
+        );
+        assert_eq!(read(home.path()).faults(&publisher.secret.public()), [""; 0]);
+        if done.is_ok() {
+            assert!(steps > 10, "{steps}");
+            break;
+        }
+    }
+}
+
+/// Expects that the entries break a rule, with these words.
+#[track_caller]
+fn broken(entries: &[Entry], words: &str) {
+    let found = rules(entries);
+    assert!(found.iter().any(|problem| problem.contains(words)), "no `{words}` in {found:?}");
+}
+
+fn at(entries: &[Entry], is_it: impl Fn(&Entry) -> bool) -> Vec<usize> {
+    (0..entries.len()).filter(|at| is_it(&entries[*at])).collect()
+}
+
+fn one_of(places: &[usize], chance: &mut Sampler) -> usize {
+    places[chance.below(places.len())]
+}
+
+fn any_digest(chance: &mut Sampler) -> Digest {
+    digest(&chance.bits().to_string())
+}
+
+#[test]
+fn equivocation_is_told() {
+    let entries = year();
+    let roots = at(&entries, |entry| matches!(entry, Entry::Root { .. }));
+    for number in 0..mutations() {
+        let mut chance = chance("equivocation", number);
+        let place = one_of(&roots, &mut chance);
+        let mut second = entries[place].clone();
+        if let Entry::Root { root, .. } = &mut second {
+            *root = any_digest(&mut chance);
+        }
+        let mut forged = entries.clone();
+        forged.insert(place + 1 + chance.below(entries.len() - place), second);
+        broken(&forged, "a second root for");
+    }
+}
+
+#[test]
+fn swapped_beacons_are_told() {
+    let entries = year();
+    let [commitments, beacons, roots] = [
+        at(&entries, |entry| matches!(entry, Entry::Commitment { .. })),
+        at(&entries, |entry| matches!(entry, Entry::Beacon { .. })),
+        at(&entries, |entry| matches!(entry, Entry::Root { .. })),
+    ];
+    for number in 0..mutations() {
+        let mut chance = chance("beacon", number);
+        let mut forged = entries.clone();
+        let words = match number % 5 {
+            0 => {
+                // The release was minted with another value.
+                if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
+                    *beacon = Some(any_digest(&mut chance));
+                }
+                "was minted with another value than round"
+            }
+            1 => {
+                // It was minted without any.
+                if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
+                    *beacon = None;
+                }
+                "was minted with another value than round"
+            }
+            2 => {
+                // The value was known before the commitment.
+                let place = one_of(&commitments, &mut chance);
+                forged.swap(place, place + 1);
+                "which was known before it"
+            }
+            3 => {
+                // The round has a second value, which suits the publisher.
+                let place = one_of(&beacons, &mut chance);
+                let mut second = forged[place].clone();
+                if let Entry::Beacon { value, .. } = &mut second {
+                    *value = any_digest(&mut chance);
+                }
+                forged.insert(place + 1, second);
+                "has two values"
+            }
+            _ => {
+                // The value never came.
+                forged.remove(one_of(&beacons, &mut chance));
+                "whose value is not in the log"
+            }
+        };
+        broken(&forged, words);
+    }
+}
+
+#[test]
+fn choosing_among_a_hundred_secrets_is_told() {
+    let entries = year();
+    let commitments = at(&entries, |entry| matches!(entry, Entry::Commitment { .. }));
+    for number in 0..mutations() {
+        let mut chance = chance("secrets", number);
+        let place = one_of(&commitments, &mut chance);
+        let Entry::Commitment { release, beacon, parent, .. } = entries[place].clone() else {
+            panic!("chosen")
+        };
+        let mut forged = entries.clone();
+        match number % 3 {
+            // A hundred under one name.
+            0 => {
+                for _ in 0..99 {
+                    let (commitment, recipe) = (any_digest(&mut chance), any_digest(&mut chance));
+                    let (release, beacon) = (release.clone(), beacon.clone());
+                    forged
+                        .insert(place + 1, Entry::Commitment { release, commitment, recipe, parent, beacon });
+                }
+                broken(&forged, "and a publisher commits once");
+            }
+            // A hundred names with one round: the one that is liked is kept.
+            1 => {
+                for other in 0..99 {
+                    let (commitment, recipe) = (any_digest(&mut chance), any_digest(&mut chance));
+                    let (release, beacon) = (format!("{release}-{other}"), beacon.clone());
+                    forged
+                        .insert(place + 1, Entry::Commitment { release, commitment, recipe, parent, beacon });
+                }
+                broken(&forged, "as another does: one of the two could be chosen");
+                assert_eq!(unkept(&forged).len(), 99);
+            }
+            // The secret is chosen afterwards.
+            _ => {
+                if let Some(Entry::Reveal(revealed)) = forged.get_mut(place + 3) {
+                    revealed.seed = format!("better {number}");
+                }
+                broken(&forged, "is not the one that was committed to");
+            }
+        }
+    }
+}
+
+#[test]
+fn rollbacks_and_freezes_are_told() {
+    let publisher = Publisher::new();
+    let entries = year();
+    let (_home, newest) = publisher.forge(&entries);
+    for number in 0..mutations() {
+        let mut chance = chance("rollback", number);
+        let length = 1 + chance.below(entries.len() - 1);
+        let (_home, old) = publisher.forge(&entries[..length]);
+        assert_eq!(old.faults(&publisher.secret.public()), [""; 0]);
+        let said = old.fork(&newest.checkpoint).unwrap();
+        assert!(said.contains("the log was rolled back"), "{said}");
+        let month = format!("2027-{:02}", (length / 6 + 2).min(12));
+        assert!(
+            frozen(&entries[..length], &month).is_some() || length + 6 > entries.len(),
+            "{length} {month}"
+        );
+    }
+}
+
+/// A publisher rewrites an entry, such as the row of a result, and signs the log again.
+#[test]
+fn forks_are_told() {
+    let publisher = Publisher::new();
+    let entries = year();
+    let (_home, honest) = publisher.forge(&entries);
+    for number in 0..mutations() {
+        let mut chance = chance("fork", number);
+        let mut forged = entries.clone();
+        let place = chance.below(entries.len());
+        match &mut forged[place] {
+            Entry::Result(row) => row.wins += 1,
+            Entry::Keys { digest, .. } | Entry::Calibration { file: digest, .. } => {
+                *digest = any_digest(&mut chance)
+            }
+            Entry::Commitment { commitment, .. } => *commitment = any_digest(&mut chance),
+            Entry::Beacon { value, .. } => *value = any_digest(&mut chance),
+            Entry::Root { root, .. } => *root = any_digest(&mut chance),
+            Entry::Reveal(revealed) => revealed.seed.push('x'),
+        }
+        let (_home, fork) = publisher.forge(&forged);
+        let said = fork.fork(&honest.checkpoint).unwrap();
+        assert!(said.contains("the log has forked"), "{said}");
+        // A proof of growth cannot be made either: one of another log does not fit.
+        let old = 1 + place as u64;
+        let (_home, short) = publisher.forge(&entries[..old as usize]);
+        let proof = fork.prove_growth(old).unwrap();
+        assert!(proof.check(&short.checkpoint, &publisher.secret.public()).is_err());
+    }
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        match path.is_dir() {
+            true => found.extend(files(&path)),
+            false if path.file_name().is_some_and(|name| name != ".lock") => found.push(path),
+            false => {}
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Somebody without the key alters, cuts or removes files.
+#[test]
+fn altered_and_truncated_files_are_told() {
+    let publisher = Publisher::new();
+    let entries = year();
+    let (home, _) = publisher.forge(&entries);
+    let all = files(home.path());
+    assert_eq!(all.len(), 3, "{all:?}");
+    for number in 0..mutations() {
+        let mut chance = chance("files", number);
+        let path = &all[chance.below(all.len())];
+        let bytes = fs::read(path).unwrap();
+        let place = chance.below(bytes.len());
+        match number % 3 {
+            0 => {
+                let mut altered = bytes.clone();
+                altered[place] ^= 1 << chance.below(8);
+                fs::write(path, altered).unwrap();
+            }
+            1 => fs::write(path, &bytes[..place]).unwrap(),
+            _ => fs::remove_file(path).unwrap(),
+        }
+        let is_sound = match Log::open(home.path()) {
+            Ok(Some(log)) => log.faults(&publisher.secret.public()).is_empty(),
+            Ok(None) | Err(_) => false,
+        };
+        assert!(!is_sound, "{}: byte {place}", path.display());
+        fs::write(path, &bytes).unwrap();
+    }
+    assert_eq!(read(home.path()).faults(&publisher.secret.public()), [""; 0]);
+}
+
+/// A key that was lost or taken cannot continue the log, nor a history of keys with a gap.
+#[test]
+fn other_keys_are_told() {
+    let (publisher, thief) = (Publisher::new(), Publisher::new());
+    let entries = year();
+    let (_home, log) = thief.forge(&entries);
+    let said = log.faults(&publisher.secret.public()).join("\n");
+    assert!(said.contains("is not signed by the key"), "{said}");
+    for number in 0..mutations() {
+        let mut chance = chance("keys", number);
+        let mut forged = entries.clone();
+        forged.push(match number % 2 {
+            0 => Entry::Keys {
+                version: 4 + chance.below(9) as u32,
+                digest: any_digest(&mut chance),
+                previous: Some(digest("keys 2")),
+            },
+            _ => Entry::Keys {
+                version: 3,
+                digest: any_digest(&mut chance),
+                previous: Some(any_digest(&mut chance)),
+            },
+        });
+        broken(&forged, "does not follow the one before it in the log");
+    }
+}
