@@ -166,15 +166,29 @@ impl SecretKey {
     /// # Errors
     /// It is not the secret file of a key, it is encrypted and there is no password, or the password is wrong.
     pub fn open(secret_file: &str, password: Option<&str>) -> Result<SecretKey, TrustError> {
-        let is_encrypted = is_encrypted(secret_file)?;
+        let bytes = secret_bytes(secret_file)?;
         let failed = |error: minisign::PError| TrustError::Key(error.to_string().to_lowercase());
-        let found = SecretKeyBox::from_string(secret_file).map_err(failed)?;
-        let key = match (is_encrypted, password) {
-            (false, _) => found.into_unencrypted_secret_key(),
-            (true, Some(password)) => found.into_secret_key(Some(password.to_owned())),
+        let key = match (is_encrypted(secret_file)?, password) {
+            // Not read as a box: that wants a checksum, which the C program leaves out of such files.
+            (false, _) => minisign::SecretKey::from_bytes(&bytes).map_err(failed)?,
+            (true, Some(password)) => SecretKeyBox::from_string(secret_file)
+                .and_then(|found| found.into_secret_key(Some(password.to_owned())))
+                .map_err(failed)?,
             (true, None) => return Err(TrustError::Key("the secret key takes a password".to_owned())),
         };
-        Ok(SecretKey(key.map_err(failed)?))
+        let key = SecretKey(key);
+        // The second half of the key follows from the first.
+        let seed = ed25519_compact::Seed::from_slice(&key.bytes()[..32]).expect("32 bytes");
+        let point = ed25519_compact::KeyPair::from_seed(seed).pk;
+        match *point == key.bytes()[32..] {
+            true => Ok(key),
+            false => Err(TrustError::Key("the secret key is damaged: take a copy of it".to_owned())),
+        }
+    }
+
+    /// The 64 bytes of the key.
+    fn bytes(&self) -> [u8; 64] {
+        self.0.to_bytes()[SECRET_KEY_AT..SECRET_KEY_AT + 64].try_into().expect("64 bytes")
     }
 
     /// The public key.
@@ -196,9 +210,7 @@ impl SecretKey {
 
     /// Signs a message: the 64 bytes of a bare Ed25519 signature, the same each time.
     pub fn sign_bare(&self, message: &[u8]) -> [u8; 64] {
-        let bytes = self.0.to_bytes();
-        let key = &bytes[SECRET_KEY_AT..SECRET_KEY_AT + 64];
-        let key = ed25519_compact::SecretKey::from_slice(key).expect("64 bytes");
+        let key = ed25519_compact::SecretKey::from_slice(&self.bytes()).expect("64 bytes");
         *key.sign(message, None)
     }
 }
@@ -261,6 +273,17 @@ mod tests {
         assert!(new.public.verify_bare(b"x", &secret.sign_bare(b"x")));
         let signature = secret.sign(b"x", "").expect("signed");
         assert!(new.public.verify(b"x", &signature).is_ok());
+    }
+
+    /// An unencrypted key that the C program wrote (`minisign -G -W`, 0.11), whose checksum is zero.
+    #[test]
+    fn unencrypted_keys_of_minisign_are_read() {
+        let file = "untrusted comment: minisign secret key\nRWQAAEIyAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADegafHvtXWV820KbUwav+ci2ohY43Mz7uULM5bq1z92Q0FRBjBj1v6IaKXeR3OHhv8j550W5XAb65Cyuvv7OQAYMrWLWMww8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=\n";
+        let secret = SecretKey::open(file, None).expect("a secret key");
+        assert_eq!(secret.public().id(), "655DED7B7C1AE80D");
+        let damaged = file.replacen("3Mz7uULM5b", "AMz7uULM5b", 1);
+        let error = SecretKey::open(&damaged, None).expect_err("damaged").to_string();
+        assert!(error.contains("is damaged"), "{error}");
     }
 
     #[test]
