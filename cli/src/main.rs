@@ -79,6 +79,7 @@ verbs! {
     Keygen: keygen,
     Keys: keys,
     Sign: sign,
+    Log: log,
     Validate: validate,
     Generate: generate,
     Run: run,

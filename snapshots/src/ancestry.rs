@@ -1,8 +1,9 @@
 //! The ancestors of a release: the games and levels that a new release must not repeat.
 
 use crate::contents::Contents;
+use crate::known::Known;
 use crate::manifest::Manifest;
-use crate::recipe::{Known, Recipe};
+use crate::recipe::Recipe;
 use crate::{Digest, SnapshotError};
 use engine::{Analysis, Game, Seed, syntax};
 use forge::card::{Card, Origin};

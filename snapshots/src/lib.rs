@@ -46,6 +46,7 @@
 
 mod ancestry;
 pub mod archive;
+mod beacon;
 mod canary;
 pub mod chain;
 mod contents;
@@ -56,6 +57,7 @@ mod error;
 pub mod export;
 pub mod folder;
 mod integrity;
+mod known;
 mod manifest;
 pub mod marks;
 pub mod merkle;
@@ -76,17 +78,19 @@ pub mod version;
 mod witness;
 
 pub use ancestry::{AncestryError, follow};
+pub use beacon::BeaconPart;
 pub use canary::canary;
 pub use contents::integrity_of;
 pub use corpus::{Corpus, CorpusCard, CorpusGame, Intent};
 pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
 pub use integrity::{Integrity, check_integrity};
+pub use known::Known;
 pub use manifest::{FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
 pub use papers::{PAPERS, PAPERS_LIMITS, Untracked};
 pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
-pub use recipe::{CorpusPart, GeneratedPart, Known, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
+pub use recipe::{CorpusPart, GeneratedPart, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
 pub use regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
 pub use sealed::{COMMITS_TO_RECIPE_SINCE, HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
 pub use tiers::{PuzzlePart, Tiers};

@@ -1,17 +1,19 @@
 //! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
+use crate::beacon::BeaconPart;
+use crate::known::Known;
 use crate::marks::MarksPart;
 use crate::sealed::{self, Secret};
 use crate::tiers::{PuzzlePart, PuzzleSection, Tiers};
-use engine::{Digest, Game, Seed};
+use engine::{Digest, Seed};
 use forge::games::Board;
 use generators::games::Kind;
 use generators::kernels::kinds;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use validators::game_measures::{AvatarKind, GoalKind};
-use validators::{Criteria, CriteriaError, Difficulty, GameForm};
+use validators::{Criteria, CriteriaError, Difficulty};
 
 /// The maximum size of a recipe, in bytes.
 pub const MAX_RECIPE: usize = 1 << 16;
@@ -30,6 +32,9 @@ pub struct Recipe {
     /// The commitment to a secret, in place of `seed`: the release is sealed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commitment: Option<Digest>,
+    /// The public randomness in the seed of a sealed release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beacon: Option<BeaconPart>,
     /// The root digest of the previous release.
     #[serde(default)]
     pub parent: Option<Digest>,
@@ -153,42 +158,6 @@ pub struct Taxonomy {
     pub crowd: Option<f64>,
 }
 
-/// The content of previous releases, which must not be repeated.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Known {
-    /// The names of the releases, the oldest first.
-    pub releases: Vec<String>,
-    /// The rules of their generated games, without names: in full, so that any later version can compute the distance
-    /// to a game.
-    pub games: Vec<String>,
-    /// The canonical items (rules and level) of their corpus games.
-    pub items: BTreeSet<Digest>,
-}
-
-impl Known {
-    /// The forms of the games. Cost: about a millisecond a game.
-    ///
-    /// # Errors
-    /// A text is no game.
-    pub(crate) fn forms(&self) -> Result<Vec<GameForm>, RecipeError> {
-        let form = |(at, text): (usize, &String)| {
-            let wrong = |_| RecipeError::Value {
-                key: "known.games",
-                message: format!(
-                    "has an invalid game at index {at}: name the previous release with --parent"
-                ),
-            };
-            Ok(GameForm::of(&Game::from_source(text).map_err(wrong)?))
-        };
-        self.games.iter().enumerate().map(form).collect()
-    }
-
-    fn is_empty(&self) -> bool {
-        *self == Known::default()
-    }
-}
-
 /// The problems that a recipe can have.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -226,6 +195,16 @@ pub enum RecipeError {
          {0}, or commit again with `arcade release RECIPE --commit`"
     )]
     OtherRecipe(&'static str),
+    /// The recipe names a beacon, whose value was not given.
+    #[error(
+        "the recipe names round {round} of {source_name}: give its value with --beacon FILE, once it is published"
+    )]
+    NoBeacon {
+        /// The source of the beacon.
+        source_name: String,
+        /// The round.
+        round: u64,
+    },
     /// A secret was given for an open release.
     #[error(
         "the release is open: its recipe has a `seed`, so it takes no --secret; to seal it, put the secret's `commitment` in \
@@ -250,6 +229,7 @@ impl Recipe {
     pub fn from_toml(text: &str) -> Result<Recipe, RecipeError> {
         let recipe = Recipe::parse(text)?;
         recipe.check()?;
+        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(recipe.commitment.is_some()))?;
         Ok(recipe)
     }
 
@@ -267,11 +247,12 @@ impl Recipe {
     pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
         let recipe = Recipe { seed: None, commitment: None, ..Recipe::parse(text)? };
         Recipe { seed: Some("to be drawn".to_owned()), ..recipe.clone() }.check()?;
+        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(true))?;
         Ok(recipe)
     }
 
-    /// The digest that a commitment covers: that of the recipe without `seed`, `commitment` and `known`, which follows
-    /// from `parent`.
+    /// The digest that a commitment covers: that of the recipe without `seed`, `commitment`, `known`, which follows
+    /// from `parent`, and the value of the beacon, which nobody knows yet.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
         sealed::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
@@ -435,7 +416,11 @@ impl Recipe {
         } else if secret.recipe != Some(self.committed()) {
             Err(RecipeError::OtherRecipe(self.mismatch_advice(secret)))
         } else {
-            Ok(secret.root_seed())
+            let seed = secret.root_seed();
+            let Some(beacon) = &self.beacon else { return Ok(seed) };
+            let missing =
+                || RecipeError::NoBeacon { source_name: beacon.source.clone(), round: beacon.round };
+            beacon.mix(seed).ok_or_else(missing)
         }
     }
 

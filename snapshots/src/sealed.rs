@@ -1,5 +1,6 @@
 //! Sealed releases: the seed is committed to beforehand and revealed later.
 
+use crate::beacon::{BEACON, BeaconPart};
 use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest, ReleaseKind};
@@ -83,6 +84,14 @@ impl Secret {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
+    /// The seed of a release with this recipe: with its beacon mixed in, if it names one; `None` if the beacon has no value.
+    pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
+        match recipe.get(BEACON) {
+            None => Some(self.root_seed()),
+            Some(_) => BeaconPart::of(recipe)?.mix(self.root_seed()),
+        }
+    }
+
     /// Checks that seed and nonce look random, not made up.
     ///
     /// # Errors
@@ -127,15 +136,16 @@ impl Secret {
         Ok(self.check().err())
     }
 
-    /// Tests whether the witness's seed is derived from this secret along the path that the witness states. A secret
-    /// of an earlier generation always passes.
-    pub(crate) fn leads_to(&self, witness: &Witness) -> bool {
-        self.recipe.is_none() || descendant(self.root_seed(), &witness.path) == witness.episode.seed
+    /// Tests whether the witness's seed is derived from this secret, and the beacon of the recipe, along the path that
+    /// the witness states. A secret of an earlier generation always passes.
+    pub(crate) fn leads_to(&self, witness: &Witness, recipe: &Value) -> bool {
+        let seed = self.seed_for(recipe).map(|seed| descendant(seed, &witness.path));
+        self.recipe.is_none() || seed == Some(witness.episode.seed)
     }
 }
 
 /// The digest of the part of a recipe that a commitment covers: everything except the field that it replaces (`seed`),
-/// itself, and what follows from the parent (`known`).
+/// itself, what follows from the parent (`known`), and the value of the beacon.
 ///
 /// # Errors
 /// The recipe has no canonical JSON.
@@ -143,6 +153,7 @@ pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
     let mut recipe = recipe.clone();
     if let Some(keys) = recipe.as_object_mut() {
         keys.retain(|key, _| !["seed", "commitment", "known"].contains(&key.as_str()));
+        keys.get_mut(BEACON).and_then(Value::as_object_mut).map(|beacon| beacon.remove("value"));
     }
     canonical_digest(&recipe)
 }
@@ -239,7 +250,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
         let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
         let secret = read_revealed(held, file)?;
         problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
-        problems.extend(unrelated_witnesses(&secret, held, &awaited)?);
+        problems.extend(unrelated_witnesses(&secret, &manifest.recipe, held, &awaited)?);
     }
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));
@@ -255,6 +266,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
 /// The withheld witnesses whose seeds are not derived from the secret.
 fn unrelated_witnesses(
     secret: &Secret,
+    recipe: &Value,
     held: &Path,
     files: &BTreeSet<&str>,
 ) -> Result<Vec<String>, SnapshotError> {
@@ -264,7 +276,7 @@ fn unrelated_witnesses(
         let file = path.strip_prefix(HELD).expect("it is held");
         let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
         match serde_json::from_slice::<Witness>(&bytes) {
-            Ok(witness) if secret.leads_to(&witness) => {}
+            Ok(witness) if secret.leads_to(&witness, recipe) => {}
             Ok(_) => problems.push(format!("{path}: {UNRELATED_WITNESS}")),
             Err(error) => problems.push(format!("{path}: not a witness: {error}")),
         }
@@ -375,8 +387,15 @@ mod tests {
             },
         });
         let witness: Witness = serde_json::from_value(text).unwrap();
-        assert!(secret.leads_to(&witness));
-        assert!(!Secret::draw("2027-01", Digest::of(b"recipe"), [8; 64]).leads_to(&witness));
-        assert!(!secret.leads_to(&Witness { path: Vec::new(), ..witness }));
+        assert!(secret.leads_to(&witness, &json!({})));
+        assert!(!Secret::draw("2027-01", Digest::of(b"recipe"), [8; 64]).leads_to(&witness, &json!({})));
+        assert!(!secret.leads_to(&Witness { path: Vec::new(), ..witness.clone() }, &json!({})));
+        // A beacon without a value leads nowhere, one with a value elsewhere.
+        for part in [
+            json!({ "source": "s", "round": 1 }),
+            json!({ "source": "s", "round": 1, "value": Digest::of(b"") }),
+        ] {
+            assert!(!secret.leads_to(&witness, &json!({ "beacon": part })));
+        }
     }
 }

@@ -13,6 +13,7 @@ pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod keygen;
 pub(crate) mod keys;
+pub(crate) mod log;
 pub(crate) mod mailbox;
 pub(crate) mod man;
 pub(crate) mod merge;

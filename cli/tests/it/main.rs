@@ -7,6 +7,7 @@ mod evaluate;
 mod export;
 mod generate;
 mod generate_games;
+mod log;
 mod mailbox;
 mod marks;
 mod pictures;

@@ -160,7 +160,11 @@ impl Checker<'_> {
                 Some(Ok(witness)) if witness.canary != *canary => {
                     wrong(&witness_file, "its canary is not the release's".to_owned());
                 }
-                Some(Ok(witness)) if self.secret.is_some_and(|secret| !secret.leads_to(&witness)) => {
+                Some(Ok(witness))
+                    if self
+                        .secret
+                        .is_some_and(|secret| !secret.leads_to(&witness, &self.manifest.recipe)) =>
+                {
                     wrong(&witness_file, UNRELATED_WITNESS.to_owned());
                 }
                 Some(Ok(Witness { episode, .. })) => {

@@ -6,11 +6,12 @@ mod readme_and_card;
 mod replay;
 pub(crate) mod version;
 
+use crate::beacon::{BEACON, BeaconPart};
 use crate::contents::Contents;
+use crate::known::Known;
 use crate::manifest::{Manifest, ReleaseKind};
 use crate::marks::{self, Marks};
 use crate::mint::RELEASE_CARD_FILE;
-use crate::recipe::Known;
 use crate::sealed::{HELD, SECRET_FILE, Secret};
 use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
 use forge::card::Card;
@@ -207,6 +208,12 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     };
     if of.is_some_and(|of| manifest.canary != canary(&of)) {
         problems.push(format!("{MANIFEST_FILE}: its `canary` is not that of its {source}"));
+    }
+    let has_beacon = manifest.recipe.get(BEACON).is_some();
+    let is_known = BeaconPart::of(&manifest.recipe).is_some_and(|beacon| beacon.value.is_some());
+    if has_beacon && !(is_known && manifest.commitment.is_some()) {
+        problems
+            .push(format!("{MANIFEST_FILE}: its recipe names a beacon without a value, or is not sealed"));
     }
     if let Some(what) = version::impossible(&manifest.minted_by()) {
         problems.push(format!("{MANIFEST_FILE}: {what}"));

@@ -451,3 +451,38 @@ fn other_keys_are_told() {
         broken(&forged, "does not follow the one before it in the log");
     }
 }
+
+/// The row of a result whose logs give other numbers: whatever was made better is named.
+#[test]
+fn altered_rows_are_told() {
+    let entries = year();
+    let row = entries.iter().find_map(|entry| match entry {
+        Entry::Result(row) => Some(row.clone()),
+        _ => None,
+    });
+    let honest = row.unwrap();
+    assert_eq!(honest.differences(&honest), [""; 0]);
+    // The last bits of a logarithm may differ between machines.
+    let rounded = ResultRow { interval: (honest.interval.0 + 1e-13, honest.interval.1), ..honest.clone() };
+    assert_eq!(honest.differences(&rounded), [""; 0]);
+    for number in 0..mutations() {
+        let mut chance = chance("rows", number);
+        let mut better = honest.clone();
+        let by = 1 + chance.below(100);
+        let share = by as f64 / 1000.0;
+        let key = match number % 10 {
+            0 => (better.wins += by as u64, "`wins`").1,
+            1 => (better.episodes -= by as u64, "`episodes`").1,
+            2 => (better.rate += share, "`rate`").1,
+            3 => (better.interval.0 += share, "`interval.low`").1,
+            4 => (better.interval.1 += share, "`interval.high`").1,
+            5 => (better.score = Some(3.5 + share), "`score`").1,
+            6 => (better.score = None, "`score`").1,
+            7 => (better.player = format!("mcts:{by}0"), "`player`").1,
+            8 => (better.horizon = format!("{by}0"), "`horizon`").1,
+            _ => (better.track = None, "`track`").1,
+        };
+        let found = better.differences(&honest);
+        assert!(found.len() == 1 && found[0].starts_with(key), "{key}: {found:?}");
+    }
+}

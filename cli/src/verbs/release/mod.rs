@@ -59,6 +59,9 @@ pub(crate) struct Args {
     /// The secret of a sealed release, as made by --commit
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
+    /// The value of the beacon that the recipe of a sealed release names, as a JSON file
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["commit", "reveal"])]
+    beacon: Option<PathBuf>,
     /// Draw a secret for this recipe, write it to the file --out, and print the commitment
     #[arg(long, conflicts_with_all = ["shard", "resume", "dry_run", "secret", "reveal"])]
     commit: bool,
@@ -79,6 +82,7 @@ impl Args {
         let options = [
             ("--parent", self.parent.as_deref()),
             ("--secret", self.secret.as_deref()),
+            ("--beacon", self.beacon.as_deref()),
             ("--shard", shard.as_deref()),
             ("--out", Some(out)),
         ];
@@ -102,6 +106,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let secret = args.secret.as_deref().map(sealed::read).transpose()?;
     let mut recipe = find_recipe(args.recipe(), |text| sealed::recipe(text, secret.as_ref()))?;
+    if let Some(file) = &args.beacon {
+        sealed::take_beacon(&mut recipe, file)?;
+    }
     let corpus = embedded::corpus()?;
     match &args.parent {
         Some(parent) => follow(&mut recipe, parent)?,
@@ -279,7 +286,10 @@ fn is_month(name: &str) -> bool {
 }
 
 /// Finds the recipe that the user names, read by `read`.
-fn find_recipe(path: &Path, read: impl Fn(&str) -> Result<Recipe, RecipeError>) -> Result<Recipe, Failure> {
+pub(crate) fn find_recipe(
+    path: &Path,
+    read: impl Fn(&str) -> Result<Recipe, RecipeError>,
+) -> Result<Recipe, Failure> {
     let name = path.to_string_lossy();
     let (shown, text) = if is_file(path) {
         (name.clone().into_owned(), input::read_text(path, MAX_RECIPE)?)

@@ -13,6 +13,7 @@ use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use trust::{Drawn, MAX_BEACON, read_bounded};
 
 /// Draws a secret for a recipe and writes it to a file that only its owner can read.
 pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, console: &Console) -> Answer {
@@ -74,6 +75,18 @@ fn entropy() -> std::io::Result<[u8; 64]> {
 
 pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(Failure::from)
+}
+
+/// Fills in the value of the beacon that a recipe names.
+pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failure> {
+    let shown = file.display().to_string();
+    let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &shown)?;
+    let Some(beacon) = &mut recipe.beacon else {
+        bail!(
+            "the recipe names no beacon, so it takes no --beacon: a release has one if its commitment covers it"
+        );
+    };
+    beacon.take(&drawn.source, drawn.round, drawn.value).map_err(|error| malformed!("`{shown}`: {error}"))
 }
 
 /// Reads a recipe to be minted. If it has neither seed nor commitment and a secret is given, it gets the commitment

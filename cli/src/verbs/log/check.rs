@@ -1,0 +1,199 @@
+//! `arcade log check`: the judgement of a log, or of a proof about it.
+
+use super::{append, checkpoint, open, public_key, read_text, row, rules};
+use crate::console::Console;
+use crate::counted::count;
+use crate::failure::{Answer, Failure};
+use crate::verbs::release::in_pool;
+use crate::whole_file;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use trust::log::{Consistency, Entry, Inclusion, Log, MAX_CHECKPOINT, MAX_ENTRY, frozen, unkept};
+use trust::{PublicKey, read_bounded};
+
+/// Checks a log: its signature, its entries under its root, its files, and what the entries say together.
+///
+/// Keep the checkpoint of each visit (--save) and show it at the next (--seen): only so can a log be caught that was
+/// rolled back, or that shows others another history. --month catches a copy that is no longer updated. With --proof
+/// and --entry, or --growth and --seen, a proof is checked without the log.
+///
+/// Exit status 0: sound. 1: not, and every reason is named. 2: malformed.
+///
+/// Example: arcade log check log --key log.pub --seen log.seen --save log.seen --month 2027-03
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The log's folder; not with --proof and --growth
+    #[arg(value_name = "LOG", required_unless_present_any = ["proof", "growth"])]
+    log: Option<PathBuf>,
+    /// The public key of the log
+    #[arg(long, value_name = "FILE")]
+    key: PathBuf,
+    /// A checkpoint seen before: the log has to continue it
+    #[arg(long, value_name = "FILE")]
+    seen: Option<PathBuf>,
+    /// Write the checkpoint here if the log is sound
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["proof", "growth"])]
+    save: Option<PathBuf>,
+    /// The month whose release must be there by now, such as 2027-03
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["proof", "growth"])]
+    month: Option<String>,
+    /// Releases that have to be in the log, in folders or archives
+    #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
+    release: Vec<PathBuf>,
+    /// Results folders whose rows have to be in the log; every episode is replayed
+    #[arg(long, value_name = "RESULTS", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
+    replay: Vec<PathBuf>,
+    /// Witnesses that have to have signed the checkpoint, each with its public key
+    #[arg(long, value_name = "NAME=FILE", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
+    witness: Vec<String>,
+    /// A proof that an entry is in the log
+    #[arg(long, value_name = "FILE", requires = "entry", conflicts_with = "growth")]
+    proof: Option<PathBuf>,
+    /// The entry that is proved
+    #[arg(long, value_name = "FILE", requires = "proof")]
+    entry: Option<PathBuf>,
+    /// A proof that the log has only grown since the checkpoint of --seen
+    #[arg(long, value_name = "FILE", requires = "seen")]
+    growth: Option<PathBuf>,
+    /// Threads for replays; all cores if not given
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+/// The greatest size of a proof, in bytes.
+const MAX_PROOF: u64 = MAX_CHECKPOINT + (1 << 14);
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let key = public_key(&args.key)?;
+    if let (Some(proof), Some(entry)) = (&args.proof, &args.entry) {
+        return inclusion(proof, entry, &key, console);
+    }
+    if let (Some(growth), Some(seen)) = (&args.growth, &args.seen) {
+        return consistency(growth, seen, &key, console);
+    }
+    let folder = args.log.as_deref().expect("the arguments require it");
+    let log = open(folder)?;
+    let mut problems = log.faults(&key);
+    if let Some(file) = &args.seen {
+        let seen = checkpoint(file)?;
+        // A checkpoint that the log did not sign is no evidence against it.
+        seen.check(&key).map_err(|fault| malformed!("`{}`: {fault}", file.display()))?;
+        problems.extend(log.fork(&seen));
+    }
+    let entries = log.entries()?;
+    problems.extend(rules(&entries));
+    problems.extend(args.month.as_ref().and_then(|month| frozen(&entries, month)));
+    problems.extend(witnesses(&args.witness, &log)?);
+    for place in &args.release {
+        problems.extend(missing(place, &entries)?);
+    }
+    for folder in &args.replay {
+        problems.extend(in_pool(args.jobs, || replay(folder, &entries))??);
+    }
+    let sound = problems.is_empty();
+    let unkept = unkept(&entries);
+    if let (Some(file), true) = (&args.save, sound) {
+        whole_file::write(file, log.checkpoint.to_text().as_bytes())?;
+    }
+    let size = log.checkpoint.size;
+    console.document(&json!({
+        "origin": log.checkpoint.origin, "size": size, "entries": entries, "unkept": unkept, "problems": problems,
+    }))?;
+    for (number, entry) in entries.iter().enumerate() {
+        console.say(format_args!("{number:>5}  {}", entry.line()));
+    }
+    for name in &unkept {
+        console.say(format_args!("`{name}` was committed to, and has no root yet"));
+    }
+    problems.iter().for_each(|problem| console.say(problem));
+    let entries = count(size as usize, "entry").replace("entrys", "entries");
+    console.say(match sound {
+        true => format!("{}: sound; {entries}, signed by {}", log.checkpoint.origin, key.id()),
+        false => format!("{}: NOT sound; problems: {}", log.checkpoint.origin, problems.len()),
+    });
+    Ok(sound)
+}
+
+fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
+    let mut problems = Vec::new();
+    for text in asked {
+        let Some((name, file)) = text.split_once('=') else {
+            bail!("`{text}` is not a witness with its public key: write NAME=FILE");
+        };
+        if log.checkpoint.witnessed(name, &public_key(Path::new(file))?).is_none() {
+            problems.push(format!("the witness `{name}` has not signed the checkpoint"));
+        }
+    }
+    Ok(problems)
+}
+
+/// The fault of a log without this release.
+fn missing(place: &Path, entries: &[Entry]) -> Result<Option<String>, Failure> {
+    let shown = place.display();
+    let asked = append::release(place)?;
+    let Entry::Root { release, root, parent, commitment, beacon, .. } = &asked else { return Ok(None) };
+    let found =
+        entries.iter().find(|entry| matches!(entry, Entry::Root { release: name, .. } if name == release));
+    let fault = match found {
+        None => Some(format!("`{shown}`: `{release}` with root {root} is not in the log")),
+        Some(Entry::Root { root: logged, .. }) if logged != root => Some(format!(
+            "`{shown}`: its root is {root}, and the log has `{release}` with root {logged}: two releases of one name"
+        )),
+        Some(Entry::Root { parent: a, commitment: b, beacon: c, .. })
+            if (a, b, c) != (parent, commitment, beacon) =>
+        {
+            Some(format!("`{shown}`: the log states another parent, commitment or beacon than its manifest"))
+        }
+        Some(_) => None,
+    };
+    Ok(fault)
+}
+
+/// The differences between the row of results in the log and what their episodes give.
+fn replay(folder: &Path, entries: &[Entry]) -> Result<Vec<String>, Failure> {
+    let shown = folder.display();
+    let digest = row::digest(folder)?;
+    let logged = entries.iter().find_map(|entry| match entry {
+        Entry::Result(row) if row.results == digest => Some(row),
+        _ => None,
+    });
+    let Some(logged) = logged else {
+        return Ok(vec![format!(
+            "`{shown}`: no row of the log has its digest, {digest}: it was altered since, or never entered"
+        )]);
+    };
+    // An episode that does not replay is an answer: the row does not hold.
+    let again = match row::of(folder, entries) {
+        Ok(again) => again,
+        Err(Failure::Malformed(error)) => return Ok(vec![format!("`{shown}`: {error:#}")]),
+        Err(failure) => return Err(failure),
+    };
+    Ok(logged.differences(&again).into_iter().map(|difference| format!("`{shown}`: {difference}")).collect())
+}
+
+fn inclusion(proof: &Path, entry: &Path, key: &PublicKey, console: &Console) -> Answer {
+    let found = Inclusion::parse(&read_text(proof, MAX_PROOF)?, &proof.display().to_string())?;
+    let bytes = read_bounded(entry, MAX_ENTRY as u64)?;
+    let problems = found.check(&bytes, key).err().unwrap_or_default();
+    let (origin, index, size) = (&found.checkpoint.origin, found.index, found.checkpoint.size);
+    console.document(&json!({ "origin": origin, "index": index, "size": size, "problems": problems }))?;
+    problems.iter().for_each(|problem| console.say(problem));
+    console.say(match problems.is_empty() {
+        true => format!("{}: entry {index} of {size} in the log {origin}", entry.display()),
+        false => format!("{}: NOT proved to be in the log {origin}", entry.display()),
+    });
+    Ok(problems.is_empty())
+}
+
+fn consistency(growth: &Path, seen: &Path, key: &PublicKey, console: &Console) -> Answer {
+    let found = Consistency::parse(&read_text(growth, MAX_PROOF)?, &growth.display().to_string())?;
+    let problems = found.check(&checkpoint(seen)?, key).err().unwrap_or_default();
+    let (origin, old, size) = (&found.checkpoint.origin, found.old, found.checkpoint.size);
+    console.document(&json!({ "origin": origin, "old": old, "size": size, "problems": problems }))?;
+    problems.iter().for_each(|problem| console.say(problem));
+    console.say(match problems.is_empty() {
+        true => format!("{origin}: has grown from {old} to {size} entries, and nothing before was changed"),
+        false => format!("{origin}: NOT proved to have only grown"),
+    });
+    Ok(problems.is_empty())
+}

@@ -1,0 +1,86 @@
+//! `arcade log`: a public log that nothing can be removed from.
+
+mod append;
+mod check;
+mod cosign;
+mod prove;
+mod row;
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use engine::Digest;
+use snapshots::Secret;
+use std::path::Path;
+use trust::log::{Checkpoint, Entry, Log, MAX_CHECKPOINT, Revealed, problems};
+use trust::{Anchor, PublicKey, read_bounded};
+
+/// Keeps a public log of commitments, roots, reveals and results, from which nothing can be removed unnoticed.
+///
+/// A log is a folder of files that any web server can hold, in the form of C2SP tlog-tiles; its states are signed. See
+/// `arcade docs trust`.
+///
+/// Examples: arcade log append log --origin example.org/arcade --secret log.key --release releases/2027-01
+/// and: arcade log check log --key log.pub --seen checkpoint.old --release releases/2027-01
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(clap::Subcommand)]
+enum What {
+    Append(Box<append::Args>),
+    Prove(Box<prove::Args>),
+    Check(Box<check::Args>),
+    Cosign(Box<cosign::Args>),
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    match &args.what {
+        What::Append(args) => append::run(args, console),
+        What::Prove(args) => prove::run(args, console),
+        What::Check(args) => check::run(args, console),
+        What::Cosign(args) => cosign::run(args, console),
+    }
+}
+
+/// Reads the log in a folder.
+fn open(folder: &Path) -> Result<Log, Failure> {
+    Log::open(folder)?.ok_or_else(|| {
+        malformed!(
+            "`{}` has no log, because it has no file `checkpoint`: name the folder of one",
+            folder.display()
+        )
+    })
+}
+
+/// Reads a public key.
+fn public_key(file: &Path) -> Result<PublicKey, Failure> {
+    match crate::trusted::anchor(file)? {
+        Anchor::Key(key) => Ok(key),
+        Anchor::Set(_) => {
+            Err(malformed!("`{}` is a set of keys: a log is signed by one, NAME.pub", file.display()))
+        }
+    }
+}
+
+/// Reads a checkpoint.
+fn checkpoint(file: &Path) -> Result<Checkpoint, Failure> {
+    let text = read_text(file, MAX_CHECKPOINT)?;
+    Ok(Checkpoint::parse(&text, &file.display().to_string())?)
+}
+
+fn read_text(file: &Path, limit: u64) -> Result<String, Failure> {
+    Ok(String::from_utf8_lossy(&read_bounded(file, limit)?).into_owned())
+}
+
+/// The faults of the entries of a log together.
+fn rules(entries: &[Entry]) -> Vec<String> {
+    problems(entries, &commitment_of)
+}
+
+/// The commitment to a secret, as releases compute it.
+fn commitment_of(revealed: &Revealed) -> Digest {
+    let Revealed { release, seed, nonce, recipe, .. } = revealed.clone();
+    Secret { name: release, seed, nonce, recipe: Some(recipe) }.commitment()
+}

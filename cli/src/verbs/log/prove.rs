@@ -1,0 +1,75 @@
+//! `arcade log prove`: small files that show something of a log to people who do not have it.
+
+use super::{checkpoint, open};
+use crate::console::Console;
+use crate::failure::Answer;
+use crate::whole_file;
+use serde_json::json;
+use std::path::PathBuf;
+use trust::log::Entry;
+
+/// Writes a proof that an entry is in a log, or that the log has only grown since a checkpoint.
+///
+/// The proof of an entry has the form of C2SP tlog-proof. `arcade log check` checks both without the log.
+///
+/// Example: arcade log prove log --release 2027-01 --out 2027-01.proof --write-entry 2027-01.entry
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The log's folder
+    #[arg(value_name = "LOG")]
+    log: PathBuf,
+    /// The number of the entry
+    #[arg(long, value_name = "N", required_unless_present_any = ["release", "since"])]
+    entry: Option<u64>,
+    /// The name of a release, for the entry of its root
+    #[arg(long, value_name = "NAME", conflicts_with = "entry")]
+    release: Option<String>,
+    /// An earlier checkpoint, for the proof of growth
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["entry", "release", "write_entry"])]
+    since: Option<PathBuf>,
+    /// The file to write the proof to
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// The file to write the entry to
+    #[arg(long, value_name = "FILE")]
+    write_entry: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let log = open(&args.log)?;
+    let size = log.checkpoint.size;
+    let out = args.out.display().to_string();
+    if let Some(file) = &args.since {
+        let seen = checkpoint(file)?;
+        if let Some(fault) = log.fork(&seen) {
+            bail!("there is no such proof: {fault}");
+        }
+        let Some(proof) = log.prove_growth(seen.size) else {
+            bail!("an empty log grows into any: nothing to prove")
+        };
+        whole_file::write(&args.out, proof.to_text().as_bytes())?;
+        console.document(&json!({ "out": out, "old": seen.size, "size": size }))?;
+        console.say(format_args!("proof of growth from {} to {size} entries written to {out}", seen.size));
+        return Ok(true);
+    }
+    let number = match (&args.release, args.entry) {
+        (Some(name), _) => {
+            let is_it = |entry: &Entry| matches!(entry, Entry::Root { release, .. } if release == name);
+            let Some(number) = log.entries()?.iter().position(is_it) else {
+                bail!("`{name}` is not in the log")
+            };
+            number as u64
+        }
+        (None, number) => number.unwrap_or_default(),
+    };
+    let (Some(proof), Some(entry)) = (log.prove(number), log.entry(number)) else {
+        bail!("the log has {size} entries, counted from 0, and so none with number {number}");
+    };
+    whole_file::write(&args.out, proof.to_text().as_bytes())?;
+    if let Some(file) = &args.write_entry {
+        whole_file::write(file, entry)?;
+    }
+    console.document(&json!({ "out": out, "entry": number, "size": size }))?;
+    console.say(format_args!("proof of entry {number} of {size} written to {out}"));
+    Ok(true)
+}

@@ -1,0 +1,67 @@
+//! Rows of the leaderboard, computed from the logs of their episodes.
+
+use crate::failure::Failure;
+use crate::input::sorted_entries;
+use engine::Digest;
+use evaluation::Evaluation;
+use evaluation::study::Study;
+use snapshots::merkle::{self, Leaf};
+use std::fs;
+use std::path::Path;
+use trust::log::{Entry, ResultRow};
+
+/// Computes the row of a results folder, whose release is in the log. Every episode is replayed.
+pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure> {
+    let evaluation = Evaluation::open(folder)?;
+    let settings = &evaluation.settings;
+    let shown = folder.display();
+    let Some(root) = settings.snapshot else {
+        bail!("`{shown}`: these are no results on a release; evaluate the folder of one");
+    };
+    let release = entries.iter().find_map(|entry| match entry {
+        Entry::Root { release, root: found, .. } if *found == root => Some(release.clone()),
+        _ => None,
+    });
+    let Some(release) = release else {
+        bail!("`{shown}`: the results are on a release with root {root}, which is not in the log");
+    };
+    let study = Study::read(&[folder.to_path_buf()])?;
+    let Some(row) = study.leaderboard.first() else { bail!("`{shown}`: no episode was played yet") };
+    let Some(rate) = row.scores.win_rate else { bail!("`{shown}`: no episode has ended yet") };
+    Ok(ResultRow {
+        release,
+        root,
+        results: digest(folder)?,
+        player: study.players[row.player].label(),
+        track: settings.track.clone(),
+        horizon: settings.commit.to_string(),
+        episodes: row.scores.episodes,
+        open: row.scores.excluded,
+        wins: row.scores.wins,
+        rate: rate.value,
+        interval: (rate.low, rate.high),
+        score: row.scores.score,
+    })
+}
+
+/// The digest of a results folder: the root of a tree like that of a release, over all of its files but hidden ones.
+pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
+    let mut leaves = Vec::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(next) = folders.pop() {
+        for path in sorted_entries(&next)? {
+            let is_hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            if is_hidden {
+                continue;
+            }
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let bytes = fs::read(&path).map_err(|error| Failure::read(&path, error))?;
+            let below = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().replace('\\', "/");
+            leaves.push(Leaf { path: below, digest: Digest::of(&bytes) });
+        }
+    }
+    merkle::root(&leaves).map_err(|error| malformed!("`{}`: {error}", folder.display()))
+}

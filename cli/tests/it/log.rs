@@ -1,0 +1,188 @@
+//! A public log of a sealed month: committed to, waiting for its beacon, minted, revealed, played.
+
+use crate::arcade::{TINY, copy_tree, run, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+#[track_caller]
+fn says(folder: &Path, args: &[&str], status: i32, words: &str) {
+    let output = run(folder, args, status);
+    let said = text(&output.stdout) + &text(&output.stderr);
+    assert!(said.contains(words), "no `{words}` in: {said}");
+}
+
+/// A recipe with one new game and one level.
+const RECIPE: &str = "name = '2027-01'\ndescription = 'x'\ncommitment = 'COMMITMENT'\n[generated]\ngames = 1\n\
+    levels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\ndepths = [10, 25]\n\
+    random_plays = 20\n[beacon]\nsource = 'drand quicknet'\nround = 7\n";
+
+fn beacon(folder: &Path, name: &str, round: u64, value: &str) {
+    let text =
+        format!("{{ \"source\": \"drand quicknet\", \"round\": {round}, \"randomness\": \"{value}\" }}");
+    fs::write(folder.join(name), text).unwrap();
+}
+
+#[test]
+fn a_sealed_month_waits_for_its_beacon() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let append = |more: &[&str], status: i32, words: &str| {
+        says(folder, &[&["log", "append", "log", "--secret", "log.key"], more].concat(), status, words);
+    };
+    let check = |more: &[&str], status: i32, words: &str| {
+        says(folder, &[&["log", "check", "log", "--key", "log.pub"], more].concat(), status, words);
+    };
+    run(folder, &["keygen", "log", "--no-password"], 0);
+    fs::write(folder.join("month.toml"), RECIPE.replace("COMMITMENT", &"0".repeat(64))).unwrap();
+    let output = run(folder, &["--json", "release", "month.toml", "--commit", "--out", "secret.json"], 0);
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    fs::write(
+        folder.join("month.toml"),
+        RECIPE.replace("COMMITMENT", answer["commitment"].as_str().unwrap()),
+    )
+    .unwrap();
+
+    append(&["--commitment", "month.toml"], 2, "a new log takes a name: --origin");
+    append(&["--commitment", "month.toml", "--origin", "x y"], 2, "cannot name a log");
+    append(
+        &["--commitment", "month.toml", "--origin", "example.org/arcade"],
+        0,
+        "2027-01, with round 7 of drand quicknet",
+    );
+    append(&["--commitment", "month.toml"], 2, "a publisher commits once");
+    run(folder, &["log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
+
+    // Nothing is minted before the value is known, and with no other value.
+    let mint = ["release", "month.toml", "--secret", "secret.json", "--out", "out"];
+    says(folder, &mint, 2, "give its value with --beacon FILE, once it is published");
+    beacon(folder, "other.json", 8, &"ab".repeat(32));
+    says(folder, &[&mint[..], &["--beacon", "other.json"]].concat(), 2, "names round 7 of drand quicknet");
+    beacon(folder, "round.json", 7, &"cd".repeat(32));
+    run(folder, &[&mint[..], &["--beacon", "round.json"]].concat(), 0);
+    run(folder, &["verify", "out/public"], 0);
+    append(&["--release", "out/public"], 2, "takes round 7 of drand quicknet, whose value is not in the log");
+    beacon(folder, "swapped.json", 7, &"ef".repeat(32));
+    let copy = folder.join("copy");
+    copy_tree(&folder.join("log"), &copy);
+    let swapped = [
+        "log",
+        "append",
+        "copy",
+        "--secret",
+        "log.key",
+        "--beacon",
+        "swapped.json",
+        "--release",
+        "out/public",
+    ];
+    says(folder, &swapped, 2, "was minted with another value than round 7");
+    append(&["--beacon", "round.json", "--release", "out/public"], 0, "3 entries");
+    let reveal = ["release", "out/public", "--reveal", "out/held", "--out", "revealed"];
+    run(folder, &reveal, 0);
+    run(folder, &["verify", "revealed"], 0);
+    run(folder, &["regenerate", "revealed"], 0);
+    append(&["--reveal", "revealed"], 0, "reveal       2027-01");
+    check(
+        &["--seen", "seen", "--save", "seen-2", "--month", "2027-01", "--release", "revealed"],
+        0,
+        "sound; 4 entries",
+    );
+    check(&["--month", "2027-02"], 1, "the log has no release of 2027-02 or later");
+
+    // Proofs without the log.
+    let prove = |more: &[&str], status: i32, words: &str| {
+        says(folder, &[&["log", "prove", "log"], more].concat(), status, words);
+    };
+    prove(&["--release", "2027-01", "--out", "proof", "--write-entry", "entry"], 0, "proof of entry 2 of 4");
+    prove(&["--release", "2027-02", "--out", "x"], 2, "`2027-02` is not in the log");
+    prove(&["--entry", "9", "--out", "x"], 2, "and so none with number 9");
+    prove(&["--since", "seen", "--out", "growth"], 0, "from 1 to 4 entries");
+    let proved = ["log", "check", "--key", "log.pub", "--proof", "proof", "--entry"];
+    says(folder, &[&proved[..], &["entry"]].concat(), 0, "entry 2 of 4 in the log example.org/arcade");
+    says(folder, &[&proved[..], &["month.toml"]].concat(), 1, "NOT proved");
+    let growth = ["log", "check", "--key", "log.pub", "--growth", "growth", "--seen"];
+    says(folder, &[&growth[..], &["seen"]].concat(), 0, "has grown from 1 to 4 entries");
+    says(folder, &[&growth[..], &["seen-2"]].concat(), 1, "NOT proved to have only grown");
+
+    // A witness signs what continues what it signed before.
+    run(folder, &["keygen", "w", "--no-password"], 0);
+    let witness = [
+        "log",
+        "cosign",
+        "log",
+        "--key",
+        "log.pub",
+        "--witness",
+        "w.example",
+        "--secret",
+        "w.key",
+        "--time",
+        "1",
+    ];
+    check(&["--witness", "w.example=w.pub"], 1, "the witness `w.example` has not signed");
+    says(folder, &[&witness[..], &["--seen", "seen-2"]].concat(), 2, "give the one signed last");
+    run(folder, &witness, 0);
+    check(&["--witness", "w.example=w.pub", "--seen", "seen-2", "--save", "witnessed"], 0, "sound");
+    run(folder, &[&witness[..], &["--seen", "witnessed"]].concat(), 0);
+
+    // The copy, taken back to its first entry, and continued in another way.
+    let rolled = ["log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
+    says(folder, &rolled, 1, "the log was rolled back: it has 1 entries, and 4 were seen before");
+    let forks = ["log", "append", "copy", "--secret", "log.key", "--beacon", "swapped.json", "other.json"];
+    run(folder, &forks, 0);
+    beacon(folder, "third.json", 9, &"01".repeat(32));
+    run(folder, &["log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
+    says(folder, &rolled, 1, "the log has forked: its first 4 entries are not those that were seen before");
+    says(
+        folder,
+        &["log", "check", "copy", "--key", "log.pub", "--release", "revealed"],
+        1,
+        "is not in the log",
+    );
+    says(folder, &["log", "check", "copy", "--key", "w.pub"], 1, "is not signed by the key");
+    says(folder, &["log", "check", "revealed", "--key", "w.pub"], 2, "has no file `checkpoint`");
+}
+
+#[test]
+fn rows_are_replayed() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
+    run(folder, &["keygen", "log", "--no-password"], 0);
+    run(
+        folder,
+        &["evaluate", "tiny", "--player", "nearest-goal", "--max-steps", "60", "--out", "results"],
+        0,
+    );
+    let append = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
+    says(folder, &[&append[..], &["--result", "results"]].concat(), 2, "which is not in the log");
+    says(
+        folder,
+        &[&append[..], &["--release", "tiny", "--result", "results"]].concat(),
+        0,
+        "nearest-goal, horizon 1",
+    );
+    let again = [&append[..], &["--result", "results"]].concat();
+    says(folder, &again, 2, "are in the log already");
+    let check = ["log", "check", "log", "--key", "log.pub", "--replay", "results"];
+    says(folder, &check, 0, "sound; 2 entries");
+    says(folder, &[&append[..], &["--calibration", "tiny=log.pub"]].concat(), 0, "calibration  tiny");
+    says(folder, &[&append[..], &["--calibration", "huge=log.pub"]].concat(), 2, "`huge` is not in the log");
+
+    // A log of an episode whose result was altered: its folder is no longer the one of the row, and it does not replay.
+    let episodes = folder.join("results/episodes");
+    let episode = fs::read_dir(&episodes).unwrap().map(|entry| entry.unwrap().path()).min().unwrap();
+    let honest = fs::read_to_string(&episode).unwrap();
+    let altered = match honest.contains("\"outcome\":\"won\"") {
+        true => honest.replace("\"outcome\":\"won\"", "\"outcome\":\"lost\""),
+        false => {
+            honest.replace("\"outcome\":\"lost\"", "\"outcome\":\"won\"").replace("\"ongoing\"", "\"won\"")
+        }
+    };
+    assert_ne!(honest, altered);
+    fs::write(&episode, altered).unwrap();
+    says(folder, &check, 1, "no row of the log has its digest");
+    let said = text(&run(folder, &again, 2).stderr);
+    assert!(!said.contains("are in the log already"), "{said}");
+}

@@ -1,0 +1,116 @@
+//! Public randomness in the seed of a sealed release, so that its publisher cannot choose among secrets.
+
+use crate::recipe::{RecipeError, wrong};
+use engine::{Digest, Seed};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// The key of the part in a recipe.
+pub(crate) const BEACON: &str = "beacon";
+
+/// A round of a public source of randomness, which the recipe names before anybody knows its value.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BeaconPart {
+    /// The source, such as `drand quicknet`.
+    pub source: String,
+    /// The number of the round.
+    pub round: u64,
+    /// The value of the round: filled in when the release is minted, and not covered by the commitment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<Digest>,
+}
+
+impl BeaconPart {
+    /// Mixes the value into the seed of a secret; `None` if it is not known yet.
+    pub(crate) fn mix(&self, seed: Seed) -> Option<Seed> {
+        let value = self.value?;
+        Some(seed.child(&format!("beacon {} {value}", self.source), self.round))
+    }
+
+    /// The part of a recipe in a manifest. A manifest of a shape that is not known has none.
+    pub(crate) fn of(recipe: &Value) -> Option<BeaconPart> {
+        recipe.get(BEACON).and_then(|part| serde_json::from_value(part.clone()).ok())
+    }
+
+    /// Checks the part of a recipe that is written by hand: the release is sealed, and the value is not known.
+    pub(crate) fn check(&self, is_sealed: bool) -> Result<(), RecipeError> {
+        if !is_sealed {
+            return wrong(BEACON, "is for sealed releases: the seed of this one is public anyway");
+        }
+        if self.source.trim().is_empty()
+            || self.source.len() > 80
+            || self.source.chars().any(char::is_control)
+        {
+            return wrong("beacon.source", "takes a text of 1 to 80 bytes, such as \"drand quicknet\"");
+        }
+        match self.value {
+            Some(_) => wrong("beacon.value", "is filled in by `arcade release --beacon FILE`: leave it out"),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the value of a round.
+    ///
+    /// # Errors
+    /// It is of another source or round.
+    pub fn take(&mut self, source: &str, round: u64, value: Digest) -> Result<(), RecipeError> {
+        if (self.source.as_str(), self.round) != (source, round) {
+            let message = format!(
+                "names round {} of {}, and the value given is of round {round} of {source}",
+                self.round, self.source
+            );
+            return wrong(BEACON, message);
+        }
+        self.value = Some(value);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::tests::{GOOD, check};
+    use crate::{Recipe, Secret};
+
+    const BEACON_TABLE: &str = "[beacon]\nsource = 'drand quicknet'\nround = 7\n";
+
+    #[test]
+    fn recipes_name_a_round_whose_value_is_not_known() {
+        let sealed = GOOD.replace("seed = 'x'", &format!("commitment = '{}'", Digest::of(b"")));
+        assert!(Recipe::from_toml(&format!("{sealed}{BEACON_TABLE}")).is_ok());
+        assert!(Recipe::to_commit(&format!("{GOOD}{BEACON_TABLE}")).is_ok());
+        check(&format!("{GOOD}{BEACON_TABLE}"), "`beacon` is for sealed releases");
+        check(
+            &format!("{sealed}{}", BEACON_TABLE.replace("drand quicknet", " ")),
+            "`beacon.source` takes a text",
+        );
+        check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "leave it out");
+    }
+
+    /// The commitment covers the round and not its value; the seed depends on both.
+    #[test]
+    fn the_seed_depends_on_the_value_and_the_commitment_does_not() {
+        let recipe = Recipe::to_commit(&format!("{GOOD}{BEACON_TABLE}")).unwrap();
+        let secret = Secret::draw("small", recipe.committed(), [7; 64]);
+        let minting = Recipe { commitment: Some(secret.commitment()), ..recipe };
+        assert!(matches!(minting.root_seed(Some(&secret)), Err(RecipeError::NoBeacon { round: 7, .. })));
+        let with = |value: &[u8]| {
+            let mut recipe = minting.clone();
+            recipe.beacon.as_mut().unwrap().take("drand quicknet", 7, Digest::of(value)).unwrap();
+            recipe
+        };
+        let [one, two] = [b"1", b"2"].map(|value| with(value));
+        assert_eq!(one.committed(), minting.committed());
+        let seeds = [&one, &two].map(|recipe| recipe.root_seed(Some(&secret)).unwrap());
+        assert_ne!(seeds[0], seeds[1]);
+        assert_ne!(seeds[0], secret.root_seed());
+        assert_eq!(secret.seed_for(&serde_json::to_value(&one).unwrap()), Some(seeds[0]));
+        // Another round is another recipe.
+        let mut later = one.clone();
+        later.beacon.as_mut().unwrap().round = 8;
+        assert!(matches!(later.root_seed(Some(&secret)), Err(RecipeError::OtherRecipe(_))));
+        let taken = later.beacon.as_mut().unwrap().take("drand quicknet", 7, Digest::of(b"1"));
+        assert!(taken.unwrap_err().to_string().contains("names round 8"));
+    }
+}

@@ -1,0 +1,43 @@
+//! The record of earlier content in a recipe: what a release may not repeat.
+
+use crate::recipe::RecipeError;
+use engine::{Digest, Game};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use validators::GameForm;
+
+/// The content of previous releases, which must not be repeated.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Known {
+    /// The names of the releases, the oldest first.
+    pub releases: Vec<String>,
+    /// The rules of their generated games, without names: in full, so that any later version can compute the distance
+    /// to a game.
+    pub games: Vec<String>,
+    /// The canonical items (rules and level) of their corpus games.
+    pub items: BTreeSet<Digest>,
+}
+
+impl Known {
+    /// The forms of the games. Cost: about a millisecond a game.
+    ///
+    /// # Errors
+    /// A text is no game.
+    pub(crate) fn forms(&self) -> Result<Vec<GameForm>, RecipeError> {
+        let form = |(at, text): (usize, &String)| {
+            let wrong = |_| RecipeError::Value {
+                key: "known.games",
+                message: format!(
+                    "has an invalid game at index {at}: name the previous release with --parent"
+                ),
+            };
+            Ok(GameForm::of(&Game::from_source(text).map_err(wrong)?))
+        };
+        self.games.iter().enumerate().map(form).collect()
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        *self == Known::default()
+    }
+}
