@@ -1,8 +1,11 @@
 //! Keys as the user names them, and the judgement of a release's signatures that several verbs share.
 
-use crate::failure::Failure;
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
 use crate::paths;
 use engine::Digest;
+use serde::Serialize;
+use serde_json::json;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use trust::{Anchor, MAX_KEY_FILE, SecretKey, Signatures, Signed, TrustError, is_encrypted, read_bounded};
@@ -40,6 +43,65 @@ impl TrustArgs {
         }
         Ok(Some(Signatures::read(&folder)?.judge(name, root, &anchor)))
     }
+}
+
+/// The root of a release as the user knows it from elsewhere, for verbs that use a release.
+#[derive(clap::Args)]
+pub(crate) struct OriginArgs {
+    /// The published root of the snapshot: another one is refused
+    #[arg(long, value_name = "DIGEST", value_parser = digest)]
+    root: Option<Digest>,
+    #[command(flatten)]
+    trust: TrustArgs,
+}
+
+/// What was checked of a release's root, for the record.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Origin {
+    /// The root.
+    pub(crate) root: Digest,
+    /// `true` if it was compared with one from another source.
+    pub(crate) root_compared: bool,
+    /// The signatures, if they were checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) signed: Option<Signed>,
+}
+
+impl OriginArgs {
+    /// Returns `true` if nothing is to be checked.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.root.is_none() && self.trust.key.is_none()
+    }
+
+    /// Checks the root of a release, and returns what was checked, or the problems.
+    pub(crate) fn check(
+        &self,
+        place: &Path,
+        name: &str,
+        root: Digest,
+    ) -> Result<Result<Origin, Vec<String>>, Failure> {
+        let mut problems = Vec::new();
+        if let Some(asked) = self.root.filter(|asked| *asked != root) {
+            problems.push(format!("`{}`: the root is {root}, not {asked}", place.display()));
+        }
+        let signed = self.trust.judge(place, name, &root)?;
+        problems.extend(signed.iter().flat_map(|signed| signed.problems.clone()));
+        let root_compared = self.root.is_some();
+        Ok(if problems.is_empty() { Ok(Origin { root, root_compared, signed }) } else { Err(problems) })
+    }
+}
+
+/// Reports the problems of a root as the answer of a verb.
+pub(crate) fn refuse(problems: &[String], console: &Console) -> Answer {
+    console.document(&json!({ "problems": problems }))?;
+    problems.iter().for_each(|problem| console.say(problem));
+    console.say("nothing was done, because this is not the release that was asked for");
+    Ok(false)
+}
+
+/// Reads a digest from the user, also in capitals.
+pub(crate) fn digest(text: &str) -> Result<Digest, String> {
+    text.to_ascii_lowercase().parse::<Digest>().map_err(|error| error.to_string())
 }
 
 /// The place of a release's signatures, unless another one is named.

@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let earlier = args.scale.as_deref().map(ScaleFile::read).transpose()?;
     let wanted = Wanted { subjects: &args.subjects, games: &[], levels: &[], as_reference: false };
-    let Subjects { snapshot, games } = subjects::read(&wanted)?;
+    let Subjects { snapshot, games, .. } = subjects::read(&wanted)?;
     let max_steps = args.max_steps.or(earlier.as_ref().map(|scale| scale.max_steps)).unwrap_or(500);
     if let Some(scale) = earlier.as_ref().filter(|scale| scale.max_steps != max_steps) {
         bail!("--max-steps {max_steps}: the scale was calibrated with {}; omit it", scale.max_steps);

@@ -3,6 +3,7 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::Answer;
+use crate::trusted::{TrustArgs, refuse};
 use crate::verbs::export::unsound;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::remark_unreplayed;
@@ -32,6 +33,8 @@ pub(crate) struct Args {
     /// Nearest pairs of games to list
     #[arg(long, value_name = "N", default_value_t = 5)]
     closest: usize,
+    #[command(flatten)]
+    trust: TrustArgs,
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
@@ -47,6 +50,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     for path in [&args.before, &args.after] {
         match in_pool(args.jobs, || Released::read(path))? {
             Ok(released) => {
+                let signed = args.trust.judge(path, &released.manifest.name, &released.manifest.root)?;
+                if let Some(signed) = signed.filter(|signed| !signed.problems.is_empty()) {
+                    return refuse(&signed.problems, console);
+                }
                 remark_unreplayed(&released.manifest, console);
                 sides.push(released);
             }

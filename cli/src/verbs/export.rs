@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::protected;
+use crate::trusted::{OriginArgs, refuse};
 use crate::verbs::release::in_pool;
 use crate::verbs::verify;
 use serde_json::json;
@@ -11,7 +12,7 @@ use snapshots::archive::{Packed, pack};
 use snapshots::export::{Export, ExportError, Exported, Format, export};
 use snapshots::released::{Released, ReleasedError};
 use snapshots::twin::Twin;
-use snapshots::{Draft, SnapshotError};
+use snapshots::{Draft, SnapshotError, integrity_of};
 use std::path::PathBuf;
 
 /// Writes a snapshot for other tools: as a dataset, as folders of games, or as one file.
@@ -41,6 +42,8 @@ pub(crate) struct Args {
     /// Add the actions that win each level
     #[arg(long)]
     solutions: bool,
+    #[command(flatten)]
+    origin: OriginArgs,
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
@@ -84,6 +87,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Ok(released) => released,
         Err(error) => return unsound(error, console),
     };
+    let found = args.origin.check(&args.snapshot, &released.manifest.name, released.manifest.root)?;
+    let origin = match found {
+        Ok(origin) => origin,
+        Err(problems) => return refuse(&problems, console),
+    };
     verify::remark_unreplayed(&released.manifest, console);
     let wanted = Export { format, solutions: args.solutions, twin: args.twin };
     let exported = in_pool(args.jobs, || export(&released, &wanted))??;
@@ -100,6 +108,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "out": args.out.display().to_string(),
         "release": manifest.name,
         "root": manifest.root,
+        "origin": origin,
         "twin": args.twin,
         "games": games,
         "levels": levels,
@@ -124,6 +133,12 @@ fn archive(args: &Args, console: &Console) -> Answer {
         bail!(
             "an archive is the whole release, with its solutions: omit --twin and --solutions, or choose another --format"
         );
+    }
+    if !args.origin.is_empty() {
+        let manifest = integrity_of(&args.snapshot)?.manifest;
+        if let Err(problems) = args.origin.check(&args.snapshot, &manifest.name, manifest.root)? {
+            return refuse(&problems, console);
+        }
     }
     let Packed { root, digest, unpacked, size, papers } = match pack(&args.snapshot, &args.out) {
         Ok(packed) => packed,

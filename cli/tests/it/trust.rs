@@ -2,6 +2,7 @@
 
 use crate::arcade::{copy_of_tiny, run, text};
 use serde_json::Value;
+use snapshots::Manifest;
 use std::fs;
 use std::path::Path;
 
@@ -88,6 +89,46 @@ fn releases_are_signed_by_enough_keys() {
     says(folder, &["sign", "tiny.tar.zst", "--secret", "ada.key"], 0, "signed by");
     let found = json(folder, &["verify", "tiny.tar.zst", "--key", "ada.pub"], 0);
     assert_eq!(found["signed"]["threshold"], 1);
+
+    // Verbs that use a release take its root or its key, and record what was checked.
+    let (ada, bo) = (["--key", "ada.pub"], ["--key", "bo.pub"]);
+    says(
+        folder,
+        &["export", "tiny", "--format", "jsonl", "--out", "rows", bo[0], bo[1]],
+        1,
+        "nothing was done",
+    );
+    let found = json(folder, &["export", "tiny", "--format", "jsonl", "--out", "rows", ada[0], ada[1]], 0);
+    assert_eq!(
+        (&found["origin"]["root_compared"], &found["origin"]["signed"]["threshold"]),
+        (&false.into(), &1.into())
+    );
+    says(folder, &["diff", "tiny", "tiny", bo[0], bo[1]], 1, "the key of `bo` is revoked: lost");
+    run(folder, &["diff", "tiny", "tiny", ada[0], ada[1]], 0);
+    let play = ["evaluate", "tiny", "--player", "nil", "--max-steps", "2", "--out", "results"];
+    let other = "0".repeat(64);
+    says(folder, &[&play[..], &["--root", &other]].concat(), 1, "the root is");
+    says(
+        folder,
+        &["evaluate", "hailglass", "--player", "nil", "--root", &other],
+        2,
+        "--root and --key are about a snapshot",
+    );
+    run(folder, &[&play[..], &["--key", "trust/keys-1.json"]].concat(), 0);
+    let record: Value =
+        serde_json::from_slice(&fs::read(folder.join("results/origin.json")).unwrap()).unwrap();
+    assert_eq!(record["signed"]["keys"], 2);
+
+    // A manifest with another lock file has the same root, and is not what was signed.
+    let manifest = folder.join("tiny/MANIFEST.json");
+    let honest = fs::read_to_string(&manifest).unwrap();
+    let mut altered = Manifest::parse(honest.as_bytes()).unwrap();
+    altered.lockfile = engine::Digest::of(b"another");
+    altered.seal_root().unwrap();
+    fs::write(&manifest, altered.to_bytes().unwrap()).unwrap();
+    run(folder, &["verify", "tiny"], 0);
+    says(folder, &["verify", "tiny", ada[0], ada[1]], 1, "and the signed statement names another");
+    fs::write(&manifest, honest).unwrap();
 
     // A changed release is not signed.
     fs::write(folder.join("tiny/README.md"), "changed").unwrap();

@@ -11,8 +11,10 @@ use crate::failure::{Answer, Failure};
 use crate::interrupt;
 use crate::marks;
 use crate::protected;
+use crate::trusted::{OriginArgs, refuse};
 use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
+use crate::whole_file;
 use agents::{Budget, PlannerSpec};
 use engine::{Outcome, SEMANTICS};
 use evaluation::client::Spent;
@@ -101,8 +103,13 @@ pub(crate) struct Args {
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
+    origin: OriginArgs,
+    #[command(flatten)]
     model: ModelArgs,
 }
+
+/// The file of a results folder that records what was checked of the release's root.
+const ORIGIN_FILE: &str = "origin.json";
 
 impl Args {
     fn wanted(&self) -> subjects::Wanted<'_> {
@@ -153,6 +160,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     track::check(args, &requested)?;
     reject_unused_flags(args, &requested)?;
     let subjects = subjects::read(&args.wanted())?;
+    let origin = match (args.origin.is_empty(), &subjects.release, subjects.snapshot) {
+        (true, ..) => None,
+        (false, Some(name), Some(root)) => {
+            match args.origin.check(Path::new(&args.subjects[0]), name, root)? {
+                Ok(origin) => Some(origin),
+                Err(problems) => return refuse(&problems, console),
+            }
+        }
+        (false, ..) => bail!("--root and --key are about a snapshot: name one, or omit them"),
+    };
     let mut settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,
@@ -193,6 +210,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Evaluation::create(&folder, settings, subjects.games)
     };
     let evaluation = evaluation?;
+    if let Some(origin) = origin {
+        let mut text = serde_json::to_string_pretty(&origin).expect("what was checked is plain data");
+        text.push('\n');
+        whole_file::write(&folder.join(ORIGIN_FILE), text.as_bytes())?;
+    }
     // The expenses of earlier runs of the evaluation count.
     if let Some(model) = &model {
         for task in evaluation.tasks() {

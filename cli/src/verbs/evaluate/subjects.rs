@@ -34,20 +34,22 @@ pub(crate) struct Wanted<'a> {
 /// The games, and the root digest of the snapshot if all of them come from one.
 pub(crate) struct Subjects {
     pub(crate) snapshot: Option<Digest>,
+    /// The name of that snapshot.
+    pub(crate) release: Option<String>,
     pub(crate) games: Vec<Subject>,
 }
 
 /// Reads the named subjects: a snapshot's folder, or games.
 pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
-    let (mut snapshot, mut games): (_, Vec<Subject>) = (None, Vec::new());
+    let (mut snapshot, mut release, mut games): (_, _, Vec<Subject>) = (None, None, Vec::new());
     for name in args.subjects {
         let place = Path::new(name);
         if is_snapshot(place) {
             if args.subjects.len() > 1 {
                 bail!("{name}: a snapshot is evaluated alone; remove the other games");
             }
-            let (root, found) = of_snapshot(place, args)?;
-            (snapshot, games) = (Some(root), found);
+            let (name, root, found) = of_snapshot(place, args)?;
+            (snapshot, release, games) = (Some(root), Some(name), found);
         } else {
             for input in input::games(name)? {
                 games.push(of_input(&input, args)?);
@@ -66,7 +68,7 @@ pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     if games.iter().all(|subject| subject.levels.is_empty()) {
         bail!("there is no level to play; see --levels");
     }
-    Ok(Subjects { snapshot, games })
+    Ok(Subjects { snapshot, release, games })
 }
 
 fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
@@ -161,7 +163,7 @@ impl<'a> Files<'a> {
     }
 }
 
-fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(Digest, Vec<Subject>), Failure> {
+fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<Subject>), Failure> {
     let (integrity, files) = Files::open(place)?;
     if let Some(problem) = integrity.problems.first() {
         let place = place.display();
@@ -202,7 +204,7 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(Digest, Vec<Subject>)
             diagnostics::failure(&named, &problems.0)
         })?);
     }
-    Ok((manifest.root, games))
+    Ok((manifest.name.clone(), manifest.root, games))
 }
 
 impl Wanted<'_> {

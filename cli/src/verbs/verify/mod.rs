@@ -6,7 +6,7 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::protected;
-use crate::trusted::{self, TrustArgs};
+use crate::trusted::{self, TrustArgs, digest};
 use engine::Digest;
 use serde::Serialize;
 use serde_json::json;
@@ -66,11 +66,6 @@ pub(crate) struct Args {
     max_work: Option<u64>,
 }
 
-/// Reads a digest from the user, also in capitals.
-fn digest(text: &str) -> Result<Digest, String> {
-    text.to_ascii_lowercase().parse::<Digest>().map_err(|error| error.to_string())
-}
-
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -113,6 +108,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let signed = args.trust.judge(&args.snapshot, &verification.name, &verification.root)?;
     verification.problems.extend(signed.iter().flat_map(|signed| signed.problems.clone()));
+    let lockfile = verification.manifest.lockfile;
+    if signed.as_ref().is_some_and(|signed| signed.problems.is_empty() && signed.lockfile != Some(lockfile)) {
+        let problem =
+            format!("{MANIFEST_FILE}: its `lockfile` is {lockfile}, and the signed statement names another");
+        verification.problems.push(problem);
+    }
     let chain = match args.chain.as_slice() {
         [] => None,
         folders => Some(follow(Link::of(&verification.manifest, &args.snapshot), folders)?),
