@@ -1,9 +1,10 @@
 //! A public log of a sealed month: committed to, waiting for its beacon, minted, revealed, played.
 
-use crate::arcade::{TINY, copy_tree, run, text};
+use crate::arcade::{TINY, copy_tree, files, run, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 #[track_caller]
 fn says(folder: &Path, args: &[&str], status: i32, words: &str) {
@@ -185,4 +186,38 @@ fn rows_are_replayed() {
     says(folder, &check, 1, "no row of the log has its digest");
     let said = text(&run(folder, &again, 2).stderr);
     assert!(!said.contains("are in the log already"), "{said}");
+}
+
+/// The program in Python that shares no code with this one. Where it cannot run, a note says so.
+#[test]
+#[allow(clippy::print_stdout, reason = "a skipped test says so")]
+fn an_independent_program_agrees() {
+    let python = |code: &str| Command::new("python3").args(["-c", code]).output();
+    if !python("import cryptography").is_ok_and(|output| output.status.success()) {
+        println!("SKIPPED: python3 with the package cryptography is not installed");
+        return;
+    }
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    copy_tree(&TINY.path().join("tiny"), &folder.join("releases/tiny"));
+    for name in ["log", "ada"] {
+        run(folder, &["keygen", name, "--no-password"], 0);
+    }
+    run(folder, &["keys", "keys", "--add", "ada=ada.pub"], 0);
+    run(folder, &["sign", "releases/tiny", "--secret", "ada.key", "--keys", "keys/keys-1.json"], 0);
+    let append = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
+    run(folder, &[&append[..], &["--keys", "keys/keys-1.json", "--release", "releases/tiny"]].concat(), 0);
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scripts/trust/check.py");
+    let check = || {
+        let flags =
+            ["--log", "log", "--log-key", "log.pub", "--keys", "keys/keys-1.json", "--releases", "releases"];
+        let output = Command::new("python3").arg(&program).args(flags).current_dir(folder).output().unwrap();
+        (output.status.code(), text(&output.stdout) + &text(&output.stderr))
+    };
+    assert_eq!(check(), (Some(0), "2 entries, 1 releases, 1 sets of keys, 0 beacons: sound\n".to_owned()));
+    let level =
+        files(&folder.join("releases/tiny")).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();
+    fs::write(folder.join("releases/tiny").join(&level), "w").unwrap();
+    let (status, said) = check();
+    assert!(status == Some(1) && said.contains("is not the file of the manifest"), "{said}");
 }
