@@ -8,6 +8,7 @@ mod clocks;
 mod dependencies;
 mod layers;
 mod rows;
+mod supply;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
