@@ -15,8 +15,10 @@ fn mutations() -> u64 {
     if std::env::var_os("ARCADE_SWEEP").is_some() { 1000 } else { 20 }
 }
 
+/// Other ways in each sweep, whose seed is in the variable.
 fn chance(purpose: &str, number: u64) -> Sampler {
-    Seed::from_text(purpose).child("mutation", number).sampler()
+    let sweep = std::env::var("ARCADE_SWEEP").unwrap_or_default();
+    Seed::from_text(&format!("{purpose} {sweep}")).child("mutation", number).sampler()
 }
 
 fn digest(text: &str) -> Digest {
