@@ -4,7 +4,9 @@ use crate::console::Console;
 use crate::evaluation_report::{Results, write_evaluation_report};
 use crate::failure::Answer;
 use crate::protected;
+use crate::trusted::{digest, refuse};
 use crate::verbs::release::in_pool;
+use engine::Digest;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
 use serde_json::{Value, json};
@@ -27,6 +29,9 @@ pub(crate) struct Args {
     /// The number of episodes of each player that the page shows step by step, failures first; 0 for none
     #[arg(long, value_name = "N", default_value_t = 4)]
     replays: usize,
+    /// The published root of the release that all results have to be on
+    #[arg(long, value_name = "DIGEST", value_parser = digest)]
+    root: Option<Digest>,
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
@@ -38,6 +43,19 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let open = |folder: &PathBuf| Evaluation::open(folder);
     let evaluations = args.results.iter().map(open).collect::<Result<Vec<_>, EvaluationError>>();
     let evaluations = evaluations?;
+    if let Some(root) = args.root {
+        let other =
+            args.results.iter().zip(&evaluations).filter(|(_, found)| found.settings.snapshot != Some(root));
+        let problems: Vec<String> = other
+            .map(|(folder, found)| match found.settings.snapshot {
+                Some(on) => format!("`{}`: the results are on the root {on}, not {root}", folder.display()),
+                None => format!("`{}`: these are no results on a release", folder.display()),
+            })
+            .collect();
+        if !problems.is_empty() {
+            return refuse(&problems, console);
+        }
+    }
     let study = in_pool(args.jobs, || Study::read(&args.results))??;
     if study.episodes.is_empty() {
         bail!("no episode was played yet in these results; `arcade evaluate … --resume` plays them");
@@ -82,6 +100,7 @@ fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     json!({
         "report": args.out.display().to_string(),
+        "root_compared": args.root.is_some(),
         "files": files,
         "episodes": study.episodes.len(),
         "ended": ended,

@@ -143,6 +143,16 @@ fn a_sealed_month_waits_for_its_beacon() {
     );
     says(folder, &["log", "check", "copy", "--key", "w.pub"], 1, "is not signed by the key");
     says(folder, &["log", "check", "revealed", "--key", "w.pub"], 2, "has no file `checkpoint`");
+    // Files that somebody damaged are an answer too.
+    let entries = folder.join("copy/tile/entries/000.p/4");
+    let bytes = fs::read(&entries).unwrap();
+    let copy = ["log", "check", "copy", "--key", "log.pub"];
+    fs::write(&entries, &bytes[..bytes.len() - 1]).unwrap();
+    says(folder, &copy, 1, "does not hold 4 entries");
+    fs::write(&entries, text(&bytes).replacen("\"commitment\"", "\"Commitment\"", 1)).unwrap();
+    says(folder, &copy, 1, "the log is NOT sound");
+    fs::remove_file(&entries).unwrap();
+    says(folder, &copy, 1, "the log is cut");
 }
 
 #[test]

@@ -118,6 +118,12 @@ fn releases_are_signed_by_enough_keys() {
     let record: Value =
         serde_json::from_slice(&fs::read(folder.join("results/origin.json")).unwrap()).unwrap();
     assert_eq!(record["signed"]["keys"], 2);
+    says(
+        folder,
+        &["report", "results", "--root", &other, "--out", "report"],
+        1,
+        "the results are on the root",
+    );
 
     // A manifest with another lock file has the same root, and is not what was signed.
     let manifest = folder.join("tiny/MANIFEST.json");

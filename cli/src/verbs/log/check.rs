@@ -1,6 +1,6 @@
 //! `arcade log check`: the judgement of a log, or of a proof about it.
 
-use super::{append, checkpoint, open, public_key, read_text, row, rules};
+use super::{absent, append, checkpoint, public_key, read_text, row, rules};
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
@@ -9,7 +9,7 @@ use crate::whole_file;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use trust::log::{Consistency, Entry, Inclusion, Log, MAX_CHECKPOINT, MAX_ENTRY, frozen, unkept};
-use trust::{PublicKey, read_bounded};
+use trust::{PublicKey, TrustError, read_bounded};
 
 /// Checks a log: its signature, its entries under its root, its files, and what the entries say together.
 ///
@@ -72,7 +72,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return consistency(growth, seen, &key, console);
     }
     let folder = args.log.as_deref().expect("the arguments require it");
-    let log = open(folder)?;
+    let log = match Log::open(folder) {
+        // There is a log, but it is damaged: that is an answer.
+        Err(error @ TrustError::Document { .. }) => return damaged(&error, console),
+        Ok(None) => return Err(absent(folder)),
+        log => log?.expect("there is one"),
+    };
     let mut problems = log.faults(&key);
     if let Some(file) = &args.seen {
         let seen = checkpoint(file)?;
@@ -80,7 +85,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         seen.check(&key).map_err(|fault| malformed!("`{}`: {fault}", file.display()))?;
         problems.extend(log.fork(&seen));
     }
-    let entries = log.entries()?;
+    let entries = match log.entries() {
+        Err(error @ TrustError::Document { .. }) if !problems.is_empty() => return damaged(&error, console),
+        entries => entries?,
+    };
     problems.extend(rules(&entries));
     problems.extend(args.month.as_ref().and_then(|month| frozen(&entries, month)));
     problems.extend(witnesses(&args.witness, &log)?);
@@ -112,6 +120,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         false => format!("{}: NOT sound; problems: {}", log.checkpoint.origin, problems.len()),
     });
     Ok(sound)
+}
+
+/// Answers that a log is not one that anybody can read.
+fn damaged(error: &TrustError, console: &Console) -> Answer {
+    console.document(&json!({ "problems": [error.to_string()] }))?;
+    console.say(error);
+    console.say("the log is NOT sound: files were changed, cut or removed");
+    Ok(false)
 }
 
 fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {

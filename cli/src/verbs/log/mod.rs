@@ -46,12 +46,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 /// Reads the log in a folder.
 fn open(folder: &Path) -> Result<Log, Failure> {
-    Log::open(folder)?.ok_or_else(|| {
-        malformed!(
-            "`{}` has no log, because it has no file `checkpoint`: name the folder of one",
-            folder.display()
-        )
-    })
+    Log::open(folder)?.ok_or_else(|| absent(folder))
+}
+
+/// The failure of a folder without a log.
+fn absent(folder: &Path) -> Failure {
+    malformed!(
+        "`{}` has no log, because it has no file `checkpoint`: name the folder of one",
+        folder.display()
+    )
 }
 
 /// Reads a public key.
