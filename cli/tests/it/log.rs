@@ -129,7 +129,7 @@ fn a_sealed_month_waits_for_its_beacon() {
 
     // The copy, taken back to its first entry, and continued in another way.
     let rolled = ["log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
-    says(folder, &rolled, 1, "the log was rolled back: it has 1 entries, and 4 were seen before");
+    says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, and 4 were seen before");
     let forks = ["log", "append", "copy", "--secret", "log.key", "--beacon", "swapped.json", "other.json"];
     run(folder, &forks, 0);
     beacon(folder, "third.json", 9, &"01".repeat(32));

@@ -103,7 +103,7 @@ impl Log {
         }
         if seen.size > *size {
             return Some(format!(
-                "the log was rolled back: it has {size} entries, and {} were seen before",
+                "the log was rolled back: its number of entries is {size}, and {} were seen before",
                 seen.size
             ));
         }

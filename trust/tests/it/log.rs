@@ -17,8 +17,8 @@ fn mutations() -> u64 {
 
 /// Other ways in each sweep, whose seed is in the variable.
 fn chance(purpose: &str, number: u64) -> Sampler {
-    let sweep = std::env::var("ARCADE_SWEEP").unwrap_or_default();
-    Seed::from_text(&format!("{purpose} {sweep}")).child("mutation", number).sampler()
+    let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
+    Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("mutation", number).sampler()
 }
 
 fn digest(text: &str) -> Digest {

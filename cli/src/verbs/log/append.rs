@@ -1,6 +1,6 @@
 //! `arcade log append`: new entries.
 
-use super::{row, rules};
+use super::{counted, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::trusted::{open_secret, signatures_of};
@@ -113,9 +113,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(format_args!("{number}  {}", entry.line()));
     }
     console.say(format_args!(
-        "{}: {} entries, signed by {}",
+        "{}: {}, signed by {}",
         checkpoint.origin,
-        checkpoint.size,
+        counted(checkpoint.size),
         secret.public().id()
     ));
     if checkpoint.size == new.len() as u64 {

@@ -1,8 +1,7 @@
 //! `arcade log check`: the judgement of a log, or of a proof about it.
 
-use super::{absent, append, checkpoint, public_key, read_text, row, rules};
+use super::{absent, append, checkpoint, counted, public_key, read_text, row, rules};
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::verbs::release::in_pool;
 use crate::whole_file;
@@ -114,7 +113,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(format_args!("`{name}` was committed to, and has no root yet"));
     }
     problems.iter().for_each(|problem| console.say(problem));
-    let entries = count(size as usize, "entry").replace("entrys", "entries");
+    let entries = counted(size);
     console.say(match sound {
         true => format!("{}: sound; {entries}, signed by {}", log.checkpoint.origin, key.id()),
         false => format!("{}: NOT sound; problems: {}", log.checkpoint.origin, problems.len()),

@@ -1,6 +1,6 @@
 //! `arcade log cosign`: the signature of a witness.
 
-use super::{checkpoint, open, public_key};
+use super::{checkpoint, counted, open, public_key};
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::trusted::open_secret;
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     problems.iter().for_each(|problem| console.say(problem));
     console.say(match sound {
         true => {
-            format!("{}: {} entries, signed by {}", log.checkpoint.origin, log.checkpoint.size, args.witness)
+            format!("{}: {}, signed by {}", log.checkpoint.origin, counted(log.checkpoint.size), args.witness)
         }
         false => format!("{}: NOT signed", log.checkpoint.origin),
     });

@@ -49,6 +49,11 @@ fn open(folder: &Path) -> Result<Log, Failure> {
     Log::open(folder)?.ok_or_else(|| absent(folder))
 }
 
+/// The number of entries of a log, for people.
+fn counted(size: u64) -> String {
+    if size == 1 { "1 entry".to_owned() } else { format!("{size} entries") }
+}
+
 /// The failure of a folder without a log.
 fn absent(folder: &Path) -> Failure {
     malformed!(
