@@ -214,4 +214,20 @@ mod tests {
             );
         }
     }
+
+    /// Under another theme too, what is pushed off a mat lands on floor: no cell is bare.
+    #[test]
+    fn puzzles_have_floor_under_every_theme() {
+        for rules in PushRules::ALL.into_iter().filter(|rules| rules.name().contains("mat")).take(2) {
+            let retold = Rethemed::of(&rules.game(), Seed::from_text("floor")).unwrap();
+            let game = Game::from_source(&engine::syntax::print(&retold.description)).unwrap();
+            let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
+            let puzzles = PuzzleLevels { config, tiers: vec![Tier::One], locks: None };
+            let generator = puzzles.generator(&game, 0).unwrap();
+            let made = (0..8)
+                .find_map(|draw| generator.create_solved(&game, Seed::from_text("x").child("draw", draw)));
+            let (level, _) = made.unwrap_or_else(|| panic!("a level of {}", rules.name()));
+            assert!(!level.cells().contains(&b' '), "{}\n{level}", rules.name());
+        }
+    }
 }

@@ -133,14 +133,16 @@ impl PushRules {
             mapping.push_str("    s > floor sill\n");
             rules.insert_str(0, "    load sill > undoAll\n");
         }
+        // What a thing pushed off its mat lands on is seen.
+        let hidden = if self.ends.contains(&Some(Mat)) { "" } else { " hidden=True" };
         let ending = match kinds {
             1 => "SpriteCounter stype=crate limit=0 win=True",
             _ => "MultiSpriteCounter stype1=crate stype2=barrel limit=0 win=True",
         };
         format!(
-            "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    wall > Immovable color=GRAY\n{marks}    \
+            "BasicGame\n  SpriteSet\n    floor > Immovable{hidden}\n    wall > Immovable color=GRAY\n{marks}    \
              load > Passive\n{sprites}    avatar > MovingAvatar color=YELLOW\n  LevelMapping\n    . > floor\n    w > wall\n\
-             {mapping}    p > floor avatar\n  InteractionSet\n    avatar wall > stepBack\n    load avatar > bounceForward\n    \
+             {mapping}    A > floor avatar\n  InteractionSet\n    avatar wall > stepBack\n    load avatar > bounceForward\n    \
              load wall > undoAll\n{rules}  TerminationSet\n    {ending}\n    Timeout limit=1000 win=False\n"
         )
     }
