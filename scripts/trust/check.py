@@ -213,8 +213,11 @@ class Keys:
         if found is None or digest != keys["digest"]:
             return "it names no set of keys that follows from the one that is trusted"
         revoked = {key["key"] for key in self.sets[self.newest][0]["revoked"]}
-        count = self.count(found, message, signatures, revoked)
-        return None if count >= int(found["threshold"]) else f"{count} keys signed, and {found['threshold']} have to"
+        for group in (found, self.sets[self.newest][0]):
+            count = self.count(group, message, signatures, revoked)
+            if count < int(group["threshold"]):
+                return f"{count} keys of the set {group['version']} signed, and {group['threshold']} have to"
+        return None
 
 
 def signatures_of(path):

@@ -245,10 +245,16 @@ impl Signatures {
     }
 
     fn judge_statement(&self, file: &str, statement: &Statement, anchor: &Anchor) -> Signed {
-        let Ok(message) = statement.to_bytes() else { return Signed::default() };
-        let mut problems = Vec::new();
         let commit = statement.provenance.commit.clone();
         let lockfile = Some(statement.provenance.lockfile);
+        let refuse = |problems: Vec<String>, newest: Option<&KeySet>| {
+            let (keys, commit) = (newest.map(|set| set.version), commit.clone());
+            Signed { problems, keys, commit, lockfile, ..Signed::default() }
+        };
+        let Ok(message) = statement.to_bytes() else {
+            return refuse(vec![format!("{file}: it has no canonical text")], None);
+        };
+        let mut problems = Vec::new();
         let (set, newest) = match anchor {
             Anchor::Key(key) => {
                 let alone = single(key);
@@ -262,34 +268,30 @@ impl Signatures {
                 let newest = self.newest(anchor, &mut problems);
                 let Some(keys) = statement.keys else {
                     problems.push(format!("{file}: it names no set of keys, and so may be outdated"));
-                    return Signed {
-                        problems,
-                        keys: Some(newest.version),
-                        commit,
-                        lockfile,
-                        ..Signed::default()
-                    };
+                    return refuse(problems, Some(&newest));
                 };
-                match self.ancestor(&newest, keys.version, keys.digest) {
-                    Some(set) => (set, Some(newest)),
-                    None => {
-                        problems.push(format!(
-                            "{file}: it names the set of keys {} with digest {}, which does not lead to or from the one \
-                             that you trust, {} ({})",
-                            keys.version,
-                            keys.digest,
-                            anchor.version,
-                            anchor.digest().map_or_else(|_| String::new(), |digest| digest.to_string())
-                        ));
-                        return Signed {
-                            problems,
-                            keys: Some(newest.version),
-                            commit,
-                            lockfile,
-                            ..Signed::default()
-                        };
-                    }
+                let Some(set) = self.ancestor(&newest, keys.version, keys.digest) else {
+                    problems.push(format!(
+                        "{file}: it names the set of keys {} with digest {}, which does not lead to or from the one that \
+                         you trust, {} ({})",
+                        keys.version,
+                        keys.digest,
+                        anchor.version,
+                        anchor.digest().map_or_else(|_| String::new(), |digest| digest.to_string())
+                    ));
+                    return refuse(problems, Some(&newest));
+                };
+                // The threshold of an earlier set may have been lower, and its keys may be retired.
+                let found = newest.signers(&message, self.of(file));
+                if (found.names.len() as u32) < newest.threshold {
+                    problems.push(format!(
+                        "{file}: signed by {} of the newest set of keys, {}, and {} have to: sign it again under that set",
+                        found.listed(),
+                        newest.version,
+                        newest.threshold
+                    ));
                 }
+                (set, Some(newest))
             }
         };
         let (counting, gone) = match &newest {

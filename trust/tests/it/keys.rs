@@ -146,6 +146,29 @@ fn a_lost_key_is_revoked_and_replaced() {
     refused(home.path(), &set_anchor(&first), "the revoked key of `bo` is not revoked any more");
 }
 
+/// Whoever has one key cannot go back to a set in which one sufficed.
+#[test]
+fn earlier_thresholds_count_no_longer() {
+    let home = tempfile::tempdir().unwrap();
+    let [ada, bo] = ["ada", "bo"].map(Holder::new);
+    let first = KeySet::next(None, Some(1), vec![ada.named(), bo.named()], &[]).unwrap();
+    let second = KeySet::next(Some(&first), Some(2), Vec::new(), &[]).unwrap();
+    publish(home.path(), &first, &[]);
+    sign(home.path(), Some(&first), &[&ada]);
+    assert_eq!(judge(home.path(), &set_anchor(&first)).problems, [""; 0]);
+    publish(home.path(), &second, &[&ada, &bo]);
+    for anchor in [&first, &second] {
+        refused(
+            home.path(),
+            &set_anchor(anchor),
+            "signed by ada of the newest set of keys, 2, and 2 have to",
+        );
+    }
+    // A statement of before holds if enough keys of today have signed it.
+    sign(home.path(), Some(&first), &[&bo]);
+    assert_eq!(judge(home.path(), &set_anchor(&first)).problems, [""; 0]);
+}
+
 #[test]
 fn another_history_of_keys_is_refused() {
     let home = tempfile::tempdir().unwrap();
