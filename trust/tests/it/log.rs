@@ -480,7 +480,7 @@ fn altered_rows_are_told() {
             4 => (better.interval.1 += share, "`interval.high`").1,
             5 => (better.score = Some(3.5 + share), "`score`").1,
             6 => (better.score = None, "`score`").1,
-            7 => (better.player = format!("mcts:{by}0"), "`player`").1,
+            7 => (better.player = format!("mcts:{by}1"), "`player`").1,
             8 => (better.horizon = format!("{by}0"), "`horizon`").1,
             _ => (better.track = None, "`track`").1,
         };
