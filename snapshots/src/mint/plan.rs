@@ -4,6 +4,7 @@ use super::MintError;
 use super::job::{FrozenGame, JobResult};
 use crate::corpus::Corpus;
 use crate::marks::{MarkPlayers, MarksPart};
+use crate::memory;
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::Secret;
 use crate::tiers::PuzzlePart;
@@ -231,6 +232,9 @@ impl<'a> Plan<'a> {
         if let Some(locks) = locks {
             decisive["locks"] = serde_json::json!(locks);
         }
+        if let Some(memory) = self.recipe.memory {
+            decisive["memory"] = serde_json::json!(memory);
+        }
         Ok(canonical_digest(&decisive)?)
     }
 
@@ -365,6 +369,9 @@ impl<'a> Plan<'a> {
         let measured = !self.recipe.tiers.is_empty() || self.recipe.marks.is_some();
         let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria, measured));
         let mut games: Vec<FrozenGame> = games.collect();
+        if let Some(part) = self.recipe.memory {
+            games.iter_mut().for_each(|game| memory::toss(game, self.seed, part, criteria));
+        }
         if let Some(asked) = &self.recipe.marks {
             games.iter_mut().try_for_each(|game| self.mark(game, asked))?;
         }

@@ -14,6 +14,7 @@ use super::plan::{Job, Plan};
 use crate::folder::{self, Limits};
 use crate::manifest::{Item, MANIFEST_LIMIT};
 use crate::marks::{MarksPart, shape_problem};
+use crate::memory;
 use crate::recipe::Recipe;
 use crate::verify::{number_problems, replay_problem};
 use crate::version::{CURRENT, MintedBy};
@@ -291,7 +292,7 @@ impl Shards {
 
 /// The first fault of a game in a result of a plan with this root seed.
 fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option<String> {
-    let FrozenGame { text, card, difficulties, levels, witnesses, paths, marks } = frozen;
+    let FrozenGame { text, card, difficulties, levels, witnesses, paths, marks, .. } = frozen;
     let id = card.id.escape_debug();
     let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
@@ -322,7 +323,10 @@ fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option
         number_problems(told, &level).into_iter().next().or_else(|| replay_problem(episode, &game, &level))
     };
     let each = levels.iter().enumerate().zip(witnesses.iter().zip(&card.levels));
-    each.enumerate().find_map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)))
+    let wrong = each.enumerate();
+    let wrong = wrong.map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)));
+    let paired = || Some(format!("`{id}` has {}", memory::shape_problem(frozen, &game, root)?));
+    wrong.flatten().next().or_else(paired)
 }
 
 fn unsound(folder: &Path, what: String) -> MergeError {
