@@ -86,6 +86,7 @@ verbs! {
     Report: report,
     Calibrate: calibrate,
     Scale: scale,
+    Contamination: contamination,
     Diff: diff,
     Export: export,
     Play: play,
