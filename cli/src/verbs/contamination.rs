@@ -42,6 +42,9 @@ pub(crate) struct Args {
     jobs: Option<usize>,
 }
 
+/// The power below which a test that finds nothing says little.
+const SMALL: f64 = 0.8;
+
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let released = match in_pool(args.jobs, || Released::read(&args.release))? {
         Ok(released) => released,
@@ -152,6 +155,11 @@ fn next(args: &Args) -> String {
 
 fn say(player: &PlayerMemory, args: &Args, console: &Console) {
     console.say(format_args!("\n{}: {}", player.player, player.evidence.words()));
+    if let Some(power) = weak(player) {
+        console.say(format_args!(
+            "  these episodes say little: a player that knows half of the levels would be found with probability {power:.2}"
+        ));
+    }
     if player.solutions.is_none() && player.games.is_none() {
         return console.say(format_args!("  {}", next(args)));
     }
@@ -181,6 +189,13 @@ fn say(player: &PlayerMemory, args: &Args, console: &Console) {
             count(player.unknown as usize, "episode")
         ));
     }
+}
+
+/// Returns the greater power against a player that knows half of the levels, if nothing was found and it is small.
+fn weak(player: &PlayerMemory) -> Option<f64> {
+    let half = player.power.iter().find(|power| power.share == 0.5)?;
+    let greatest = half.solutions.into_iter().chain(half.games).reduce(f64::max)?;
+    (!player.evidence.is_seen() && greatest < SMALL).then_some(greatest)
 }
 
 fn say_power(power: &[Power], console: &Console) {

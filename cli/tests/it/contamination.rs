@@ -149,6 +149,7 @@ fn a_clean_player_is_not() {
     let alone = ["contamination", "clean-published", "clean-withheld", "--release", "revealed"];
     let said = text(&run(folder, &alone, 0).stdout);
     assert!(said.contains("nearest-goal: consistent with not having seen"), "{said}");
+    assert!(said.contains("these episodes say little"), "{said}");
 }
 
 #[test]

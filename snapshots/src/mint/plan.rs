@@ -73,6 +73,8 @@ const CONSTRUCTIVE: [f64; 3] = [0.03, 5.4, 16.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
+/// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
+const SECOND_WINS: f64 = 1.2;
 /// The calls of a search for a win for which the costs with gates hold.
 const GATED_BUDGET: f64 = 1e6;
 /// The maximum number of fictions to draw for a puzzle, to find one of its theme.
@@ -170,7 +172,8 @@ impl<'a> Plan<'a> {
                 of(each, self.puzzle_part(job).map_or(0, |part| part.levels), &self.recipe.criteria)
             }
         };
-        jobs.iter().map(|job| cost(job) + marks(job)).sum()
+        let tossed = if self.recipe.memory.is_some_and(|part| part.witnesses) { SECOND_WINS } else { 1.0 };
+        jobs.iter().map(|job| tossed * cost(job) + marks(job)).sum()
     }
 
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
