@@ -5,7 +5,10 @@ use engine::Digest;
 use serde_json::Value;
 use snapshots::mint::{Memory, Plan, lay_out, make_jobs};
 use snapshots::released::{Released, ReleasedGame};
-use snapshots::{Corpus, CorpusCard, CorpusGame, MANIFEST_FILE, Recipe, Secret};
+use snapshots::{
+    Corpus, CorpusCard, CorpusGame, Item, MANIFEST_FILE, Manifest, Recipe, Regeneration, Secret,
+};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::sync::LazyLock;
@@ -224,15 +227,64 @@ fn solutions_are_revealed_before_the_rest() {
     assert!(said.contains("missing"), "{said}");
 }
 
+/// A release's seed gives all that its coins withheld, again.
+#[test]
+fn coins_are_minted_again_bit_for_bit() {
+    let (corpus, store) = (corpus(), Memory::default());
+    let regeneration = Regeneration::of(&COINS.path().join("revealed")).unwrap();
+    let plan = regeneration.plan(&corpus).unwrap();
+    make_jobs(&plan, plan.jobs(), &store, &()).unwrap();
+    let minted = regeneration.compare(&plan, &store, Digest::of(b""), &mut |_, _| Ok(())).unwrap();
+    assert_eq!(minted.compared.differences, Vec::<String>::new());
+}
+
+/// A change of the files of a release.
+type Forgery<'a> = &'a dyn Fn(&mut BTreeMap<String, Vec<u8>>);
+
 #[test]
 fn what_was_withheld_is_verified() {
     let said = text(&run(COINS.path(), &["verify", "revealed"], 0).stdout);
     assert!(said.contains("24 witnesses replayed to a win\n"), "{said}");
-    let home = tempfile::tempdir().unwrap();
-    let copy = home.path().join("copy");
-    copy_tree(&COINS.path().join("revealed"), &copy);
-    let sibling = files(&copy).into_keys().find(|path| path.starts_with("held/siblings/")).unwrap();
-    fs::write(copy.join(&sibling), "BasicGame\n").unwrap();
-    let said = text(&run(home.path(), &["verify", "copy"], 1).stdout);
-    assert!(said.contains(&sibling), "{said}");
+    // Forgeries with a root of their own.
+    let forged = |change: Forgery<'_>, words: &str| {
+        let (home, mut all) = (tempfile::tempdir().unwrap(), files(&COINS.path().join("revealed")));
+        let mut manifest = Manifest::parse(&all.remove(MANIFEST_FILE).unwrap()).unwrap();
+        change(&mut all);
+        manifest.items = all.iter().map(|(path, content)| Item::of(path.clone(), content)).collect();
+        manifest.seal_root().unwrap();
+        all.insert(MANIFEST_FILE.to_owned(), manifest.to_bytes().unwrap());
+        for (path, content) in all {
+            let path = home.path().join("forged").join(path);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, content).unwrap();
+        }
+        let said = text(&run(home.path(), &["verify", "forged"], 1).stdout);
+        assert!(said.contains(words), "{words}: {said}");
+    };
+    let all = files(&COINS.path().join("revealed"));
+    let first = |part: &str| all.keys().find(|path| path.starts_with(part)).unwrap().clone();
+    let (second, sibling) = (first("held/seconds/"), first("held/siblings/"));
+    let won = second.replace("seconds/", "");
+    let swap = |files: &mut BTreeMap<String, Vec<u8>>| {
+        let (one, other) = (files[&won].clone(), files[&second].clone());
+        files.extend([(won.clone(), other), (second.clone(), one)]);
+    };
+    forged(&swap, &format!("{second}: its coin publishes it"));
+    let repeat = |files: &mut BTreeMap<String, Vec<u8>>| {
+        files.insert(second.clone(), files[&won].clone());
+    };
+    forged(&repeat, &format!("{second}: it begins like the win that is published"));
+    let other_rules = |files: &mut BTreeMap<String, Vec<u8>>| {
+        let changed = text(&files[&sibling]).replace("scoreChange=1", "scoreChange=2");
+        files.insert(sibling.clone(), changed.into_bytes());
+    };
+    forged(&other_rules, &format!("{sibling}: its rules are not those"));
+    let without_level = |files: &mut BTreeMap<String, Vec<u8>>| {
+        files.remove(&sibling.replace("game.vgdl", "lvl0.txt"));
+    };
+    forged(&without_level, "lvl0.txt: not committed to");
+    let foreign = |files: &mut BTreeMap<String, Vec<u8>>| {
+        files.insert("held/siblings/x/game.vgdl".to_owned(), files[&sibling].clone());
+    };
+    forged(&foreign, "held/siblings/x/game.vgdl: not a file of a sealed release");
 }
