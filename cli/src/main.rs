@@ -91,6 +91,7 @@ verbs! {
     Report: report,
     Calibrate: calibrate,
     Scale: scale,
+    Contamination: contamination,
     Diff: diff,
     Export: export,
     Play: play,

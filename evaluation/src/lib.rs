@@ -8,6 +8,7 @@
 pub mod answer;
 pub mod client;
 mod commitment;
+pub mod contamination;
 pub mod encoding;
 mod error;
 pub mod legend;

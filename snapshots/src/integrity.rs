@@ -8,6 +8,7 @@ use std::path::Path;
 use crate::error::SnapshotError;
 use crate::folder::{self, Listing};
 use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
+use crate::memory::{has_second_wins, is_solution};
 use crate::papers::{self, Untracked};
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
@@ -111,15 +112,25 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    // A sealed release withholds some of its files until it is revealed: all of them or none.
+    // A sealed release withholds some of its files until it is revealed: all of them or none. If coins have chosen between wins,
+    // those that they published may be there already.
     let is_held = |path: &str| manifest.kind == ReleaseKind::Sealed && path.starts_with(HELD);
-    let all_held = manifest
-        .items
-        .iter()
-        .filter(|item| is_held(&item.path))
-        .all(|item| awaited.contains_key(item.path.as_str()));
-    let missing = awaited.into_keys().filter(|path| !(named.contains(*path) || (all_held && is_held(path))));
-    problems.extend(missing.map(|path| Problem { path: path.into(), flaw: Flaw::Missing }));
+    let stays = |path: &str| is_held(path) && !is_solution(path);
+    let lacks_all = |of: &dyn Fn(&str) -> bool| {
+        manifest
+            .items
+            .iter()
+            .filter(|item| of(&item.path))
+            .all(|item| awaited.contains_key(item.path.as_str()))
+    };
+    let withheld: &dyn Fn(&str) -> bool = match () {
+        () if lacks_all(&is_held) => &is_held,
+        () if has_second_wins(manifest) && lacks_all(&stays) => &stays,
+        () => &|_| false,
+    };
+    let is_missing = |path: &&str| !(named.contains(*path) || withheld(path));
+    let missing: Vec<&str> = awaited.keys().copied().filter(is_missing).collect();
+    problems.extend(missing.into_iter().map(|path| Problem { path: path.into(), flaw: Flaw::Missing }));
     Ok(problems)
 }
 

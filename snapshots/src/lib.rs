@@ -60,6 +60,7 @@ mod integrity;
 mod known;
 mod manifest;
 pub mod marks;
+pub mod memory;
 pub mod merkle;
 pub mod mint;
 mod papers;
@@ -92,7 +93,9 @@ pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
 pub use recipe::{CorpusPart, GeneratedPart, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
 pub use regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
-pub use sealed::{COMMITS_TO_RECIPE_SINCE, HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
+pub use sealed::{
+    COMMITS_TO_RECIPE_SINCE, HELD, Reveal, RevealError, SECRET_FILE, Secret, read_secret, reveal,
+};
 pub use tiers::{PuzzlePart, Tiers};
 pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
 pub use witness::Witness;

@@ -3,6 +3,7 @@
 use crate::beacon::BeaconPart;
 use crate::known::Known;
 use crate::marks::MarksPart;
+use crate::memory::MemoryPart;
 use crate::sealed::{self, Secret};
 use crate::tiers::{PuzzlePart, PuzzleSection, Tiers};
 use engine::{Digest, Seed};
@@ -62,6 +63,9 @@ pub struct Recipe {
     /// The marks: players that never change, whose results on each level are kept in the release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<MarksPart>,
+    /// The coins for tests of memory: second renamings of games, second wins of levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory: Option<MemoryPart>,
     /// The quotas for kinds of games.
     #[serde(default)]
     pub taxonomy: Taxonomy,
@@ -246,7 +250,7 @@ impl Recipe {
     /// The first problem, with its position or key.
     pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
         let recipe = Recipe { seed: None, commitment: None, ..Recipe::parse(text)? };
-        Recipe { seed: Some("to be drawn".to_owned()), ..recipe.clone() }.check()?;
+        Recipe { commitment: Some(Digest::of(b"to be drawn")), ..recipe.clone() }.check()?;
         recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(true))?;
         Ok(recipe)
     }
@@ -288,9 +292,8 @@ impl Recipe {
         {
             part.as_ref().map_or(Ok(()), |part| part.check(&section, &self.tiers))?;
         }
-        if let Some(marks) = &self.marks {
-            marks.check()?;
-        }
+        self.marks.as_ref().map_or(Ok(()), MarksPart::check)?;
+        self.memory.as_ref().map_or(Ok(()), |part| part.check(self.commitment))?;
         let (old, new) = (&self.corpus, &self.generated);
         for (key, value, least, most) in [
             ("corpus.games", old.games, 0, 10_000),

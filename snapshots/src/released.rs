@@ -4,10 +4,11 @@ use crate::contents::Contents;
 use crate::integrity::Integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::marks::Marks;
+use crate::memory::{PREFIX, SecretGame, second_path, sibling_path};
 use crate::verify::{Verification, verify};
 use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
-use engine::{Episode, Game, Level};
+use engine::{Action, Episode, Game, Level};
 use forge::card::Card;
 use rayon::prelude::*;
 use std::path::Path;
@@ -34,6 +35,19 @@ pub struct ReleasedGame {
     pub game: Game,
     /// The levels, in the order of the card.
     pub levels: Vec<ReleasedLevel>,
+    /// The sibling that a coin withheld, if there is one and it was revealed.
+    pub sibling: Option<ReleasedSibling>,
+}
+
+/// The sibling of a game: the same rules and levels under other names.
+#[derive(Clone, Debug)]
+pub struct ReleasedSibling {
+    /// The text, as in the release.
+    pub source: String,
+    /// The compiled game.
+    pub game: Game,
+    /// The levels, with their texts as in the release.
+    pub levels: Vec<(String, Level)>,
 }
 
 /// A level of a release.
@@ -45,6 +59,18 @@ pub struct ReleasedLevel {
     pub level: Level,
     /// The episode that wins it, if the release holds one.
     pub witness: Option<Episode>,
+    /// The win that a coin withheld, if there is one and it was revealed.
+    pub second: Option<Episode>,
+}
+
+impl ReleasedLevel {
+    /// The beginnings by which the published win and the withheld one are told apart: of equal length, at most [`PREFIX`] actions,
+    /// and different; `None` unless both are there.
+    pub fn beginnings(&self) -> Option<[Vec<Action>; 2]> {
+        let (published, withheld) = (&self.witness.as_ref()?.actions, &self.second.as_ref()?.actions);
+        let common = PREFIX.min(published.len()).min(withheld.len());
+        Some([published, withheld].map(|actions| actions[..common].to_vec()))
+    }
 }
 
 /// The reasons why a release cannot be read.
@@ -114,12 +140,28 @@ fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<R
         let witness = witness_path(manifest.kind, &card.id, number);
         let text = need(&file)?;
         let level = game.level(&text).map_err(|_| changed(&file))?;
-        let text_of_witness = read(witness.clone())?;
-        let parse = |text: String| serde_json::from_str::<Witness>(&text);
-        let witness = text_of_witness.map(parse).transpose().map_err(|_| ReleasedError::Changed(witness))?;
-        let witness = witness.map(|witness| witness.episode);
-        Ok(ReleasedLevel { text, level, witness })
+        let episode = |path: String| -> Result<Option<Episode>, ReleasedError> {
+            let parse = |text: String| serde_json::from_str::<Witness>(&text);
+            let witness = read(path.clone())?.map(parse).transpose();
+            Ok(witness.map_err(|_| ReleasedError::Changed(path))?.map(|witness| witness.episode))
+        };
+        let (witness, second) = (episode(witness)?, episode(second_path(&card.id, number))?);
+        Ok(ReleasedLevel { text, level, witness, second })
     };
-    let levels = (0..card.levels.len()).map(level).collect::<Result<_, ReleasedError>>()?;
-    Ok(ReleasedGame { card, source, game, levels })
+    let levels: Vec<ReleasedLevel> =
+        (0..card.levels.len()).map(level).collect::<Result<_, ReleasedError>>()?;
+    let path = sibling_path(&card.id, "game.vgdl");
+    let sibling = match read(path.clone())? {
+        None => None,
+        Some(source) => {
+            let text = |number| {
+                let path = sibling_path(&card.id, &format!("lvl{number}.txt"));
+                read(path.clone())?.ok_or(ReleasedError::Changed(path))
+            };
+            let texts: Vec<String> = (0..levels.len()).map(text).collect::<Result<_, ReleasedError>>()?;
+            let secret = SecretGame::load(&source, &texts).map_err(|_| ReleasedError::Changed(path))?;
+            Some(ReleasedSibling { source, game: secret.game, levels: secret.levels })
+        }
+    };
+    Ok(ReleasedGame { card, source, game, levels, sibling })
 }

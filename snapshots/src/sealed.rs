@@ -5,6 +5,7 @@ use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest, ReleaseKind};
 use crate::marks::Marks;
+use crate::memory::{SIBLINGS, has_second_wins, is_solution};
 use crate::papers::{self, IGNORED_NAMES, PAPERS_LIMITS};
 use crate::witness::{Witness, descendant};
 use crate::{Draft, SnapshotError};
@@ -200,12 +201,27 @@ pub enum RevealError {
     /// It is open, or has no commitment.
     #[error("`{0}` is not sealed: there is nothing to reveal")]
     Open(String),
+    /// No coin has chosen between wins.
+    #[error(
+        "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are revealed with all else, \
+         without --solutions"
+    )]
+    NoSecondWins(String),
     /// The two parts are not those that the manifest commits to.
     #[error("the two parts are not what the manifest commits to: {}", .0.join("; "))]
     Problems(Vec<String>),
     /// A part cannot be read, or the whole cannot be written.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
+}
+
+/// The part of what is withheld that is revealed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reveal {
+    /// All of it.
+    All,
+    /// The wins that coins published; the other ones, siblings, marks and the secret stay withheld.
+    Solutions,
 }
 
 /// Merges the two parts of a sealed release, `public` and `held`, into a draft: the files of both, and the papers. The
@@ -217,11 +233,14 @@ pub enum RevealError {
 /// # Errors
 /// A file is missing, changed or unlisted, the seed or the nonce is not the one committed to, or the file system
 /// refuses.
-pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, RevealError> {
+pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result<Manifest, RevealError> {
     let integrity = check_integrity(public)?;
     let manifest = integrity.manifest;
     if manifest.commitment.is_none() {
         return Err(RevealError::Open(manifest.name));
+    }
+    if what == Reveal::Solutions && !has_second_wins(&manifest) {
+        return Err(RevealError::NoSecondWins(manifest.name));
     }
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
     let listing = folder::list_but(held, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
@@ -242,7 +261,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
         let bytes = folder::read(part, path, Limits::SNAPSHOT.file_bytes)?;
         if Digest::of(&bytes) != item.digest || bytes.len() as u64 != item.size {
             problems.push(format!("{}: not the file that was committed to", item.path));
-        } else {
+        } else if what == Reveal::All || !item.path.starts_with(HELD) || is_solution(&item.path) {
             draft.write(&item.path, &bytes)?;
         }
     }
@@ -257,7 +276,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
     }
     for paper in &integrity.beside.papers {
         let content = folder::read(public, &paper.path, PAPERS_LIMITS.file_bytes)?;
-        draft.write(&paper.path, &papers::revealed(&paper.path, content))?;
+        draft.write(&paper.path, &papers::revealed(&paper.path, content, what))?;
     }
     draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
     Ok(manifest)
@@ -272,7 +291,8 @@ fn unrelated_witnesses(
 ) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     let marks = Marks::path(ReleaseKind::Sealed);
-    for path in files.iter().filter(|path| **path != SECRET_FILE && **path != marks) {
+    let is_witness = |path: &&&str| !([SECRET_FILE, &marks].contains(*path) || path.starts_with(SIBLINGS));
+    for path in files.iter().filter(is_witness) {
         let file = path.strip_prefix(HELD).expect("it is held");
         let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
         match serde_json::from_slice::<Witness>(&bytes) {

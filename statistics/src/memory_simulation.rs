@@ -34,6 +34,29 @@ impl MemoryTrial {
         flagged(trials, alpha, || (0..pairs).map(|_| pair()).collect())
     }
 
+    /// The same where a coin decides over several pairs of episodes, as many as `pairs` has for each: those of the levels of a game,
+    /// which share its difficulty and its names.
+    pub fn sibling_games(&self, pairs: &[u64], alpha: f64, trials: u64, seed: u64) -> f64 {
+        let mut draws = Draws::new(seed);
+        let ability = self.spread.ability(self.player.clean);
+        let Spread { games, levels, matches } = self.spread;
+        let of_game = (games * games + matches * matches).sqrt();
+        let mut coin = |pairs: u64| {
+            let logit = ability - self.hurt + of_game * draws.normal();
+            let [published, sealed] = [0, 1].map(|_| logit + self.names * draws.normal());
+            let mut difference = 0;
+            for _ in 0..pairs {
+                let level = levels * draws.normal();
+                let is_known = draws.uniform() < self.player.share;
+                let chance = if is_known { self.player.known } else { logistic(published + level) };
+                difference += draws.successes(chance, 1) as i64;
+                difference -= draws.successes(logistic(sealed + level), 1) as i64;
+            }
+            difference
+        };
+        flagged(trials, alpha, || pairs.iter().map(|pairs| coin(*pairs)).collect())
+    }
+
     /// The same of the test by witness prefixes, with one episode on each of `levels`, which begins as either witness by chance with
     /// probability `by_chance`.
     pub fn prefixes(&self, levels: usize, by_chance: f64, alpha: f64, trials: u64, seed: u64) -> f64 {
@@ -79,6 +102,19 @@ mod tests {
         assert!(found >= 0.9, "{found}");
         let found = MemoryTrial { hurt: 0.0, ..trial(0.5) }.siblings(100, 0.01, 1000, 4);
         assert!(found >= 0.95, "{found}");
+    }
+
+    /// Levels of the same games show less than levels of different ones, and the level is kept.
+    #[test]
+    fn games_of_several_levels() {
+        let known = MemoryTrial { hurt: 0.0, ..trial(0.5) };
+        let [apart, together] =
+            [vec![1; 60], vec![5; 12]].map(|pairs| known.sibling_games(&pairs, 0.01, 1000, 6));
+        assert!(apart > together && together > 0.3, "{apart} {together}");
+        let alone = known.siblings(60, 0.01, 1000, 7);
+        assert!((apart - alone).abs() < 0.06, "{apart} {alone}");
+        let clean = trial(0.0).sibling_games(&[5; 40], 0.01, 4000, 8);
+        assert!(clean <= 0.014, "{clean}");
     }
 
     /// The power stated beforehand is that of the simulation.

@@ -2,6 +2,7 @@
 
 use crate::gates::{GATES, Gates};
 use crate::ladder::{LadderConfig, Rung};
+use agents::PortfolioConfig;
 use serde::{Deserialize, Serialize};
 
 engine::with_defaults! {
@@ -107,6 +108,18 @@ impl Criteria {
         let mut criteria = Criteria::of_generated_games();
         criteria.ask.retain(|name| name != "skill-overall");
         criteria
+    }
+
+    /// Returns the search for a win.
+    pub fn search(&self) -> PortfolioConfig {
+        PortfolioConfig {
+            budget: self.budget,
+            shortest: self.shortest,
+            foresight: self.foresight,
+            decision: self.decision,
+            depths: self.depths.clone(),
+            ..PortfolioConfig::default()
+        }
     }
 
     /// Returns all criteria: for generated games, of which there are many candidates.

@@ -186,14 +186,7 @@ impl Panel {
             None => [usize::MAX; 2],
             Some(allowance) => [allowance.idle_play(), allowance.random_play()],
         };
-        let search = PortfolioConfig {
-            budget: c.budget,
-            shortest: c.shortest,
-            foresight: c.foresight,
-            decision: c.decision,
-            depths: c.depths.clone(),
-            ..PortfolioConfig::default()
-        };
+        let search = c.search();
         let level: [(Stage, Box<dyn Validator + Send>); 8] = [
             (Stage::Start, Box::new(WellFormed)),
             (Stage::Start, Box::new(Readable)),

@@ -4,6 +4,7 @@ pub(crate) mod calibrate;
 pub(crate) mod clean;
 pub(crate) mod completions;
 pub(crate) mod conformance;
+pub(crate) mod contamination;
 pub(crate) mod describe;
 pub(crate) mod diff;
 pub(crate) mod docs;

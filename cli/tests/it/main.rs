@@ -2,6 +2,7 @@
 
 mod arcade;
 mod conformance;
+mod contamination;
 mod evaluate;
 #[cfg(feature = "parquet")]
 mod export;

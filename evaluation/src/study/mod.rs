@@ -21,7 +21,7 @@ mod leaderboard;
 mod marks;
 mod matrix;
 mod mirror;
-mod person;
+pub(crate) mod person;
 mod player;
 mod power;
 mod predictions;

@@ -9,7 +9,7 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The episodes of one person in a results folder.
-pub(super) struct PersonResults {
+pub(crate) struct PersonResults {
     player: Player,
     /// All that determines requests and answers, by path: `model.decoding.temperature`.
     facts: BTreeMap<String, String>,
@@ -24,7 +24,7 @@ const TWIN: &str = "games";
 impl PersonResults {
     /// Parts the episodes of a results folder by the versions of the model that answered. `surface` tells in words in what the
     /// games differ from those of an earlier folder, if they are twins of them.
-    pub(super) fn of(
+    pub(crate) fn of(
         entrant: &Entrant,
         surface: Option<&str>,
         episodes: Vec<EpisodeMetrics>,
@@ -63,7 +63,7 @@ impl PersonResults {
 }
 
 /// Returns the results with players that differ by name where their facts differ: the conditions name the differences.
-pub(super) fn told_apart(results: Vec<PersonResults>) -> Vec<(Player, Vec<EpisodeMetrics>)> {
+pub(crate) fn told_apart(results: Vec<PersonResults>) -> Vec<(Player, Vec<EpisodeMetrics>)> {
     let mut differing: BTreeMap<Player, BTreeMap<String, BTreeSet<Option<String>>>> = BTreeMap::new();
     let unserved = |person: &PersonResults| person.episodes.is_empty() && !person.facts.contains_key(SERVED);
     for person in &results {

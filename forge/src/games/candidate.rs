@@ -103,7 +103,7 @@ pub fn marked(titled: &Description, canary: &str) -> String {
 }
 
 /// A title as a folder name: lower-case letters, digits, single dashes.
-fn slug(title: &str) -> String {
+pub fn slug(title: &str) -> String {
     let mut slug = String::new();
     for c in title.chars() {
         if c.is_ascii_alphanumeric() {

@@ -18,7 +18,7 @@ mod rounds;
 
 pub mod report;
 
-pub use candidate::{Candidate, MadeGame, Step, marked};
+pub use candidate::{Candidate, MadeGame, Step, marked, slug};
 pub use cast::Cast;
 pub use kept::{Kept, KeptGame};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};

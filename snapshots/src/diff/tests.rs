@@ -19,7 +19,7 @@ fn game(id: &str, source: &str, levels: &[&str], generated: bool) -> ReleasedGam
     let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}\n{source}"));
     let level = |text: &&str| {
         let level = game.level(text).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
-        ReleasedLevel { text: level.to_string(), level, witness: None }
+        ReleasedLevel { text: level.to_string(), level, witness: None, second: None }
     };
     let levels: Vec<ReleasedLevel> = levels.iter().map(level).collect();
     let mut card: Card = card(id, &vec![[5, 5]; levels.len()]);
@@ -27,7 +27,7 @@ fn game(id: &str, source: &str, levels: &[&str], generated: bool) -> ReleasedGam
         let patterns = vec!["goal/gather".to_owned()];
         card.origin = Origin::Generated { generator: "g".to_owned(), patterns, candidate: 0 };
     }
-    ReleasedGame { card, source: source.to_owned(), levels, game }
+    ReleasedGame { card, source: source.to_owned(), levels, game, sibling: None }
 }
 
 fn release(games: Vec<ReleasedGame>) -> Released {

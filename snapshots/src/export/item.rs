@@ -27,7 +27,7 @@ pub(super) struct ExportedGame<'a> {
 
 impl<'a> ExportedGame<'a> {
     pub(super) fn own(released: &'a ReleasedGame) -> ExportedGame<'a> {
-        let ReleasedGame { card, source, game, levels } = released;
+        let ReleasedGame { card, source, game, levels, .. } = released;
         ExportedGame {
             title: card.title.clone(),
             description: card.description.clone(),
@@ -46,7 +46,7 @@ impl<'a> ExportedGame<'a> {
         let game = Game::from_source(&twin.text).map_err(TwinError::Game)?;
         let level = |(number, (text, witness)): (usize, (String, Option<Episode>))| {
             let level = game.level(&text).map_err(|problems| TwinError::Level { number, problems })?;
-            Ok(ReleasedLevel { text, level, witness })
+            Ok(ReleasedLevel { text, level, witness, second: None })
         };
         let levels = twin.levels.into_iter().zip(twin.witnesses).enumerate().map(level);
         let levels: Vec<ReleasedLevel> = levels.collect::<Result<_, TwinError>>()?;

@@ -5,6 +5,7 @@ use super::job::FrozenGame;
 use super::{MintError, Plan};
 use crate::manifest::{FORMAT, Item, Manifest, ReleaseKind};
 use crate::marks::{GameMarks, LevelMarks, Marks, Wins};
+use crate::memory::{SecondWin, second_path, sibling_path};
 use crate::recipe::Recipe;
 use crate::sealed::{SECRET_FILE, Secret};
 use crate::witness::{Witness, witness_path};
@@ -52,7 +53,7 @@ impl<'a, 'b> Folder<'a, 'b> {
 
     /// Writes the files of a game.
     pub(super) fn game(&mut self, frozen: FrozenGame) -> Result<(), SnapshotError> {
-        let FrozenGame { text, mut card, levels, witnesses, paths, marks, .. } = frozen;
+        let FrozenGame { text, mut card, levels, witnesses, paths, marks, sibling, seconds, .. } = frozen;
         let folder = format!("games/{}", card.id);
         card.canary = self.canary.clone();
         let text = marked(&syntax::parse(&text).0, &self.canary);
@@ -65,6 +66,18 @@ impl<'a, 'b> Folder<'a, 'b> {
             let path = if self.kind == ReleaseKind::Sealed { path } else { Vec::new() };
             let witness = Witness { canary: self.canary.clone(), episode, path };
             self.file(witness_path(self.kind, &card.id, number), &json(&witness)?)?;
+        }
+        if let Some(sibling) = sibling {
+            let text = marked(&syntax::parse(&sibling.text).0, &self.canary);
+            self.file(sibling_path(&card.id, "game.vgdl"), text.as_bytes())?;
+            for (number, level) in sibling.levels.iter().enumerate() {
+                self.file(sibling_path(&card.id, &format!("lvl{number}.txt")), level.as_bytes())?;
+            }
+        }
+        for (number, second) in seconds.into_iter().enumerate() {
+            let Some(SecondWin { episode, path }) = second else { continue };
+            let witness = Witness { canary: self.canary.clone(), episode, path };
+            self.file(second_path(&card.id, number), &json(&witness)?)?;
         }
         if !marks.is_empty() {
             let of_level =
@@ -141,6 +154,10 @@ fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> 
             }
         }
     );
+    if recipe.memory.is_some() {
+        text += "Of two renamings of a game, or of two wins of a level, a coin publishes one; the other is committed to and withheld \
+                 until the reveal, to tell who has seen what was published (`arcade contamination`).\n\n";
+    }
     let _ = writeln!(text, "{}", card.in_words());
     let _ = writeln!(text, "| game | kind | levels | rules | what it is |\n|---|---|---|---|---|");
     for card in cards {

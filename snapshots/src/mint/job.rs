@@ -1,12 +1,12 @@
 //! The result of a job, as data that can be stored and shipped.
 
 use crate::marks::Wins;
-use crate::witness::descendant;
+use crate::memory::{SecondWin, Sibling};
+use crate::witness::{descendant, way_of_search};
 use engine::{Analysis, Episode, Seed};
 use forge::Tally;
 use forge::card::Card;
 use forge::games::{FoundLevel, MadeGame, Step};
-use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use validators::{Case, Criteria, Demand, Difficulty};
 
@@ -40,6 +40,12 @@ pub struct FrozenGame {
     /// For each level, the plays that its marks won; empty if the recipe asks for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,
+    /// The sibling that a coin withholds, if the recipe asks for one and there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sibling: Option<Sibling>,
+    /// For each level the win that a coin withholds, if there is one; empty if the recipe asks for none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub seconds: Vec<Option<SecondWin>>,
 }
 
 impl FrozenGame {
@@ -66,7 +72,8 @@ impl FrozenGame {
         let paths = paths.map(Option::unwrap_or_default).collect();
         let MadeGame { text, card, levels, witnesses, .. } = made;
         let levels = levels.iter().map(|found| found.level.to_string()).collect();
-        FrozenGame { text, card, difficulties, levels, witnesses, paths, marks: Vec::new() }
+        let (marks, sibling, seconds) = (Vec::new(), None, Vec::new());
+        FrozenGame { text, card, difficulties, levels, witnesses, paths, marks, sibling, seconds }
     }
 }
 
@@ -119,10 +126,6 @@ fn path(
     let places = (0..count as u64).map(move |place| to(&[("level", place), ("candidate", candidate)]));
     let place = find(judges, found.seed, Box::new(places))?;
     // Usually the search for a win; if it found none, a win that another judge has seen.
-    let searched = (0..ROUNDS).cartesian_product(0..PLAYERS);
-    let searched = searched.map(move |(round, player)| {
-        to(&[("winnable", 0), ("round", round), ("play", player), ("chance", 0)])
-    });
     let others = (0..PLAYS).flat_map(move |play| {
         [
             to(&[("skill", 0), ("chance", play)]),
@@ -131,15 +134,16 @@ fn path(
             to(&[("early-death", 0), ("chance", play)]),
         ]
     });
-    let proved = [to(&[("winnable", 0), ("systematic", 0)])].into_iter();
     let asked = to(&[("judges", 0)]);
     let asked_seed = descendant(found.seed, &asked);
-    let won = find(asked_seed, witness.seed, Box::new(proved.chain(searched).chain(others)))?;
+    let search = to(&[("winnable", 0)]);
+    let searched = way_of_search(descendant(asked_seed, &search), witness.seed);
+    let won = match searched {
+        Some(way) => search.into_iter().chain(way).collect(),
+        None => find(asked_seed, witness.seed, Box::new(others))?,
+    };
     Some(start.iter().cloned().chain(place).chain(asked).chain(won).collect())
 }
 
-/// Upper bounds for the rounds and players of the search for a win ([`agents::solve`]), and for the plays of other
-/// judges.
-const ROUNDS: u64 = 20;
-const PLAYERS: u64 = 64;
+/// The upper bound for the plays of judges other than the search for a win.
 const PLAYS: u64 = 10_000;

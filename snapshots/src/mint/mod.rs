@@ -183,7 +183,10 @@ pub fn lay_out(
     for &taken in &taken {
         let Contender { job: of, at, .. } = contenders[taken];
         // Without the steps from the secret to its seed, no witness could be checked after the reveal.
-        let is_traced = |game: &FrozenGame| !(plan.is_sealed() && game.paths.iter().any(Vec::is_empty));
+        let is_traced = |game: &FrozenGame| {
+            let of_seconds = game.seconds.iter().flatten().map(|second| &second.path);
+            !(plan.is_sealed() && game.paths.iter().chain(of_seconds).any(Vec::is_empty))
+        };
         let game = job(of)?.games.into_iter().nth(at).filter(is_traced);
         folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.jobs()[of])))?)?;
     }

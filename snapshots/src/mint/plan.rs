@@ -4,6 +4,7 @@ use super::MintError;
 use super::job::{FrozenGame, JobResult};
 use crate::corpus::Corpus;
 use crate::marks::{MarkPlayers, MarksPart};
+use crate::memory;
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::Secret;
 use crate::tiers::PuzzlePart;
@@ -72,6 +73,8 @@ const CONSTRUCTIVE: [f64; 3] = [0.03, 5.4, 16.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
+/// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
+const SECOND_WINS: f64 = 1.2;
 /// The calls of a search for a win for which the costs with gates hold.
 const GATED_BUDGET: f64 = 1e6;
 /// The maximum number of fictions to draw for a puzzle, to find one of its theme.
@@ -169,7 +172,8 @@ impl<'a> Plan<'a> {
                 of(each, self.puzzle_part(job).map_or(0, |part| part.levels), &self.recipe.criteria)
             }
         };
-        jobs.iter().map(|job| cost(job) + marks(job)).sum()
+        let tossed = if self.recipe.memory.is_some_and(|part| part.witnesses) { SECOND_WINS } else { 1.0 };
+        jobs.iter().map(|job| tossed * cost(job) + marks(job)).sum()
     }
 
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
@@ -230,6 +234,9 @@ impl<'a> Plan<'a> {
         });
         if let Some(locks) = locks {
             decisive["locks"] = serde_json::json!(locks);
+        }
+        if let Some(memory) = self.recipe.memory {
+            decisive["memory"] = serde_json::json!(memory);
         }
         Ok(canonical_digest(&decisive)?)
     }
@@ -365,6 +372,9 @@ impl<'a> Plan<'a> {
         let measured = !self.recipe.tiers.is_empty() || self.recipe.marks.is_some();
         let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria, measured));
         let mut games: Vec<FrozenGame> = games.collect();
+        if let Some(part) = self.recipe.memory {
+            games.iter_mut().for_each(|game| memory::toss(game, self.seed, part, criteria));
+        }
         if let Some(asked) = &self.recipe.marks {
             games.iter_mut().try_for_each(|game| self.mark(game, asked))?;
         }

@@ -79,8 +79,9 @@ pub(super) struct Contender {
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    title: String,
-    cast: Cast,
+    /// Its titles and casts: its own, and those of its sibling. Selection treats both alike, so that it tells nothing of a coin.
+    titles: Vec<String>,
+    casts: Vec<Cast>,
     /// The difficulties of its levels.
     pub(super) difficulties: Vec<Difficulty>,
     /// The tiers of its levels, if they were measured.
@@ -107,13 +108,18 @@ impl Contender {
             Some(item(&form, &likeness, &level))
         };
         let items = frozen.levels.iter().map(canonical).collect::<Option<Vec<_>>>()?;
+        let (mut titles, mut casts) = (vec![frozen.card.title.clone()], vec![Cast::of(&game)]);
+        if let Some(sibling) = &frozen.sibling {
+            titles.push(sibling.title.clone());
+            casts.push(Cast::of(&Game::from_source(&sibling.text).ok()?));
+        }
         Some(Contender {
             job,
             at,
             part,
             is_new: is_new(&frozen.card),
-            title: frozen.card.title.clone(),
-            cast: Cast::of(&game),
+            titles,
+            casts,
             difficulties: frozen.difficulties.clone(),
             tiers: frozen.card.levels.iter().filter_map(|level| level.tier).collect(),
             goal: kind.goal,
@@ -122,6 +128,10 @@ impl Contender {
             form,
             items,
         })
+    }
+
+    fn shares_cast(&self, other: &Contender) -> bool {
+        self.casts.iter().any(|cast| other.casts.iter().any(|known| cast.is_shared(known)))
     }
 
     /// Returns `true` if a previous release has a near copy of this new game, or an item of this corpus game.
@@ -250,8 +260,10 @@ impl Fit {
                 () if contender.is_known(plan) => "in a release before",
                 () if repeats => "a level twice",
                 () if of_new(&|other| contender.form.is_near(&other.form)) => "near to another candidate",
-                () if of_new(&|other| contender.title == other.title) => "a title twice",
-                () if of_new(&|other| contender.cast.is_shared(&other.cast)) => "a cast twice",
+                () if of_new(&|other| contender.titles.iter().any(|title| other.titles.contains(title))) => {
+                    "a title twice"
+                }
+                () if of_new(&|other| contender.shares_cast(other)) => "a cast twice",
                 () => {
                     fit.push(at);
                     continue;
@@ -398,10 +410,12 @@ impl<'a> Counts<'a> {
         *self.avatars.entry(game.avatar).or_default() += times;
         *self.kinds.entry((game.goal, game.avatar)).or_default() += times;
         // Titles with count 0 are removed, so only as many are kept as games are selected.
-        let same = self.titles.entry(&game.title).or_default();
-        *same += times;
-        if *same == 0 {
-            self.titles.remove(game.title.as_str());
+        for title in &game.titles {
+            let same = self.titles.entry(title.as_str()).or_default();
+            *same += times;
+            if *same == 0 {
+                self.titles.remove(title.as_str());
+            }
         }
     }
 

@@ -14,6 +14,7 @@ use super::plan::{Job, Plan};
 use crate::folder::{self, Limits};
 use crate::manifest::{Item, MANIFEST_LIMIT};
 use crate::marks::{MarksPart, shape_problem};
+use crate::memory;
 use crate::recipe::Recipe;
 use crate::verify::{number_problems, replay_problem};
 use crate::version::{CURRENT, MintedBy};
@@ -291,7 +292,7 @@ impl Shards {
 
 /// The first fault of a game in a result of a plan with this root seed.
 fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option<String> {
-    let FrozenGame { text, card, difficulties, levels, witnesses, paths, marks } = frozen;
+    let FrozenGame { text, card, difficulties, levels, witnesses, paths, marks, .. } = frozen;
     let id = card.id.escape_debug();
     let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
@@ -322,7 +323,10 @@ fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option
         number_problems(told, &level).into_iter().next().or_else(|| replay_problem(episode, &game, &level))
     };
     let each = levels.iter().enumerate().zip(witnesses.iter().zip(&card.levels));
-    each.enumerate().find_map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)))
+    let wrong = each.enumerate();
+    let wrong = wrong.map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)));
+    let paired = || Some(format!("`{id}` has {}", memory::shape_problem(frozen, &game, root)?));
+    wrong.flatten().next().or_else(paired)
 }
 
 fn unsound(folder: &Path, what: String) -> MergeError {
@@ -377,6 +381,7 @@ impl JobStore for Shards {
 mod tests {
     use super::super::{Memory, make_jobs, tests};
     use super::*;
+    use crate::sealed::Secret;
     use std::fs;
 
     #[test]
@@ -392,8 +397,19 @@ mod tests {
     /// Checks a shard of one job, changed by a forger who states the digests of the changed files.
     #[track_caller]
     fn check(alter: impl Fn(&mut FrozenGame), list: impl Fn(&mut ShardFile), expect: Option<&str>) {
-        let (corpus, recipe) = (tests::corpus(&[("fetch", tests::FETCH)]), tests::recipe("a"));
-        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        check_of(&tests::recipe("a"), None, alter, list, expect);
+    }
+
+    #[track_caller]
+    fn check_of(
+        recipe: &Recipe,
+        secret: Option<&Secret>,
+        alter: impl Fn(&mut FrozenGame),
+        list: impl Fn(&mut ShardFile),
+        expect: Option<&str>,
+    ) {
+        let corpus = tests::corpus(&[("fetch", tests::FETCH)]);
+        let plan = Plan::new(recipe, secret, &corpus).unwrap();
         let store = Memory::default();
         make_jobs(&plan, plan.jobs(), &store, &()).unwrap();
         let home = tempfile::tempdir().unwrap();
@@ -421,6 +437,38 @@ mod tests {
             (Err(error), Some(words)) => assert!(error.to_string().contains(words), "{error}"),
             (found, expect) => panic!("{found:?}, not {expect:?}"),
         }
+    }
+
+    /// What coins withhold is checked, too.
+    #[test]
+    fn forged_pairs_are_not_merged() {
+        let open = tests::recipe("a");
+        let memory = Some(memory::MemoryPart::default());
+        let mut recipe = Recipe { seed: None, memory, ..open };
+        let secret = Secret::draw("one", recipe.committed(), [7; 64]);
+        recipe.commitment = Some(secret.commitment());
+        let check = |alter: &dyn Fn(&mut FrozenGame), expect: Option<&str>| {
+            check_of(&recipe, Some(&secret), alter, |_| (), expect);
+        };
+        check(&|game| assert!(game.sibling.is_some() && game.seconds[0].is_some()), None);
+        check(&|game| game.seconds.push(None), Some("no place for a second win of each level"));
+        let second = |game: &mut FrozenGame| game.seconds[0].clone().unwrap();
+        let with = |game: &mut FrozenGame, second| game.seconds[0] = Some(second);
+        let foreign = |game: &mut FrozenGame| {
+            let known = second(game);
+            with(game, memory::SecondWin { path: Vec::new(), ..known });
+        };
+        check(&foreign, Some("a second win with a fault: its chance does not come"));
+        let same = |game: &mut FrozenGame| {
+            let (episode, path) = (game.witnesses[0].clone(), game.paths[0].clone());
+            with(game, memory::SecondWin { episode, path });
+        };
+        check(&same, Some("it begins like the win that is published"));
+        let changed = |game: &mut FrozenGame| {
+            let sibling = game.sibling.as_mut().unwrap();
+            sibling.text = sibling.text.replace("limit=50", "limit=51");
+        };
+        check(&changed, Some("a sibling with a fault: its rules are not those"));
     }
 
     #[test]

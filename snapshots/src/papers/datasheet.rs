@@ -3,6 +3,7 @@
 
 use crate::manifest::ReleaseKind;
 use crate::mint::{self, Minted, Rung};
+use crate::sealed::Reveal;
 use forge::card::Origin;
 use itertools::Itertools;
 use report::Quantiles;
@@ -15,9 +16,16 @@ const SEALED: &str = "sealed: seed and winning episodes are held back until it i
 const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
      only by minting it again.\n";
 
+/// The kind of a release of which only the wins that coins published are revealed.
+const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held back until it is revealed";
+
 /// The datasheet after the reveal. Changes by the publisher are kept.
-pub(super) fn revealed(datasheet: &str) -> String {
+pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
+    if what == Reveal::Solutions {
+        return datasheet.replace(SEALED, SOLVED);
+    }
     datasheet
+        .replace(SOLVED, SEALED)
         .replace(SEALED, "sealed, and revealed: its seed and the winning episodes are public now")
         .replace(UNCHECKED, "- That games come from the seed that was committed to is shown wholly only by minting it again.\n")
 }

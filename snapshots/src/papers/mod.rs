@@ -12,6 +12,7 @@ use crate::folder::{self, Entry, Limits, Listing};
 use crate::manifest::{Manifest, ReleaseKind};
 use crate::mint::Minted;
 use crate::problem::{Flaw, Problem};
+use crate::sealed::Reveal;
 use std::path::Path;
 
 /// The folder of the papers, at the top of a release.
@@ -87,9 +88,9 @@ impl Minted {
 }
 
 /// The content of a sealed release's paper after the reveal.
-pub(crate) fn revealed(path: &str, content: Vec<u8>) -> Vec<u8> {
+pub(crate) fn revealed(path: &str, content: Vec<u8>, what: Reveal) -> Vec<u8> {
     match (path.strip_prefix(PAPERS), std::str::from_utf8(&content)) {
-        (Some("DATASHEET.md"), Ok(text)) => datasheet::revealed(text).into_bytes(),
+        (Some("DATASHEET.md"), Ok(text)) => datasheet::revealed(text, what).into_bytes(),
         _ => content,
     }
 }

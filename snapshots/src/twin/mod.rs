@@ -23,6 +23,8 @@ engine::named_enum! {
         Mirrored = "mirrored",
         /// The game has another theme.
         Renamed = "renamed",
+        /// The renaming that a coin withheld until the reveal ([`crate::memory`]).
+        Sibling = "sibling",
     }
 }
 
@@ -37,7 +39,7 @@ impl FromStr for Twin {
 
     fn from_str(text: &str) -> Result<Twin, String> {
         let found = Twin::ALL.into_iter().find(|kind| kind.name() == text);
-        found.ok_or_else(|| format!("there is no twin `{text}`: choose masked, mirrored or renamed"))
+        found.ok_or_else(|| format!("there is no twin `{text}`: choose masked, mirrored, renamed or sibling"))
     }
 }
 
@@ -77,6 +79,9 @@ pub enum TwinError {
     /// The rules cannot be mirrored faithfully.
     #[error("the game cannot be mirrored: {0}")]
     Unmirrorable(String),
+    /// No coin withheld one, or it was not revealed.
+    #[error("it has no sibling, or none that was revealed")]
+    NoSibling,
     /// There is no other theme.
     #[error(transparent)]
     NoTheme(#[from] GenerateError),
@@ -105,18 +110,24 @@ fn of_levels(
     levels: &[String],
     witnesses: Vec<Option<&Episode>>,
 ) -> Result<TwinGame, TwinError> {
-    let game = Game::from_source(source).map_err(TwinError::Game)?;
-    let mut canonical = Vec::with_capacity(levels.len());
-    for (number, level) in levels.iter().enumerate() {
-        let level = game.level(level).map_err(|problems| TwinError::Level { number, problems })?;
-        canonical.push(level.to_string());
-    }
-    let original = Original { game, levels: canonical, witnesses };
+    let original = Original::load(source, levels, witnesses)?;
     match kind {
         Twin::Masked => original.masked(),
         Twin::Mirrored => mirrored::twin(&original),
-        Twin::Renamed => original.renamed(),
+        Twin::Renamed => original.renamed(original.seed(Twin::Renamed)),
+        Twin::Sibling => Err(TwinError::NoSibling),
     }
+}
+
+/// Makes a renamed twin by a seed of the caller's, instead of one that everybody knows.
+pub(crate) fn renamed(
+    source: &str,
+    levels: &[String],
+    witnesses: &[Episode],
+    seed: Seed,
+) -> Result<TwinGame, TwinError> {
+    let known = (0..levels.len()).map(|number| witnesses.get(number)).collect();
+    Original::load(source, levels, known)?.renamed(seed)
 }
 
 /// The original of a twin.
@@ -128,7 +139,22 @@ struct Original<'a> {
     witnesses: Vec<Option<&'a Episode>>,
 }
 
-impl Original<'_> {
+impl<'a> Original<'a> {
+    /// Loads a game with one witness, or none, for each level.
+    fn load(
+        source: &str,
+        levels: &[String],
+        witnesses: Vec<Option<&'a Episode>>,
+    ) -> Result<Original<'a>, TwinError> {
+        let game = Game::from_source(source).map_err(TwinError::Game)?;
+        let canonical = |(number, level): (usize, &String)| {
+            let level = game.level(level).map_err(|problems| TwinError::Level { number, problems })?;
+            Ok(level.to_string())
+        };
+        let levels = levels.iter().enumerate().map(canonical).collect::<Result<_, TwinError>>()?;
+        Ok(Original { game, levels, witnesses })
+    }
+
     /// The seed for the draws of a twin, which depends on nothing but the game.
     fn seed(&self, kind: Twin) -> Seed {
         Seed::from_text(&format!("twin {} of {}", kind.name(), self.game.digest()))
@@ -148,8 +174,8 @@ impl Original<'_> {
         Ok(made.headed(self))
     }
 
-    fn renamed(&self) -> Result<TwinGame, TwinError> {
-        let rethemed = Rethemed::of(&self.game, self.seed(Twin::Renamed))?;
+    fn renamed(&self, seed: Seed) -> Result<TwinGame, TwinError> {
+        let rethemed = Rethemed::of(&self.game, seed)?;
         let levels = self.levels.iter().map(|level| rethemed.level(level)).collect();
         let mut made = Made::of(self, &rethemed.description, levels, |action| action)?;
         made.twin.title = rethemed.title;

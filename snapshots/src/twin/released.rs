@@ -1,7 +1,7 @@
 //! Twins of the games of a release.
 
-use super::{Twin, TwinError, TwinGame, of_levels};
-use crate::released::ReleasedGame;
+use super::{Made, Original, Twin, TwinError, TwinGame, of_levels};
+use crate::released::{ReleasedGame, ReleasedSibling};
 
 /// Words that name a side. (The word `left` mostly means "remaining".)
 const SIDES: [&str; 7] = ["leftward", "leftwards", "right", "rightward", "rightwards", "west", "east"];
@@ -11,6 +11,10 @@ const SIDES: [&str; 7] = ["leftward", "leftwards", "right", "rightward", "rightw
 /// # Errors
 /// The game has no twin of this kind.
 pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, TwinError> {
+    if kind == Twin::Sibling {
+        let sibling = released.sibling.as_ref().ok_or(TwinError::NoSibling)?;
+        return of_sibling(released, sibling);
+    }
     let levels: Vec<String> = released.levels.iter().map(|level| level.text.clone()).collect();
     let witnesses = released.levels.iter().map(|level| level.witness.as_ref()).collect();
     let mut twin = of_levels(kind, &released.source, &levels, witnesses)?;
@@ -23,6 +27,19 @@ pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, Twin
         }
     }
     Ok(twin)
+}
+
+/// The sibling of a game, with the game's witnesses.
+fn of_sibling(released: &ReleasedGame, sibling: &ReleasedSibling) -> Result<TwinGame, TwinError> {
+    let original = Original {
+        game: sibling.game.clone(),
+        levels: Vec::new(),
+        witnesses: released.levels.iter().map(|level| level.witness.as_ref()).collect(),
+    };
+    let levels = sibling.levels.iter().map(|(text, _)| text.clone()).collect();
+    let Made { twin, .. } = Made::of(&original, sibling.game.description(), levels, |action| action)?;
+    let title = original.title().unwrap_or_default();
+    Ok(TwinGame { text: sibling.source.clone(), title, ..twin })
 }
 
 fn names_a_side(text: &str) -> bool {

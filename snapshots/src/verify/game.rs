@@ -121,6 +121,7 @@ impl Checker<'_> {
         let is_sealed = self.manifest.kind == ReleaseKind::Sealed;
         let mut known: BTreeSet<String> = ["game.vgdl", "card.json"].map(str::to_owned).into();
         let mut boards: BTreeMap<Digest, usize> = BTreeMap::new();
+        let mut loaded = Vec::new();
         for (number, level_card) in card.levels.iter().enumerate() {
             let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
             if is_sealed {
@@ -149,6 +150,7 @@ impl Checker<'_> {
                 wrong(&file, format!("the same level as lvl{first}.txt"));
             }
             let is_again = first != number || twin.is_some();
+            let mut won = None;
             let witness = match is_sealed {
                 true => {
                     let bytes = self.contents.find(&witness_path(ReleaseKind::Sealed, folder, number))?;
@@ -181,12 +183,14 @@ impl Checker<'_> {
                         Some(Replayed::Wrong(what)) => wrong(&witness_file, what),
                         Some(Replayed::OutOfWork) | None => {}
                     }
+                    won = Some(episode);
                 }
                 Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
                 // The completeness of withheld files has been checked already.
                 None if is_sealed => {}
                 None => wrong(&witness_file, "missing or not a text".to_owned()),
             }
+            loaded.push((level, won));
             known.insert(file);
             if !is_sealed {
                 known.insert(witness_file);
@@ -194,6 +198,12 @@ impl Checker<'_> {
         }
         for file in files.difference(&known) {
             wrong(file, "a game has no such file".to_owned());
+        }
+        if is_sealed && loaded.len() == card.levels.len() {
+            let coins = self.coins(folder, &game, &loaded, twin.is_some())?;
+            held.extend(coins.listed);
+            problems.extend(coins.problems);
+            *replayed += coins.replayed;
         }
         seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
         // The texts are dropped, because the cards of all games are kept until they are counted.

@@ -1,5 +1,6 @@
 //! Verifying a release folder, without trusting anything in it.
 
+mod coins;
 mod game;
 mod numbers;
 mod readme_and_card;
@@ -59,6 +60,8 @@ pub struct Verification {
     pub levels: usize,
     /// The results of checking the witnesses.
     pub witnesses: Witnesses,
+    /// `true` if the release is sealed and its secret was not revealed.
+    pub is_secret: bool,
     /// The units of work that the replays took, at most the bound; see [`Bounds`].
     pub work: u64,
     /// The bound, if the replays together take more; then no witness was judged, which is among the problems.
@@ -147,6 +150,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         }
     }
     let levels = games.iter().map(|game| game.levels).sum();
+    let replayed: usize = games.iter().map(|game| game.replayed).sum();
     Ok(Verification {
         root: manifest.root,
         files: manifest.items.len(),
@@ -155,10 +159,11 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         games: games.len(),
         levels,
         witnesses: match same_semantics {
-            _ if held => Witnesses::Held,
-            true => Witnesses::Replayed(games.iter().map(|game| game.replayed).sum()),
+            _ if held && replayed == 0 => Witnesses::Held,
+            true => Witnesses::Replayed(replayed),
             false => Witnesses::NotReplayed { semantics: manifest.semantics },
         },
+        is_secret: held,
         work,
         exceeded,
         name: manifest.name.clone(),

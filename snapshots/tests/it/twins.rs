@@ -156,10 +156,11 @@ fn cards_are_mirrored_with_their_games() {
             "origin": { "from": "corpus", "name": "flat" }, "rules": "", "levels": [],
         });
         let text = "A  e\n".to_owned();
-        let level = ReleasedLevel { level: game.level(&text).unwrap(), text, witness: None };
+        let level = ReleasedLevel { level: game.level(&text).unwrap(), text, witness: None, second: None };
         let card = serde_json::from_value(card).unwrap();
         let source = format!("# Flat\n# canary c\n{FLAT}");
-        twin::of_released(Twin::Mirrored, &ReleasedGame { card, source, game, levels: vec![level] }).unwrap()
+        let released = ReleasedGame { card, source, game, levels: vec![level], sibling: None };
+        twin::of_released(Twin::Mirrored, &released).unwrap()
     };
     let twin = told("A way out.");
     assert_eq!((twin.description.as_str(), twin.goal.as_str()), ("A way out.", "Leave."));

@@ -16,7 +16,7 @@ pub(super) fn memory(args: &Args) -> Table {
         .collect();
     let note = format!(
         "{trials} players each, flagged at p ≤ {ALPHA}; clean win rate 0.27, on levels that are known 0.9. Siblings: an episode on each side \
-         of a pair of games; names hurt one side more than the other with a standard deviation of 0.5 logit. Prefixes: an episode on \
+         of a pair of games, which has one coin however many levels; names hurt one side more than the other with a standard deviation of 0.5 logit. Prefixes: an episode on \
          each level, which begins as either witness in 7 % by chance."
     );
     let columns = [
@@ -24,6 +24,8 @@ pub(super) fn memory(args: &Args) -> Table {
         "hurt by other names",
         "siblings, 100 pairs",
         "siblings, 200 pairs",
+        "40 games of 5 levels",
+        "120 games of 5 levels",
         "prefixes, 200 levels",
     ];
     let mut table = Table::new("memory", "Players flagged by exact tests of memory", &note, &columns);
@@ -31,9 +33,10 @@ pub(super) fn memory(args: &Args) -> Table {
         let player = Memoriser { share: known, known: 0.9, clean: 0.27 };
         let trial = MemoryTrial { player, hurt, names: 0.5, spread: Spread::default() };
         let siblings = [100, 200].map(|pairs| share(trial.siblings(pairs, ALPHA, trials, seed)));
+        let games = [40, 120].map(|games| share(trial.sibling_games(&vec![5; games], ALPHA, trials, seed)));
         let prefixes = share(trial.prefixes(200, 0.07, ALPHA, trials, seed));
         let place = [TableCell::number(known, 1), TableCell::number(hurt, 1)];
-        place.into_iter().chain(siblings).chain([prefixes]).collect()
+        place.into_iter().chain(siblings).chain(games).chain([prefixes]).collect()
     });
     table
 }

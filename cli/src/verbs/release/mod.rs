@@ -21,7 +21,7 @@ use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Minted, Plan, Shard, lay_out, make_jobs};
 use snapshots::version::CURRENT;
 use snapshots::{
-    Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Secret, check_integrity, follow,
+    Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Reveal, Secret, check_integrity, follow,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -68,6 +68,9 @@ pub(crate) struct Args {
     /// Join a sealed release with its held-back part, this folder, if both match their commitments
     #[arg(long, value_name = "DIR", conflicts_with_all = ["shard", "resume", "dry_run", "secret", "parent"])]
     reveal: Option<PathBuf>,
+    /// Reveal only the wins that coins published, and keep the rest withheld (see `arcade docs memory`)
+    #[arg(long, requires = "reveal")]
+    solutions: bool,
 }
 
 impl Args {
@@ -102,7 +105,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return sealed::commit(args.recipe(), args.parent.as_deref(), args.out.as_deref(), console);
     }
     if let Some(held) = &args.reveal {
-        return sealed::reveal(args.recipe.as_deref(), held, args.out.as_deref(), console);
+        let what = if args.solutions { Reveal::Solutions } else { Reveal::All };
+        return sealed::reveal(args.recipe.as_deref(), held, what, args.out.as_deref(), console);
     }
     let secret = args.secret.as_deref().map(sealed::read).transpose()?;
     let mut recipe = find_recipe(args.recipe(), |text| sealed::recipe(text, secret.as_ref()))?;

@@ -8,7 +8,7 @@ use crate::protected;
 use crate::shell;
 use crate::whole_file;
 use serde_json::json;
-use snapshots::{MANIFEST_FILE, Recipe, RecipeError, RevealError, Secret, follow, read_secret};
+use snapshots::{MANIFEST_FILE, Recipe, RecipeError, Reveal, RevealError, Secret, follow, read_secret};
 use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
 use std::io::Read;
@@ -105,7 +105,13 @@ pub(super) fn recipe(text: &str, secret: Option<&Secret>) -> Result<Recipe, Reci
 }
 
 /// Joins the two parts.
-pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, console: &Console) -> Answer {
+pub(super) fn reveal(
+    public: Option<&Path>,
+    held: &Path,
+    what: Reveal,
+    out: Option<&Path>,
+    console: &Console,
+) -> Answer {
     let usage = "arcade release PUBLIC --reveal HELD --out DIR";
     let Some(public) = public else {
         bail!("--reveal needs the public folder of the release besides the withheld one: {usage}");
@@ -128,18 +134,27 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
     }
     let draft = protected::draft(out)?;
     let place = out.display().to_string();
-    match snapshots::reveal(public, held, &draft) {
+    match snapshots::reveal(public, held, what, &draft) {
         Ok(manifest) => {
             draft.commit()?;
             console.document(
                 &json!({ "revealed": true, "out": place, "root": manifest.root, "problems": [] }),
             )?;
+            let command = |verb: &str| shell::command([OsStr::new(verb), out.as_os_str()]);
+            if what == Reveal::Solutions {
+                console.say(format_args!(
+                    "{}: the wins that coins published are revealed; seed, siblings and second wins stay withheld",
+                    manifest.name
+                ));
+                console.say(format_args!("root {}\nin   {place}", manifest.root));
+                console.say(format_args!("check it:       {}", command("verify")));
+                return Ok(true);
+            }
             console.say(format_args!(
                 "{}: revealed; seed, nonce, recipe and every file match the commitment",
                 manifest.name
             ));
             console.say(format_args!("root {}\nin   {place}", manifest.root));
-            let command = |verb: &str| shell::command([OsStr::new(verb), out.as_os_str()]);
             console.say(format_args!("check it:       {}", command("verify")));
             console.say(format_args!("mint it again:  {}", command("regenerate")));
             console.say("only minting again proves that the games come from the seed");

@@ -165,7 +165,11 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
     match witnesses {
         Witnesses::Replayed(count) => console.say(format_args!(
             "{name}: verified; the manifest and {files}, {games}, {levels}, {count} witnesses \
-             replayed to a win"
+             replayed to a win{}",
+            match verification.is_secret {
+                true => "; seed, siblings and second wins withheld until the release is revealed",
+                false => "",
+            }
         )),
         Witnesses::Held => console.say(format_args!(
             "{name}: verified; the manifest and {files}, {games}, {levels}, witnesses withheld until \

@@ -7,8 +7,8 @@ use serde_json::json;
 use snapshots::export::{Export, Format, export};
 use snapshots::released::Released;
 use snapshots::{
-    Bounds, COMMITS_TO_RECIPE_SINCE, Draft, ReleaseKind, SECRET_FILE, Secret, Verification, Witnesses,
-    canary, reveal, verify, verify_within,
+    Bounds, COMMITS_TO_RECIPE_SINCE, Draft, ReleaseKind, Reveal, SECRET_FILE, Secret, Verification,
+    Witnesses, canary, reveal, verify, verify_within,
 };
 use std::fs;
 
@@ -190,7 +190,8 @@ fn mismatched_parts_are_not_joined() {
         let whole = release.write_in(&home);
         let (held, out) = (home.path().join("held"), home.path().join("out"));
         fs::rename(whole.join("held"), &held).expect("moved");
-        reveal(&whole, &held, &Draft::create(&out).expect("vacant")).map_err(|error| error.to_string())
+        let draft = Draft::create(&out).expect("vacant");
+        reveal(&whole, &held, Reveal::All, &draft).map_err(|error| error.to_string())
     };
     assert!(joined(&secret(7), &secret(7), &|_| {}).is_ok());
     let refused = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small), words: &str| {

@@ -24,7 +24,7 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
         in_test |= *line == "#[cfg(test)]";
         let is_code = !in_test;
         // The code is formatted: an item ends in the first column.
-        in_test &= *line != "}" && !(line.ends_with(';') && !line.starts_with(' '));
+        in_test &= *line != "}" && (line.starts_with(' ') || !line.ends_with(';'));
         is_code
     })
 }

@@ -1,0 +1,301 @@
+//! The tests, and what they say of each player.
+
+use super::coins::{Coins, Side};
+use super::power::{ALPHA, Power};
+use super::read::{PlayedEpisode, PlayerEpisodes};
+use serde::Serialize;
+use statistics::coin_test;
+use std::collections::BTreeMap;
+
+/// The findings about players and a release.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Contamination {
+    /// The level of all tests together.
+    pub alpha: f64,
+    /// The number of tests: each is made at the level divided by it.
+    pub tests: u64,
+    /// The players.
+    pub players: Vec<PlayerMemory>,
+}
+
+/// The findings about a player.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlayerMemory {
+    /// The player.
+    pub player: String,
+    /// The probabilities with which these episodes find a player that knows a share of the levels.
+    pub power: Vec<Power>,
+    /// The test of its play against the published wins and the withheld ones: episodes that begin like either.
+    pub solutions: Option<SideTest>,
+    /// The test of its wins on published games and on their withheld siblings.
+    pub games: Option<SideTest>,
+    /// What the tests say.
+    pub evidence: Evidence,
+    /// Episodes on levels that the release does not have.
+    pub unknown: u64,
+}
+
+/// A test of coins.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SideTest {
+    /// The coins with results.
+    pub coins: u64,
+    /// Those of which the sides differ: no others are evidence.
+    pub informative: u64,
+    /// The pairs of episodes, or the episodes.
+    pub episodes: u64,
+    /// The results for the published side: wins, or episodes that begin like the published win.
+    pub published: u64,
+    /// The results for the withheld side.
+    pub withheld: u64,
+    /// The exact p-value.
+    pub p: f64,
+    /// The p-value times the number of tests (Bonferroni).
+    pub corrected: f64,
+}
+
+impl SideTest {
+    fn is_found(&self) -> bool {
+        self.corrected <= ALPHA
+    }
+}
+
+/// What the tests say of a player.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Evidence {
+    /// No test could be made: it has not played both siblings of a game, nor a level with two wins.
+    Untested,
+    /// No test finds anything.
+    ConsistentWithNotHavingSeen,
+    /// It plays published wins rather than withheld ones.
+    HasSeenTheSolutions,
+    /// It is better on published games than on their siblings.
+    HasSeenTheGames,
+    /// Both.
+    HasSeenTheSolutionsAndTheGames,
+}
+
+impl Evidence {
+    /// Returns the words for it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Evidence::Untested => "not tested",
+            Evidence::ConsistentWithNotHavingSeen => "consistent with not having seen",
+            Evidence::HasSeenTheSolutions => "has seen the solutions",
+            Evidence::HasSeenTheGames => "has seen the games",
+            Evidence::HasSeenTheSolutionsAndTheGames => "has seen the solutions and the games",
+        }
+    }
+
+    /// Returns `true` if the player has seen something.
+    pub fn is_seen(self) -> bool {
+        !matches!(self, Evidence::Untested | Evidence::ConsistentWithNotHavingSeen)
+    }
+
+    fn of(solutions: Option<&SideTest>, games: Option<&SideTest>) -> Evidence {
+        if solutions.is_none() && games.is_none() {
+            return Evidence::Untested;
+        }
+        let is_found = |test: Option<&SideTest>| test.is_some_and(SideTest::is_found);
+        match (is_found(solutions), is_found(games)) {
+            (false, false) => Evidence::ConsistentWithNotHavingSeen,
+            (true, false) => Evidence::HasSeenTheSolutions,
+            (false, true) => Evidence::HasSeenTheGames,
+            (true, true) => Evidence::HasSeenTheSolutionsAndTheGames,
+        }
+    }
+}
+
+/// The results on one coin.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct CoinResults {
+    episodes: u64,
+    published: u64,
+    withheld: u64,
+}
+
+/// Tests each player. All tests together are at level [`ALPHA`].
+pub fn contamination(coins: &Coins, players: &[PlayerEpisodes]) -> Contamination {
+    let results: Vec<_> = players.iter().map(|player| Results::of(coins, player)).collect();
+    let made = |part: &[CoinResults]| u64::from(!part.is_empty());
+    let tests: u64 = results.iter().map(|results| made(&results.solutions) + made(&results.games)).sum();
+    let alpha = ALPHA / tests.max(1) as f64;
+    let of = |(player, results): (&PlayerEpisodes, Results)| {
+        let [solutions, games] = [&results.solutions, &results.games].map(|part| tested(part, tests));
+        let pairs: Vec<u64> = results.games.iter().map(|game| game.episodes).collect();
+        PlayerMemory {
+            player: player.player.label(),
+            power: Power::of(results.solutions.len() as u64, &pairs, alpha),
+            evidence: Evidence::of(solutions.as_ref(), games.as_ref()),
+            solutions,
+            games,
+            unknown: results.unknown,
+        }
+    };
+    Contamination { alpha: ALPHA, tests, players: players.iter().zip(results).map(of).collect() }
+}
+
+fn tested(results: &[CoinResults], tests: u64) -> Option<SideTest> {
+    if results.is_empty() {
+        return None;
+    }
+    let differences: Vec<i64> =
+        results.iter().map(|coin| coin.published as i64 - coin.withheld as i64).collect();
+    let found = coin_test(&differences);
+    let sum = |of: fn(&CoinResults) -> u64| results.iter().map(of).sum();
+    Some(SideTest {
+        coins: results.len() as u64,
+        informative: found.informative as u64,
+        episodes: sum(|coin| coin.episodes),
+        published: sum(|coin| coin.published),
+        withheld: sum(|coin| coin.withheld),
+        p: found.p,
+        corrected: (found.p * tests as f64).min(1.0),
+    })
+}
+
+/// The results of a player by coin.
+struct Results {
+    solutions: Vec<CoinResults>,
+    games: Vec<CoinResults>,
+    unknown: u64,
+}
+
+impl Results {
+    fn of(coins: &Coins, player: &PlayerEpisodes) -> Results {
+        let mut unknown = 0;
+        let mut sides: BTreeMap<(usize, usize, u64), BTreeMap<Side, &PlayedEpisode>> = BTreeMap::new();
+        for ((game, level, run), episode) in &player.episodes {
+            match coins.place(*game, *level) {
+                Some((game, level, side)) => {
+                    sides.entry((game, level, *run)).or_default().insert(side, episode);
+                }
+                None => unknown += 1,
+            }
+        }
+        let (mut solutions, mut games) = (BTreeMap::new(), BTreeMap::new());
+        for ((game, level, _), sides) in &sides {
+            let (published, withheld) = (sides.get(&Side::Published), sides.get(&Side::Withheld));
+            if let (Some(published), Some(withheld)) = (published, withheld) {
+                let coin: &mut CoinResults = games.entry(*game).or_default();
+                coin.episodes += 1;
+                coin.published += u64::from(published.won);
+                coin.withheld += u64::from(withheld.won);
+            }
+            let beginnings = &coins.games[*game].levels[*level].beginnings;
+            if let (Some(episode), Some([published, withheld])) = (published, beginnings) {
+                let coin: &mut CoinResults = solutions.entry((*game, *level)).or_default();
+                coin.episodes += 1;
+                coin.published += u64::from(episode.beginning.starts_with(published));
+                coin.withheld += u64::from(episode.beginning.starts_with(withheld));
+            }
+        }
+        Results {
+            solutions: solutions.into_values().collect(),
+            games: games.into_values().collect(),
+            unknown,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::coins::{GameCoin, LevelCoin};
+    use super::*;
+    use crate::study::Player;
+    use engine::Action::{Down, Left, Right, Up};
+    use engine::{Action, Digest};
+
+    const GAMES: usize = 10;
+    const BEGINNINGS: [&[Action]; 2] = [&[Up, Left], &[Down, Right]];
+
+    fn digest(what: &str, game: usize, side: usize) -> Digest {
+        Digest::of(format!("{what} {game} {side}").as_bytes())
+    }
+
+    /// The coins of games with a level each, of which bit `game` of `fall` is the side that is published.
+    fn coins(fall: usize) -> Coins {
+        let game = |game: usize| {
+            let side = fall >> game & 1;
+            let of = |what, side| digest(what, game, side);
+            let level = LevelCoin {
+                published: of("level", side),
+                withheld: Some(of("level", 1 - side)),
+                beginnings: Some([side, 1 - side].map(|side| BEGINNINGS[side].to_vec())),
+            };
+            let (published, withheld) = (of("game", side), Some(of("game", 1 - side)));
+            GameCoin { id: format!("game-{game}"), published, withheld, levels: vec![level] }
+        };
+        Coins { games: (0..GAMES).map(game).collect() }
+    }
+
+    /// A player with an episode on each side of each game, by what it does there: whether it wins, and how it begins.
+    fn player(of: impl Fn(usize, usize) -> (bool, &'static [Action])) -> PlayerEpisodes {
+        let sides = (0..GAMES).flat_map(|game| [(game, 0), (game, 1)]);
+        let episode = |(game, side)| {
+            let (won, beginning) = of(game, side);
+            let episode = PlayedEpisode { won, beginning: beginning.to_vec() };
+            ((digest("game", game, side), digest("level", game, side), 0), episode)
+        };
+        PlayerEpisodes { player: Player::reference("x"), episodes: sides.map(episode).collect() }
+    }
+
+    fn evidence(fall: usize, player: PlayerEpisodes) -> Evidence {
+        contamination(&coins(fall), &[player]).players[0].evidence
+    }
+
+    /// Over all falls of the coins, a player that knows none of them has p ≤ x in a share x at most, however much better it is
+    /// on some games and whichever way it likes to begin.
+    #[test]
+    fn the_level_is_exact() {
+        let clean = player(|game, side| (side == 0 || game % 3 == 0, BEGINNINGS[usize::from(game < 7)]));
+        let mut found: [Vec<f64>; 2] = Default::default();
+        for fall in 0..1 << GAMES {
+            let results = Results::of(&coins(fall), &clean);
+            for (p, part) in found.iter_mut().zip([&results.solutions, &results.games]) {
+                p.push(tested(part, 1).unwrap().p);
+            }
+        }
+        for p in found {
+            let most = |x: f64| p.iter().filter(|p| **p <= x).count() as f64 / p.len() as f64;
+            assert!(p.iter().all(|x| most(*x) <= x + 1e-12));
+            assert!(p.iter().any(|x| *x < 0.05), "the test can find something");
+        }
+    }
+
+    #[test]
+    fn evidence_tells_what_was_seen() {
+        let fall = 0b0110100101;
+        let side = |game: usize| fall >> game & 1;
+        let solutions = player(|game, _| (true, BEGINNINGS[side(game)]));
+        assert_eq!(evidence(fall, solutions), Evidence::HasSeenTheSolutions);
+        let games = player(|game, own| (own == side(game), &[Left, Left]));
+        assert_eq!(evidence(fall, games.clone()), Evidence::HasSeenTheGames);
+        let both = player(|game, own| (own == side(game), BEGINNINGS[side(game)]));
+        assert_eq!(evidence(fall, both), Evidence::HasSeenTheSolutionsAndTheGames);
+        let neither = player(|_, own| (own == 0, BEGINNINGS[0]));
+        assert_eq!(evidence(fall, neither), Evidence::ConsistentWithNotHavingSeen);
+        // Of another release, and on withheld siblings alone.
+        let mut foreign = games.clone();
+        foreign
+            .episodes
+            .retain(|(game, ..), _| (0..GAMES).any(|at| digest("game", at, 1 - side(at)) == *game));
+        assert_eq!(evidence(fall, foreign), Evidence::Untested);
+        let found = contamination(&Coins::default(), &[games]);
+        assert_eq!((found.tests, found.players[0].unknown), (0, 2 * GAMES as u64));
+        assert_eq!(found.players[0].evidence, Evidence::Untested);
+    }
+
+    /// Ten coins say little if they are shared among many tests.
+    #[test]
+    fn tests_are_corrected() {
+        let fall = 0;
+        let seen = player(|game, own| (own == 0, BEGINNINGS[fall >> game & 1]));
+        let found = contamination(&coins(fall), &vec![seen; 6]);
+        assert_eq!(found.tests, 12);
+        let games = found.players[0].games.as_ref().unwrap();
+        assert_eq!((games.p, games.corrected), (1.0 / 1024.0, 12.0 / 1024.0));
+        assert!(found.players.iter().all(|player| !player.evidence.is_seen()), "{found:?}");
+    }
+}

@@ -1,0 +1,14 @@
+//! Tests of memory on results: whether a player has seen the games of a release, or their published solutions.
+//!
+//! A release has coins, each of which published one of two renamings of a game, or one of two wins of a level, and withheld the
+//! other ([`statistics::coin_test`]). Here the results of players on both sides are read and compared.
+
+mod coins;
+mod findings;
+mod power;
+mod read;
+
+pub use coins::{Coins, GameCoin, LevelCoin};
+pub use findings::{Contamination, Evidence, PlayerMemory, SideTest, contamination};
+pub use power::{ALPHA, Power, SHARES, design};
+pub use read::{PlayedEpisode, PlayerEpisodes, episodes_by_player};

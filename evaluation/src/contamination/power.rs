@@ -1,0 +1,75 @@
+//! The power of the tests, from what is played alone: it can be stated before any result is known.
+
+use super::coins::Coins;
+use serde::Serialize;
+use statistics::memory_simulation::MemoryTrial;
+use statistics::{Memoriser, Spread, coin_power};
+
+/// The level of all tests together.
+pub const ALPHA: f64 = 0.01;
+/// The shares of levels that a supposed player knows.
+pub const SHARES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 1.0];
+/// The win rates of that player: on levels that it knows, and on others.
+const KNOWN: f64 = 0.9;
+const CLEAN: f64 = 0.27;
+/// The share of episodes that begin as a win by chance: that of `reflex`, the most of the players measured.
+const BY_CHANCE: f64 = 0.07;
+/// The standard deviation, in logits, of how much more one set of names hurts a player than another.
+const NAMES: f64 = 0.5;
+/// The simulated players of which each power by siblings is the share found.
+const TRIALS: u64 = 1000;
+/// The seed of the simulation.
+const SEED: u64 = 32;
+
+/// The probabilities of finding a player that knows a share of the levels.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Power {
+    /// The share.
+    pub share: f64,
+    /// By its solutions; `None` if no level with two wins is played.
+    pub solutions: Option<f64>,
+    /// By its games; `None` if no game with a sibling is played.
+    pub games: Option<f64>,
+}
+
+impl Power {
+    /// Returns the power of a design at level `alpha` of each test: `levels` with two wins, an episode on each, and the numbers of
+    /// pairs of episodes on each game with a sibling.
+    pub fn of(levels: u64, pairs: &[u64], alpha: f64) -> Vec<Power> {
+        let of = |share: f64| {
+            let player = Memoriser { share, known: KNOWN, clean: CLEAN };
+            let (more, less) = player.prefix_chances(BY_CHANCE);
+            let trial = MemoryTrial { player, hurt: 0.0, names: NAMES, spread: Spread::default() };
+            Power {
+                share,
+                solutions: (levels > 0).then(|| coin_power(levels, more, less, alpha)),
+                games: (!pairs.is_empty()).then(|| trial.sibling_games(pairs, alpha, TRIALS, SEED)),
+            }
+        };
+        SHARES.into_iter().map(of).collect()
+    }
+}
+
+/// Returns the design in which every level is played once on either side: the number of levels with two wins, and the number of
+/// pairs of episodes on each game with a sibling.
+pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
+    let (_, levels) = coins.counts();
+    let paired = coins.games.iter().filter(|game| game.withheld.is_some());
+    (levels as u64, paired.map(|game| game.levels.len() as u64).filter(|pairs| *pairs > 0).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the simulations of the page say of 200 levels, and of 100 games.
+    #[test]
+    fn power_is_that_of_the_page() {
+        let found = Power::of(200, &[1; 100], ALPHA);
+        assert!(found[1].solutions.is_some_and(|power| power > 0.99), "{found:?}");
+        assert!(found[3].games.is_some_and(|power| power > 0.95), "{found:?}");
+        assert!(found[0].games.is_some_and(|power| power < 0.2), "{found:?}");
+        let none = Power::of(0, &[], ALPHA);
+        assert!(none.iter().all(|power| power.solutions.is_none() && power.games.is_none()));
+    }
+}

@@ -1,0 +1,100 @@
+//! Reading the episodes of players on either side of coins.
+
+use crate::error::EvaluationError;
+use crate::log::Event;
+use crate::metrics::EpisodeMetrics;
+use crate::run::{Evaluation, Task};
+use crate::study::Player;
+use crate::study::person::{PersonResults, told_apart};
+use engine::{Action, Digest};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The most actions at the beginning of an episode that are kept.
+const KEPT: usize = 64;
+
+/// The episodes of a player.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlayerEpisodes {
+    /// The player.
+    pub player: Player,
+    /// The episodes that were played to their end: by the digests of game and level, and the run.
+    pub episodes: BTreeMap<(Digest, Digest, u64), PlayedEpisode>,
+}
+
+/// The result of an episode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlayedEpisode {
+    /// `true` if it was won.
+    pub won: bool,
+    /// Its first actions.
+    pub beginning: Vec<Action>,
+}
+
+/// The place of an episode in results folders: the number of the folder, the game by name, the level by number, the run.
+type Place = (usize, String, usize, u64);
+
+/// Reads results folders, of whose players each is told apart as in reports, but for the names of the games. Every episode is
+/// replayed from its log. Aborted episodes do not count, nor those for practice.
+///
+/// # Errors
+/// A folder or log cannot be read, a replay differs from its log, or two folders hold the same episode of the same player.
+pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, EvaluationError> {
+    let (mut persons, mut known) = (Vec::new(), BTreeMap::new());
+    for (number, folder) in folders.iter().enumerate() {
+        let evaluation = Evaluation::open(folder)?;
+        let tasks = evaluation.tasks();
+        evaluation.check_logs(&tasks)?;
+        let read = tasks.par_iter().filter_map(|task| read(&evaluation, task).transpose());
+        let mut episodes = Vec::new();
+        for (mut metrics, beginning) in read.collect::<Result<Vec<_>, EvaluationError>>()? {
+            metrics.folder = Some(number);
+            let game = evaluation.settings.games.iter().find(|game| game.id == metrics.game);
+            let level = game.and_then(|game| game.levels.iter().find(|level| level.number == metrics.level));
+            let (Some(game), Some(level)) = (game, level) else { continue };
+            let place: Place = (number, metrics.game.clone(), metrics.level, metrics.run);
+            known.insert(place, (game.digest, level.digest, beginning));
+            episodes.push(metrics);
+        }
+        persons.extend(PersonResults::of(&evaluation.settings.entrant, None, episodes));
+    }
+    let mut players: BTreeMap<Player, BTreeMap<(Digest, Digest, u64), PlayedEpisode>> = BTreeMap::new();
+    for (player, episodes) in told_apart(persons) {
+        let own = players.entry(player.clone()).or_default();
+        for metrics in episodes.into_iter().filter(|metrics| metrics.counts() && !metrics.is_practice()) {
+            let number = metrics.folder.unwrap_or_default();
+            let won = metrics.won();
+            let (name, run) = (metrics.game.clone(), metrics.run);
+            let place: Place = (number, metrics.game, metrics.level, metrics.run);
+            let Some((game, level, beginning)) = known.remove(&place) else { continue };
+            if own.insert((game, level, run), PlayedEpisode { won, beginning }).is_some() {
+                return Err(twice(&player, &name, &folders[number]));
+            }
+        }
+    }
+    Ok(players.into_iter().map(|(player, episodes)| PlayerEpisodes { player, episodes }).collect())
+}
+
+fn twice(player: &Player, game: &str, folder: &Path) -> EvaluationError {
+    let what =
+        format!("another folder has the same episodes of {} on {game}; give one of them", player.label());
+    EvaluationError::malformed(folder, what)
+}
+
+/// Returns the metrics and the first actions of an episode; `None` if it was not started.
+fn read(
+    evaluation: &Evaluation,
+    task: &Task<'_>,
+) -> Result<Option<(EpisodeMetrics, Vec<Action>)>, EvaluationError> {
+    let log = evaluation.events(task)?;
+    if log.is_empty() {
+        return Ok(None);
+    }
+    let metrics = evaluation.checked(task, &log, || EpisodeMetrics::of(task.subject, &log))?;
+    let actions = log.iter().filter_map(|event| match event {
+        Event::Step { action, .. } => Some(*action),
+        _ => None,
+    });
+    Ok(Some((metrics, actions.take(KEPT).collect())))
+}
