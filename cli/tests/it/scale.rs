@@ -100,6 +100,20 @@ fn players_are_placed_or_refused() {
     play("reflex", "first-ice", "reader");
     let refused = run(folder, &["scale", "reader", "--scale", "second/scale.json"], 1);
     assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
+    // The scale is of another commitment, track and limit of steps than these.
+    let settings = [
+        &["--commit", "3", "--max-steps", "40"],
+        &["--track", "masked", "--max-steps", "40"],
+        &["--max-steps", "30"][..],
+    ];
+    for (at, settings) in settings.into_iter().enumerate() {
+        let out = format!("apart{at}");
+        let play = ["evaluate", "hailglass", "--levels", "0", "--player", "reflex", "-q", "--out", &out];
+        run(folder, &[&play[..], settings].concat(), 0);
+        let left_out = run(folder, &["scale", &out, "--scale", "second/scale.json"], 1);
+        let expect = format!("1 episode with {} {}", settings[0], settings[1]);
+        assert!(text(&left_out.stderr).contains(&expect), "{}", text(&left_out.stderr));
+    }
     // Nothing that was played is on the first scale.
     let unknown = run(folder, &["scale", "reader", "--scale", "first/scale.json"], 2);
     assert!(text(&unknown.stderr).contains("november"), "{}", text(&unknown.stderr));

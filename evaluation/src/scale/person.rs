@@ -22,6 +22,9 @@ pub struct PersonAbility {
     pub months: Vec<MonthAbility>,
     /// Different episodes on levels that the scale does not know.
     pub unknown: u64,
+    /// Episodes with settings that the scale was not calibrated with, by what differs: `--commit 3`.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub left_out: BTreeMap<String, u64>,
 }
 
 /// The ability of a person as one release shows it.
@@ -96,7 +99,8 @@ fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbility {
         played.levels.push(PlayedLevel { difficulty, own, won: won as f64, of: of as f64 });
     }
     let months = months.into_iter().map(|(month, games)| of_month(scale, is_reader, month, games)).collect();
-    PersonAbility { player: person.player.label(), is_reader, months, unknown }
+    let left_out = person.left_out.clone();
+    PersonAbility { player: person.player.label(), is_reader, months, unknown, left_out }
 }
 
 fn of_month(
