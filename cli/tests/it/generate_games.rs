@@ -1,10 +1,10 @@
 //! `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear errors.
 
-use crate::arcade::{arcade, files, run, sweeping, text};
+use crate::arcade::{arcade, files, run, sweeping, terminate, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
 
@@ -50,9 +50,12 @@ fn constructive_games_are_the_same_on_any_number_of_threads() {
     same_bytes("constructive", "demolition");
 }
 
+/// In `cargo xtask sweep` only: the crate `forge` tests the method with less effort.
 #[test]
 fn searched_games_are_the_same_on_any_number_of_threads() {
-    same_bytes("search", "key-and-door");
+    if sweeping() {
+        same_bytes("search", "key-and-door");
+    }
 }
 
 #[test]
@@ -64,7 +67,7 @@ fn evolved_games_are_the_same_on_any_number_of_threads() {
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
-    let more = ["--kind", "demolition", "--kind", "rescue", "--count", "2", "--levels", "2", "--seed", "i"];
+    let more = ["--kind", "demolition", "--count", "1", "--levels", "2", "--seed", "i"];
     let told = generate(home.path(), "whole", &more, 0);
     let args = [&["generate", "games", "--jobs", "1", "--out", "new"], &more[..]].concat();
     let mut command = arcade(home.path());
@@ -76,9 +79,9 @@ fn an_interrupted_run_goes_on_with_the_same_bytes() {
     while finished() < 2 {
         thread::sleep(Duration::from_millis(5));
     }
-    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    terminate(&child);
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(output.status.code(), Some(143));
     let hint = "interrupted; what is finished is kept: continue with the same command and --resume\n";
     assert!(text(&output.stderr).ends_with(hint), "{}", text(&output.stderr));
     assert!(!home.path().join("new").exists());

@@ -1,6 +1,6 @@
 //! Minting a release again.
 
-use crate::arcade::{TINY, arcade, copy_of_tiny, copy_tree, files, run, text};
+use crate::arcade::{TINY, arcade, copy_of_tiny, copy_tree, files, run, terminate, text};
 use std::fs;
 use std::process::Stdio;
 
@@ -115,7 +115,7 @@ fn an_interrupted_regeneration_ends_with_its_status() {
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
     let first = lines.next().unwrap();
     assert_eq!(first, "if interrupted, this starts over: only with --out does --resume go on");
-    std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    terminate(&child);
+    assert_eq!(child.wait().unwrap().code(), Some(143));
     assert_eq!(lines.last().as_deref(), Some("interrupted; nothing is kept without --out"));
 }

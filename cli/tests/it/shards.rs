@@ -1,6 +1,6 @@
 //! A release made in slices, interrupted and resumed: the same bytes.
 
-use crate::arcade::{SLICES, SLICES_RECIPE, arcade, copy_of_slices, files, run, sweeping, text};
+use crate::arcade::{SLICES, SLICES_RECIPE, arcade, copy_of_slices, files, run, sweeping, terminate, text};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -97,7 +97,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
         while lots() == 0 && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(5));
         }
-        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        terminate(&child);
         let output = child.wait_with_output().unwrap();
         // On a busy machine all jobs may be finished before the signal is sent.
         let finished = output.status.success();
@@ -108,7 +108,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     };
     let output = (0..10).find_map(|_| interrupted()).expect("a mint is interrupted between its jobs");
     let said = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert_eq!(output.status.code(), Some(143), "{said}");
     assert!(said.contains(&format!("interrupted; continue with: arcade {}", mint.join(" "))), "{said}");
     assert!(said.contains("--resume"), "{said}");
     assert!(lots() > 0 && !folder.join("out").exists());

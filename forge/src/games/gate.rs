@@ -152,7 +152,7 @@ fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::card::Origin;
     use crate::games::make_games;
@@ -164,7 +164,7 @@ mod tests {
     use validators::Criteria;
 
     /// Two levels, and few and weak players.
-    fn order() -> GameOrder {
+    pub(in crate::games) fn order() -> GameOrder {
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
         let criteria = Criteria {
             ask: names(&["well-formed", "not-idle", "not-random", "winnable", "length"]),

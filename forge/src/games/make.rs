@@ -327,3 +327,37 @@ impl Attempted {
         self.tally.calls(look.calls);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::games::GameEffort;
+    use crate::games::gate::tests::order;
+    use generators::games::Kind;
+
+    /// One attempt at a game by looking at others, the same on any number of threads.
+    #[track_caller]
+    fn check(method: Method) {
+        let order = GameOrder { method, kinds: vec![Kind::KeyAndDoor], ..order() };
+        let order = GameOrder { effort: GameEffort { attempts: 1, looks: 12, ..order.effort }, ..order };
+        let made_by = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let set = pool.install(|| make_games(&order, &[], "", Seed::from_text("threads"), &())).unwrap();
+            let game = |made: &MadeGame| (made.text.clone(), made.witnesses.clone(), made.path.clone());
+            (set.games.iter().map(game).collect::<Vec<_>>(), set.looks, set.tally)
+        };
+        let one = made_by(1);
+        assert!(one.0.len() == 1 && one.1 >= 12, "{} games of {} looks", one.0.len(), one.1);
+        assert_eq!(one, made_by(3));
+    }
+
+    #[test]
+    fn searched_games_are_the_same_on_any_number_of_threads() {
+        check(Method::Search);
+    }
+
+    #[test]
+    fn evolved_games_are_the_same_on_any_number_of_threads() {
+        check(Method::Evolutionary);
+    }
+}

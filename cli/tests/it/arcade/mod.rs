@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output};
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
@@ -54,6 +54,13 @@ pub(crate) fn arcade(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_arcade"));
     command.current_dir(folder);
     command
+}
+
+/// Ends a program as `kill` does: its exit status is then 143. A shell's background jobs ignore SIGINT, and so would the program.
+#[cfg(unix)]
+pub(crate) fn terminate(child: &Child) {
+    let done = Command::new("kill").arg(child.id().to_string()).status().unwrap();
+    assert!(done.success());
 }
 
 /// Runs with these arguments and expects this exit status; on another one, shows the output.

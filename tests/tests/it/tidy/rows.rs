@@ -17,9 +17,16 @@ const FILES: usize = 4;
 const EXHAUSTIVE: [&str; 6] =
     ["Effect::", "EffectSummary::", "SpriteClass::", "C::", "Condition::", "Written::"];
 
-/// The lines of a file before its tests.
+/// The numbered lines of a file, without the items that only tests have.
 fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    (1..).zip(text.lines()).take_while(|(_, line)| *line != "#[cfg(test)]")
+    let mut in_test = false;
+    (1..).zip(text.lines()).filter(move |(_, line)| {
+        in_test |= *line == "#[cfg(test)]";
+        let is_code = !in_test;
+        // The code is formatted: an item ends in the first column.
+        in_test &= *line != "}" && !(line.ends_with(';') && !line.starts_with(' '));
+        is_code
+    })
 }
 
 /// The variants of the enum of effects.
@@ -125,4 +132,7 @@ fn arms_for_everything_else_are_found() {
     );
     check("        Effect::KillSprite => 1,\n        _ if free => 2,\n        Effect::KillBoth => 3,\n", &[]);
     check("        Some(stype) => 1,\n        _ => 2,\n", &[]);
+    let after = "#[cfg(test)]\nmod tests;\n\n#[cfg(test)]\nmod more {\n    use a;\n}\nfn f() {\n    match effect {\n        \
+                 Effect::KillBoth => 1,\n        _ => 2,\n    }\n}\n";
+    assert_eq!(fall_throughs(after), [11]);
 }
