@@ -26,6 +26,7 @@ mod protected;
 mod set_report;
 mod shell;
 mod threads;
+mod timeline;
 mod usage;
 mod verbs;
 mod version;
@@ -86,6 +87,7 @@ verbs! {
     Report: report,
     Calibrate: calibrate,
     Scale: scale,
+    Timeline: timeline,
     Diff: diff,
     Export: export,
     Play: play,

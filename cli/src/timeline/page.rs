@@ -88,8 +88,8 @@ pub(super) fn render(timeline: &Timeline, tables: &[Table]) -> Result<String, Fa
             player.change.as_ref().map_or("no month with wins and losses to compare".to_owned(), |change| {
                 let Span { value, low, high } = change.from_first_to_last;
                 format!(
-                    "last − first {value:+.2} ({low:+.2} to {high:+.2}); p = {:.2} for no change",
-                    change.p
+                    "last − first {value:+.2} ({low:+.2} to {high:+.2}); p {} for no change",
+                    TableCell::Probability(change.p).plain()
                 )
             });
         Panel { name: player.ability.player.clone(), note, svg: over_months(&plot) }

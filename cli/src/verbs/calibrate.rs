@@ -137,7 +137,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let folders: Vec<PathBuf> = examinees.iter().map(|one| plays_folder.join(one.name)).collect();
     let persons = in_pool(jobs, || played(&[folders, args.readers.clone()].concat(), max_steps))??;
     for person in &persons {
-        if let Some(line) = left_out(&person.player.label(), &person.left_out, max_steps).next() {
+        if let Some(line) = left_out(&person.player.label(), &person.left_out, max_steps).first() {
             bail!("{line}, or omit it from --readers");
         }
     }

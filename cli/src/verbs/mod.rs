@@ -24,5 +24,6 @@ pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod scale;
 pub(crate) mod serve_player;
+pub(crate) mod timeline;
 pub(crate) mod validate;
 pub(crate) mod verify;

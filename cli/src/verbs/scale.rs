@@ -53,7 +53,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                 person.player, person.unknown
             ));
         }
-        left_out(&person.player, &person.left_out, scale.max_steps).for_each(|line| console.remark(line));
+        left_out(&person.player, &person.left_out, scale.max_steps)
+            .iter()
+            .for_each(|line| console.remark(line));
     }
     let is_placed = |person: &PersonAbility| {
         let is_out = person.months.is_empty() && !person.left_out.is_empty();
@@ -62,19 +64,17 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(found.iter().all(is_placed))
 }
 
-/// Returns a line for each way in which episodes of the person differ from those that a scale is of.
-pub(crate) fn left_out<'a>(
-    player: &'a str,
-    left_out: &'a BTreeMap<String, u64>,
-    max_steps: u64,
-) -> impl Iterator<Item = String> + 'a {
-    left_out.iter().map(move |(flags, &episodes)| {
-        let (episodes, were) = (count(episodes as usize, "episode"), if episodes == 1 { "was" } else { "were" });
+/// Returns a line for each way in which episodes of a player differ from those that a scale is of.
+pub(crate) fn left_out(player: &str, left_out: &BTreeMap<String, u64>, max_steps: u64) -> Vec<String> {
+    let line = |(flags, &episodes): (&String, &u64)| {
+        let (episodes, were) =
+            (count(episodes as usize, "episode"), if episodes == 1 { "was" } else { "were" });
         format!(
             "{player}: {episodes} with {flags} {were} left out: the scale is of the track `told`, a look before every action, and \
              --max-steps {max_steps}; evaluate it so"
         )
-    })
+    };
+    left_out.iter().map(line).collect()
 }
 
 fn words(month: &MonthAbility) -> String {

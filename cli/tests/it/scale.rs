@@ -119,6 +119,42 @@ fn players_are_placed_or_refused() {
     assert!(text(&unknown.stderr).contains("november"), "{}", text(&unknown.stderr));
 }
 
+/// The page of two months, by the plays that calibrated them.
+#[test]
+fn timelines_are_a_page_and_its_numbers() {
+    let folder = SCALES.path();
+    let plays = |scale: &str, name: &str| format!("{scale}/plays/{name}");
+    let names = ["olets-1", "random-1", "reflex-1"];
+    let results: Vec<String> =
+        ["first", "second"].iter().flat_map(|scale| names.map(|name| plays(scale, name))).collect();
+    let make = |out: &str, scale: &str, status| {
+        let mut args = vec!["timeline", "--scale", scale, "--out", out];
+        args.extend(results.iter().map(String::as_str));
+        run(folder, &args, status)
+    };
+    make("timeline", "second/scale.json", 0);
+    let page = fs::read_to_string(folder.join("timeline/timeline.html")).unwrap();
+    for part in [
+        "november to december: 2 months on one scale",
+        "olets-1",
+        "Not placed",
+        "reflex-1 is not placed in december",
+        "</html>",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("NaN") && !page.contains("<script"));
+    let found = read(&folder.join("timeline/timeline.json"));
+    assert_eq!(
+        (found["months"].as_array().unwrap().len(), found["players"].as_array().unwrap().len()),
+        (2, 3)
+    );
+    assert!(found["players"].as_array().unwrap().iter().all(|player| player["is_examinee"] == true));
+    let abilities = fs::read_to_string(folder.join("timeline/tables/abilities.csv")).unwrap();
+    assert_eq!(abilities.lines().count(), 1 + 3 * 2, "{abilities}");
+    make("timeline", "second/scale.json", 2);
+}
+
 #[test]
 fn malformed_scales_are_refused() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,8 +5,10 @@ mod examinees;
 mod file;
 mod person;
 mod played;
+mod timeline;
 
 pub use examinees::{EXAMINEES, Examinee, examinee_named};
 pub use file::{Estimate, ExamineeEntry, GameEntry, LevelEntry, MonthEntry, SCALE_FORMAT, ScaleFile, Span};
-pub use person::{MonthAbility, PersonAbility, Refusal, abilities};
+pub use person::{ErrorParts, MonthAbility, PersonAbility, Refusal, abilities};
 pub use played::{PersonPlays, played};
+pub use timeline::{Change, Timeline, TimelineMonth, TimelinePlayer};

@@ -83,7 +83,7 @@ pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbilit
     persons.iter().map(|person| of_person(scale, person)).collect()
 }
 
-fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbility {
+pub(super) fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbility {
     let is_reader = person.dimension == Dimension::Reader;
     let (mut months, mut unknown) = (BTreeMap::<usize, BTreeMap<usize, PlayedGame>>::new(), 0);
     let side = usize::from(is_reader);

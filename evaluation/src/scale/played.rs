@@ -1,8 +1,9 @@
 //! The plays of persons on levels, from results folders: identical episodes count once.
 
 use crate::error::EvaluationError;
-use crate::run::{Evaluation, Settings};
-use crate::study::{Player, Study};
+use crate::metrics::EpisodeMetrics;
+use crate::run::Settings;
+use crate::study::{Player, persons};
 use crate::track::Track;
 use engine::Digest;
 use itertools::Itertools;
@@ -19,50 +20,68 @@ pub struct PersonPlays {
     pub dimension: Dimension,
     /// Episodes with settings that the scale was not calibrated with, by what differs: `--commit 3`. They are not among `levels`.
     pub left_out: BTreeMap<String, u64>,
+    /// The versions of the suite that it was evaluated with, by the digest of the game.
+    pub suites: BTreeMap<Digest, BTreeSet<String>>,
     /// Won and all different episodes, by the digests of game and level.
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads results folders, of whose persons each is told apart as in reports. Aborted episodes do not count, nor do those with
-/// another track, commitment or limit of steps than a scale of `max_steps`: the difficulty of its levels is not that for them.
+/// Reads results folders, whose persons are told apart as in reports. Aborted episodes do not count, nor do those with another track,
+/// commitment or limit of steps than a scale of `max_steps`: the difficulty of its levels is not that for them. Cost: that of
+/// [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon pool.
 ///
 /// # Errors
-/// The same as those of [`Study::read`].
+/// A folder or log cannot be read, a replay differs from its log, or two folders hold different episodes of one person, level, run
+/// and seed.
 pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, EvaluationError> {
-    let study = Study::read(folders)?;
-    let settings = folders
-        .iter()
-        .map(|folder| Evaluation::open(folder).map(|found| found.settings))
-        .collect::<Result<Vec<_>, EvaluationError>>()?;
-    let person = |(at, player): (usize, &Player)| {
-        let (mut levels, mut left_out): (BTreeMap<_, (u64, u64)>, _) = (BTreeMap::new(), BTreeMap::new());
-        let mut dimension = Dimension::Reader;
-        let mut seen = BTreeSet::new();
-        for episode in study.on(at, None, None).iter().filter(|episode| episode.metrics.counts()) {
-            let Some(settings) = episode.metrics.folder.map(|folder| &settings[folder]) else { continue };
-            let Some(game) = settings.games.iter().find(|game| game.id == episode.metrics.game) else {
+    let (persons, settings) = persons(folders)?;
+    let person = |(player, episodes): (Player, Vec<EpisodeMetrics>)| {
+        let mut person = PersonPlays {
+            player,
+            dimension: Dimension::Reader,
+            left_out: BTreeMap::new(),
+            levels: BTreeMap::new(),
+            suites: BTreeMap::new(),
+        };
+        let (mut courses, mut runs) = (BTreeSet::new(), BTreeMap::new());
+        for episode in episodes.iter().filter(|episode| episode.counts()) {
+            let Some(folder) = episode.folder else { continue };
+            let settings = &settings[folder];
+            let Some(game) = settings.games.iter().find(|game| game.id == episode.game) else { continue };
+            let Some(level) = game.levels.iter().find(|level| level.number == episode.level) else {
                 continue;
             };
-            let level = game.levels.iter().find(|level| level.number == episode.metrics.level);
-            let Some(level) = level else { continue };
             if settings.entrant.details.get("planner").is_some() {
-                dimension = Dimension::Planner;
+                person.dimension = Dimension::Planner;
             }
             if let Some(other) = settings.apart_from(max_steps) {
-                *left_out.entry(other).or_default() += 1;
+                *person.left_out.entry(other).or_default() += 1;
                 continue;
             }
             let place = (game.digest, level.digest);
-            let course = episode.metrics.course;
-            if course.is_none_or(|course| seen.insert((place, course))) {
-                let counts = levels.entry(place).or_default();
-                counts.0 += u64::from(episode.metrics.won());
+            let run = (place, &settings.seed, episode.run);
+            let (first, course) = *runs.entry(run).or_insert((folder, episode.course));
+            if first != folder && (course.is_none() || course != episode.course) {
+                let what = format!(
+                    "{} also played run {} of {} level {} in {}; rename one of the two players",
+                    person.player.label(),
+                    episode.run,
+                    game.id,
+                    level.number,
+                    folders[first].display()
+                );
+                return Err(EvaluationError::malformed(&folders[folder], what));
+            }
+            person.suites.entry(game.digest).or_default().insert(settings.suite.clone());
+            if episode.course.is_none_or(|course| courses.insert((place, course))) {
+                let counts = person.levels.entry(place).or_default();
+                counts.0 += u64::from(episode.won());
                 counts.1 += 1;
             }
         }
-        PersonPlays { player: player.clone(), dimension, left_out, levels }
+        Ok(person)
     };
-    Ok(study.players.iter().enumerate().map(person).collect())
+    persons.into_iter().map(person).collect()
 }
 
 impl Settings {
