@@ -54,7 +54,10 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
         });
     }
     if let Some((hardest, easiest)) = extremes(timeline) {
-        let shift = |month: &TimelineMonth| interval(month.planners_shift);
+        let shift = |month: &TimelineMonth| match month.name == timeline.months[0].name {
+            true => "0, as the first month".to_owned(),
+            false => interval(month.planners_shift),
+        };
         told.push(format!(
             "For the planners of the scale, {} was the hardest month ({}) and {} the easiest ({}), in logits above the first month.",
             hardest.name,

@@ -98,6 +98,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         commit: Commitment::ONE,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(&games),
     };
     let first = settings(examinees[0]);

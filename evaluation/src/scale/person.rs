@@ -3,7 +3,7 @@
 use super::file::{Estimate, ScaleFile, Span};
 use super::played::PersonPlays;
 use serde::Serialize;
-use statistics::scale::{Ability, Dimension, MismatchPrior, PlayedGame, PlayedLevel, ability};
+use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
 /// The least lower end of the correlation at which planners alone link a month for readers.
@@ -109,18 +109,14 @@ fn of_month(
     month: usize,
     games: BTreeMap<usize, PlayedGame>,
 ) -> MonthAbility {
-    let (entry, spreads) = (&scale.months[month], scale.spreads);
+    let entry = &scale.months[month];
     let games: Vec<PlayedGame> = games.into_values().collect();
     let sum =
         |of: fn(&PlayedLevel) -> f64| games.iter().flat_map(|game| &game.levels).map(of).sum::<f64>() as u64;
     let is_anchored = month == 0 || entry.anchors >= ANCHORS;
     let low = scale.correlation.map(|found| found.low);
     let refused = is_reader && !is_anchored && low.is_none_or(|low| low < LEAST_CORRELATION);
-    let median = match is_reader {
-        true => spreads.reader,
-        false => (spreads.family * spreads.family + spreads.planner * spreads.planner).sqrt(),
-    };
-    let prior = MismatchPrior { median, ..MismatchPrior::default() };
+    let prior = scale.mismatch_prior(is_reader);
     let found: Option<Ability> =
         (!refused).then(|| ability(&games, prior, entry.link[usize::from(is_reader)])).flatten();
     MonthAbility {

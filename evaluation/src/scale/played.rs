@@ -86,7 +86,7 @@ pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, E
 
 impl Settings {
     /// Returns by what flags it differs from the settings of a scale with this limit of steps; `None` if by none.
-    fn apart_from(&self, max_steps: u64) -> Option<String> {
+    pub fn apart_from(&self, max_steps: u64) -> Option<String> {
         let track = self.track.as_deref().and_then(|id| id.split('@').next());
         let track = track.filter(|name| *name != Track::Told.name()).map(|name| format!("--track {name}"));
         let commit = (!self.commit.is_one()).then(|| format!("--commit {}", self.commit));
@@ -117,6 +117,7 @@ mod tests {
             commit: commit.parse::<Commitment>().unwrap(),
             track: track.map(str::to_owned),
             series: 1,
+            adaptive: None,
             games: Vec::new(),
         };
         assert_eq!(settings.apart_from(500).as_deref(), expect);

@@ -46,7 +46,12 @@ impl Study {
             let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
             measured.iter_mut().for_each(|episode| episode.folder = Some(place));
             let open = tasks.len() - measured.len();
-            if open > 0 {
+            if evaluation.settings.adaptive.is_some() {
+                notes.push(format!(
+                    "The levels of {} were chosen by what it won before (--adaptive): its win rate is no measure; `arcade scale` places it.",
+                    player.label()
+                ));
+            } else if open > 0 {
                 notes.push(format!(
                     "{open} of {} episodes of {} were not started.",
                     tasks.len(),
