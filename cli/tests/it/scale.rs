@@ -207,6 +207,11 @@ fn plans_choose_levels_for_a_target() {
         let refused = run(folder, &[&CHOICE[..6], steps, &CHOICE[8..], wrong].concat(), 2);
         assert!(text(&refused.stderr).contains(words), "{}", text(&refused.stderr));
     }
+    // A reader on a month with one anchor only.
+    let month =
+        ["evaluate", "first-ice", "--player", "reflex", "--max-steps", "40", "--scale", "second/scale.json"];
+    let unlinked = run(folder, &[&month[..], &["--episodes", "1", "--plan"]].concat(), 0);
+    assert!(text(&unlinked.stderr).contains("two anchors"), "{}", text(&unlinked.stderr));
     let unknown = [
         "evaluate",
         "first-ice",

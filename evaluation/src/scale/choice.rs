@@ -16,6 +16,8 @@ pub struct ScaledLevels {
     /// The standard error that all difficulties have in common.
     link: f64,
     prior: MismatchPrior,
+    /// `true` if `arcade scale` would place the player on all of them.
+    pub is_linked: bool,
 }
 
 /// The target of a plan.
@@ -68,7 +70,7 @@ impl ScaledLevels {
     /// # Errors
     /// A level is not on the scale, in words.
     pub fn of(scale: &ScaleFile, games: &[SubjectEntry], is_reader: bool) -> Result<ScaledLevels, String> {
-        let (side, mut link) = (usize::from(is_reader), 0.0_f64);
+        let (side, mut link, mut is_linked) = (usize::from(is_reader), 0.0_f64, true);
         let mut found = Vec::new();
         for game in games {
             let mut played = PlayedGame::default();
@@ -81,10 +83,11 @@ impl ScaledLevels {
                 played.common = entry.common[side];
                 played.levels.push(PlayedLevel { difficulty, own, won: 0.0, of: 0.0 });
                 link = link.max(scale.months[month].link[side]);
+                is_linked &= !is_reader || scale.links_readers(month);
             }
             found.push(played);
         }
-        Ok(ScaledLevels { games: found, link, prior: scale.mismatch_prior(is_reader) })
+        Ok(ScaledLevels { games: found, link, prior: scale.mismatch_prior(is_reader), is_linked })
     }
 
     /// Plans for a target, spread over games first: each round takes the level of each game that tells the most at this ability, of
@@ -267,7 +270,7 @@ mod tests {
     fn levels() -> ScaledLevels {
         let level = |difficulty: f64| PlayedLevel { difficulty, own: 0.2, won: 0.0, of: 0.0 };
         let game = PlayedGame { common: 0.2, levels: [-2.0, 0.0, 2.0].map(level).to_vec() };
-        ScaledLevels { games: vec![game; 40], link: 0.1, prior: MismatchPrior::default() }
+        ScaledLevels { games: vec![game; 40], link: 0.1, prior: MismatchPrior::default(), is_linked: true }
     }
 
     #[test]

@@ -103,6 +103,14 @@ pub(super) fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbilit
     PersonAbility { player: person.player.label(), is_reader, months, unknown, left_out }
 }
 
+impl ScaleFile {
+    /// Returns `true` if readers can be placed on a release, by its index: by anchors, or by planners where the correlation holds.
+    pub fn links_readers(&self, month: usize) -> bool {
+        let is_anchored = month == 0 || self.months[month].anchors >= ANCHORS;
+        is_anchored || self.correlation.is_some_and(|found| found.low >= LEAST_CORRELATION)
+    }
+}
+
 fn of_month(
     scale: &ScaleFile,
     is_reader: bool,
@@ -113,9 +121,8 @@ fn of_month(
     let games: Vec<PlayedGame> = games.into_values().collect();
     let sum =
         |of: fn(&PlayedLevel) -> f64| games.iter().flat_map(|game| &game.levels).map(of).sum::<f64>() as u64;
-    let is_anchored = month == 0 || entry.anchors >= ANCHORS;
     let low = scale.correlation.map(|found| found.low);
-    let refused = is_reader && !is_anchored && low.is_none_or(|low| low < LEAST_CORRELATION);
+    let refused = is_reader && !scale.links_readers(month);
     let prior = scale.mismatch_prior(is_reader);
     let found: Option<Ability> =
         (!refused).then(|| ability(&games, prior, entry.link[usize::from(is_reader)])).flatten();

@@ -81,6 +81,7 @@ pub(super) fn choose(
     requested: &RequestedPlayer,
     settings: &mut Settings,
     subjects: &mut Vec<Subject>,
+    console: &Console,
 ) -> Result<Choice, Failure> {
     let ChoiceArgs { scale: Some(path), target_error, target_difference, episodes, ability, .. } =
         &args.choice
@@ -101,6 +102,12 @@ pub(super) fn choose(
             path.display()
         )
     })?;
+    if !levels.is_linked {
+        console.remark(
+            "warning: this release has too few anchors to place readers, so `arcade scale` will not place the player, and the errors here \
+             are those beside others on the same release; calibrate it with two anchors (--readers)",
+        );
+    }
     let numbers = [target_error, target_difference].into_iter().flatten();
     if numbers.into_iter().any(|target| !(target.is_finite() && *target > 0.0)) {
         bail!("a target is a number of logits above 0, such as 0.25");

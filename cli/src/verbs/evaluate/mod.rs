@@ -176,7 +176,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(track) = args.model.prompt.track {
         settings = settings.on_track(track).map_err(Failure::malformed)?;
     }
-    let mut choice = choice::choose(args, &requested, &mut settings, &mut subjects.games)?;
+    let mut choice = choice::choose(args, &requested, &mut settings, &mut subjects.games, console)?;
     settings
         .check()
         .map_err(|problem| malformed!("{problem}; see --runs, --max-steps, --games and --levels"))?;
