@@ -1,6 +1,6 @@
 #!/bin/sh
 # A year of small months on one scale: mints them from one template, each the child of the one before, calibrates the first, links the
-# others, has players on all of them, and makes the timeline. About a minute and a half of one core for each month.
+# others, has players on all of them, and makes the timeline. One to two minutes of a core for each month.
 # Usage: scripts/year.sh DIR [MONTHS]     ARCADE=path of the binary
 # Run again after an interruption, it goes on with what is missing.
 set -eu

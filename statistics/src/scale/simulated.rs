@@ -325,6 +325,17 @@ mod tests {
         assert!(trials.iter().all(|trial| (0.2..0.8).contains(&trial.error)), "{trials:?}");
     }
 
+    /// Off target, 65 % of the episodes are enough if they are chosen adaptively.
+    #[test]
+    fn adaptive_choices_save_episodes() {
+        let trials = adaptive_trials(&plan(5, 0), (-3.0, 1.0), (40, &[26]), 24, 3).unwrap();
+        let sum = |of: fn(&AdaptiveTrial) -> f64| trials.iter().map(of).sum::<f64>();
+        let (spread, adaptive) = (sum(|trial| trial.spread.error), sum(|trial| trial.adaptive[0].error));
+        assert!(adaptive <= spread, "{adaptive}, {spread}");
+        let covered = trials.iter().filter(|trial| trial.adaptive[0].is_covered).count();
+        assert!(covered >= 20, "{covered} of 24");
+    }
+
     #[test]
     fn anchors_see_a_drift() {
         let found = link_trial(&plan(4, 2), 0.3, 2.0, 5).unwrap().drift;
