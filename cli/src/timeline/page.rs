@@ -119,7 +119,7 @@ fn headlines(timeline: &Timeline) -> Vec<Fact> {
             let change = player.change.as_ref()?;
             let half = Z95 * change.mean.error;
             let band = format!("{:+.2} to {:+.2}", change.mean.value - half, change.mean.value + half);
-            let fact = Fact::plain(&*player.ability.player, format!("{:+.2}", change.mean.value));
+            let fact = Fact::plain(&*player.ability.player, told::signed(change.mean.value));
             Some(fact.of("mean ability".to_owned()).within(band))
         })
         .collect_vec();

@@ -77,7 +77,7 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
             many(count as u64, "month")
         ),
         (count, false) => format!(
-            "Anchors see a drift in {flagged}, of the {} that they could compare with the first.",
+            "Anchors see a drift in {flagged}, of the {} that they could compare with the first; without any, one in twenty would be flagged.",
             many(count as u64, "month")
         ),
     });
@@ -133,8 +133,13 @@ fn moved(player: &TimelinePlayer) -> String {
     )
 }
 
-/// `+0.31, −0.12 to +0.74`.
+/// `+0.31`, `-0.12`, `0.00`.
+pub(super) fn signed(value: f64) -> String {
+    if value.abs() < 0.005 { "0.00".to_owned() } else { format!("{value:+.2}") }
+}
+
+/// `+0.31, -0.12 to +0.74`.
 fn interval(one: Estimate) -> String {
     let half = Z95 * one.error;
-    format!("{:+.2}, {:+.2} to {:+.2}", one.value, one.value - half, one.value + half)
+    format!("{}, {} to {}", signed(one.value), signed(one.value - half), signed(one.value + half))
 }

@@ -172,7 +172,7 @@ mod tests {
         let mut chosen = Vec::new();
         for _ in 0..20 {
             let one = selection.choose().unwrap();
-            selection.record(one.game, one.level, one.level == 0 && one.game % 2 == 0);
+            selection.record(one.game, one.level, one.level == 0 && one.game.is_multiple_of(2));
             chosen.push(one);
         }
         let mut played: Vec<usize> = chosen.iter().map(|one| one.game).collect();
