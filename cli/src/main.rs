@@ -26,6 +26,7 @@ mod protected;
 mod set_report;
 mod shell;
 mod threads;
+mod timeline;
 mod trusted;
 mod usage;
 mod verbs;
@@ -91,6 +92,7 @@ verbs! {
     Report: report,
     Calibrate: calibrate,
     Scale: scale,
+    Timeline: timeline,
     Contamination: contamination,
     Diff: diff,
     Export: export,

@@ -15,6 +15,7 @@
 //! ```
 
 mod bootstrap;
+mod chi_squared;
 mod clustered;
 mod cohen;
 mod contamination;
@@ -39,6 +40,7 @@ mod welch;
 mod wilson;
 
 pub use bootstrap::{bootstrap, bootstrap_difference};
+pub use chi_squared::chi_squared_p;
 pub use clustered::clustered_mean;
 pub use cohen::cohens_h;
 pub use contamination::{CoinTest, Memoriser, coin_power, coin_test};

@@ -5,6 +5,7 @@ use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::verbs::evaluate::subjects::{self, Subjects, Wanted};
 use crate::verbs::release::in_pool;
+use crate::verbs::scale::left_out;
 use crate::{interrupt, protected, whole_file};
 use engine::SEMANTICS;
 use evaluation::run::{FORMAT, PlayResult, Progress, Task};
@@ -97,6 +98,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         commit: Commitment::ONE,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(&games),
     };
     let first = settings(examinees[0]);
@@ -134,7 +136,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     bar.0.finish_and_clear();
     let folders: Vec<PathBuf> = examinees.iter().map(|one| plays_folder.join(one.name)).collect();
-    let persons = in_pool(jobs, || played(&[folders, args.readers.clone()].concat()))??;
+    let persons = in_pool(jobs, || played(&[folders, args.readers.clone()].concat(), max_steps))??;
+    for person in &persons {
+        if let Some(line) = left_out(&person.player.label(), &person.left_out, max_steps).first() {
+            bail!("{line}, or omit it from --readers");
+        }
+    }
     let name = args.name.clone().unwrap_or_else(|| default_name(&args.subjects));
     let found = in_pool(jobs, || calibrated(args, earlier, &first, &persons, &name))??;
     let path = args.out.join("scale.json");

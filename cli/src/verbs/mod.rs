@@ -29,5 +29,6 @@ pub(crate) mod run;
 pub(crate) mod scale;
 pub(crate) mod serve_player;
 pub(crate) mod sign;
+pub(crate) mod timeline;
 pub(crate) mod validate;
 pub(crate) mod verify;

@@ -4,9 +4,10 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::Answer;
 use crate::verbs::release::in_pool;
-use evaluation::scale::{MonthAbility, Refusal, ScaleFile, abilities, played};
+use evaluation::scale::{MonthAbility, PersonAbility, Refusal, ScaleFile, abilities, played};
 use itertools::Itertools;
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Places players on a scale: their ability as each release shows it, with its error in parts.
@@ -32,9 +33,9 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let scale = ScaleFile::read(&args.scale)?;
-    let persons = in_pool(args.jobs, || played(&args.results))??;
+    let persons = in_pool(args.jobs, || played(&args.results, scale.max_steps))??;
     let found = abilities(&scale, &persons);
-    if found.iter().all(|person| person.months.is_empty()) {
+    if found.iter().all(|person| person.months.is_empty() && person.left_out.is_empty()) {
         bail!(
             "none of the levels in these results is on the scale; evaluate a release that it has: {}",
             scale.months.iter().map(|month| &month.name).join(", ")
@@ -52,17 +53,28 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                 person.player, person.unknown
             ));
         }
+        left_out(&person.player, &person.left_out, scale.max_steps)
+            .iter()
+            .for_each(|line| console.remark(line));
     }
-    for person in persons.iter().filter(|person| person.max_steps.iter().any(|most| *most != scale.max_steps))
-    {
-        console.remark(format_args!(
-            "{}: its limit of steps is not that of the scale ({}), so its levels are not the same",
-            person.player.label(),
-            scale.max_steps
-        ));
-    }
-    let refused = found.iter().flat_map(|person| &person.months).filter(|month| month.ability.is_none());
-    Ok(refused.count() == 0)
+    let is_placed = |person: &PersonAbility| {
+        let is_out = person.months.is_empty() && !person.left_out.is_empty();
+        !is_out && person.months.iter().all(|month| month.ability.is_some())
+    };
+    Ok(found.iter().all(is_placed))
+}
+
+/// Returns a line for each way in which episodes of a player differ from those that a scale is of.
+pub(crate) fn left_out(player: &str, left_out: &BTreeMap<String, u64>, max_steps: u64) -> Vec<String> {
+    let line = |(flags, &episodes): (&String, &u64)| {
+        let (episodes, were) =
+            (count(episodes as usize, "episode"), if episodes == 1 { "was" } else { "were" });
+        format!(
+            "{player}: {episodes} with {flags} {were} left out: the scale is of the track `told`, a look before every action, and \
+             --max-steps {max_steps}; evaluate it so"
+        )
+    };
+    left_out.iter().map(line).collect()
 }
 
 fn words(month: &MonthAbility) -> String {

@@ -102,6 +102,7 @@ fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
         commit: evaluation::Commitment::ONE,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(&subjects),
     };
     let evaluation = Evaluation::create(folder, settings, subjects).unwrap();

@@ -100,9 +100,161 @@ fn players_are_placed_or_refused() {
     play("reflex", "first-ice", "reader");
     let refused = run(folder, &["scale", "reader", "--scale", "second/scale.json"], 1);
     assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
+    // The scale is of another commitment, track and limit of steps than these.
+    let settings = [
+        &["--commit", "3", "--max-steps", "40"],
+        &["--track", "masked", "--max-steps", "40"],
+        &["--max-steps", "30"][..],
+    ];
+    for (at, settings) in settings.into_iter().enumerate() {
+        let out = format!("apart{at}");
+        let play = ["evaluate", "hailglass", "--levels", "0", "--player", "reflex", "-q", "--out", &out];
+        run(folder, &[&play[..], settings].concat(), 0);
+        let left_out = run(folder, &["scale", &out, "--scale", "second/scale.json"], 1);
+        let expect = format!("1 episode with {} {}", settings[0], settings[1]);
+        assert!(text(&left_out.stderr).contains(&expect), "{}", text(&left_out.stderr));
+    }
     // Nothing that was played is on the first scale.
     let unknown = run(folder, &["scale", "reader", "--scale", "first/scale.json"], 2);
     assert!(text(&unknown.stderr).contains("november"), "{}", text(&unknown.stderr));
+}
+
+/// The page of two months, by the plays that calibrated them.
+#[test]
+fn timelines_are_a_page_and_its_numbers() {
+    let folder = SCALES.path();
+    let plays = |scale: &str, name: &str| format!("{scale}/plays/{name}");
+    let names = ["olets-1", "random-1", "reflex-1"];
+    let results: Vec<String> =
+        ["first", "second"].iter().flat_map(|scale| names.map(|name| plays(scale, name))).collect();
+    let make = |out: &str, scale: &str, status| {
+        let mut args = vec!["timeline", "--scale", scale, "--out", out];
+        args.extend(results.iter().map(String::as_str));
+        run(folder, &args, status)
+    };
+    make("timeline", "second/scale.json", 0);
+    let page = fs::read_to_string(folder.join("timeline/timeline.html")).unwrap();
+    for part in [
+        "november to december: 2 months on one scale",
+        "olets-1",
+        "Not placed",
+        "reflex-1 is not placed in december",
+        "</html>",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("NaN") && !page.contains("<script"));
+    let found = read(&folder.join("timeline/timeline.json"));
+    assert_eq!(
+        (found["months"].as_array().unwrap().len(), found["players"].as_array().unwrap().len()),
+        (2, 3)
+    );
+    assert!(found["players"].as_array().unwrap().iter().all(|player| player["is_examinee"] == true));
+    let abilities = fs::read_to_string(folder.join("timeline/tables/abilities.csv")).unwrap();
+    assert_eq!(abilities.lines().count(), 1 + 3 * 2, "{abilities}");
+    make("timeline", "second/scale.json", 2);
+}
+
+fn logs(results: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(results.join("episodes"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+const CHOICE: [&str; 10] = [
+    "evaluate",
+    "hailglass",
+    "great-yawn",
+    "bog-lantern",
+    "--player",
+    "reflex",
+    "--max-steps",
+    "40",
+    "--scale",
+    "first/scale.json",
+];
+
+#[test]
+fn plans_choose_levels_for_a_target() {
+    let folder = SCALES.path();
+    let plan = |more: &[&str], status| {
+        let found = run(folder, &[&CHOICE, more, &["--plan", "--json"][..]].concat(), status);
+        serde_json::from_str::<Value>(&text(&found.stdout)).unwrap()
+    };
+    let found = plan(&["--episodes", "4"], 0);
+    assert_eq!((&found["errors"]["episodes"], &found["errors"]["games"]), (&4.into(), &3.into()), "{found}");
+    assert_eq!(plan(&["--target-error", "0.01", "--runs", "2"], 1)["runs"], 2);
+    // Without --plan it is played.
+    run(folder, &[&CHOICE, &["--episodes", "4", "--out", "planned", "-q"][..]].concat(), 0);
+    let chosen = found["games"].as_array().unwrap().iter().flat_map(|game| {
+        let levels = game["levels"].as_array().unwrap().clone();
+        levels.into_iter().map(|level| format!("{}-lvl{level}-run0.jsonl", game["game"].as_str().unwrap()))
+    });
+    let mut chosen: Vec<String> = chosen.collect();
+    chosen.sort();
+    assert_eq!(chosen, logs(&folder.join("planned")));
+    for (wrong, words) in [
+        (&["--episodes", "4", "--max-steps", "30"][..], "--max-steps 40"),
+        (&["--episodes", "4", "--commit", "2"], "--commit 2"),
+        (&["--plan"], "one target"),
+        (&["--adaptive"], "needs an end"),
+        (&["--target-error", "-1"], "above 0"),
+    ] {
+        let steps = if wrong.contains(&"--max-steps") { &[] } else { &CHOICE[6..8] };
+        let refused = run(folder, &[&CHOICE[..6], steps, &CHOICE[8..], wrong].concat(), 2);
+        assert!(text(&refused.stderr).contains(words), "{}", text(&refused.stderr));
+    }
+    // A reader on a month with one anchor only.
+    let month =
+        ["evaluate", "first-ice", "--player", "reflex", "--max-steps", "40", "--scale", "second/scale.json"];
+    let unlinked = run(folder, &[&month[..], &["--episodes", "1", "--plan"]].concat(), 0);
+    assert!(text(&unlinked.stderr).contains("two anchors"), "{}", text(&unlinked.stderr));
+    let unknown = [
+        "evaluate",
+        "first-ice",
+        "--player",
+        "reflex",
+        "--max-steps",
+        "40",
+        "--scale",
+        "first/scale.json",
+        "--episodes",
+        "1",
+    ];
+    let unknown = run(folder, &unknown, 2);
+    assert!(
+        text(&unknown.stderr).contains("level 0 of first-ice is not on the scale"),
+        "{}",
+        text(&unknown.stderr)
+    );
+}
+
+/// The choices follow from the logs: an evaluation that lost its end chooses the same again.
+#[test]
+fn adaptive_choices_are_reproducible() {
+    let folder = SCALES.path();
+    let play = |more: &[&str]| {
+        let adaptive = ["--adaptive", "--episodes", "6", "--batch", "2", "--out", "adaptive", "-q"];
+        run(folder, &[&CHOICE, &adaptive[..], more].concat(), 0);
+        fs::read_to_string(folder.join("adaptive/selection.json")).unwrap()
+    };
+    let first = play(&[]);
+    let choices = serde_json::from_str::<Value>(&first).unwrap()["choices"].as_array().unwrap().clone();
+    let mut names: Vec<String> = (choices.iter())
+        .map(|one| format!("{}-lvl{}-run{}.jsonl", one["game"].as_str().unwrap(), one["level"], one["run"]))
+        .collect();
+    let last = names[5].clone();
+    names.sort();
+    assert_eq!(names, logs(&folder.join("adaptive")));
+    fs::remove_file(folder.join("adaptive/selection.json")).unwrap();
+    fs::remove_file(folder.join("adaptive/episodes").join(last)).unwrap();
+    assert_eq!(play(&["--resume", "--jobs", "1"]), first);
+    let placed = run(folder, &["scale", "adaptive", "--scale", "first/scale.json", "--json"], 0);
+    let placed: Value = serde_json::from_str(&text(&placed.stdout)).unwrap();
+    assert!(placed["players"][0]["months"][0]["ability"].is_object(), "{placed}");
 }
 
 #[test]

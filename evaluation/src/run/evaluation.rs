@@ -267,15 +267,31 @@ impl Evaluation {
 
     /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player of an episode.
     ///
+    /// # Errors
+    /// The same as those of [`Evaluation::run_chosen`].
+    pub fn run(
+        &self,
+        contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
+        progress: &impl Progress,
+    ) -> Result<Tally, EvaluationError> {
+        let mut all = Some((0..self.tasks().len()).collect());
+        self.run_chosen(contestant, progress, |_| all.take().unwrap_or_default())
+    }
+
+    /// Plays episodes as [`Evaluation::run`] does, some at a time: `choose` is told which ended since its last call, each with `true`
+    /// if it was won, and returns the next ones by their index in [`Evaluation::tasks`]; none to end. Those that have
+    /// ended before are not played again.
+    ///
     /// The rest is left open after a cap, a request that the server rejects, or `FAILURES_IN_A_ROW` consecutive episodes
     /// aborted by environment failures.
     ///
     /// # Errors
     /// A log cannot be read or written, or the log of an ended episode contradicts the game.
-    pub fn run(
+    pub fn run_chosen(
         &self,
         contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
         progress: &impl Progress,
+        mut choose: impl FnMut(&[(usize, bool)]) -> Vec<usize>,
     ) -> Result<Tally, EvaluationError> {
         let (stopped, failures) = (AtomicBool::new(false), AtomicU64::new(0));
         let (watch, answers) = (Watch::default(), Mutex::new(Answers::default()));
@@ -306,40 +322,58 @@ impl Evaluation {
             }
             progress.episode(task, result);
         };
-        let results = series_of(&tasks).into_iter().par_bridge().map(|tasks| {
-            if is_stopped() {
-                return Ok(Vec::new());
+        let mut tally = Tally::default();
+        let mut ended: Vec<(usize, bool)> = Vec::new();
+        while !is_stopped() {
+            let chosen = choose(&ended);
+            if chosen.is_empty() {
+                break;
             }
-            let open = |task: &Task<'_>| Journal::open(&self.log_path(task));
-            play_series(
-                &Series { tasks, watch: &watched, is_stopped: &is_stopped },
-                &contestant,
-                open,
-                &played,
-            )
-        });
-        let results: Vec<Vec<(bool, PlayResult)>> = results.collect::<Result<_, EvaluationError>>()?;
-        let ended = |won: bool| {
-            let ended = |(is_practice, result): &&(bool, PlayResult)| match result {
-                PlayResult::Ended(outcome) => !won || (*outcome == Outcome::Won && !is_practice),
-                PlayResult::Halted(_) => false,
-            };
-            results.iter().flatten().filter(ended).count() as u64
-        };
+            let due: Vec<Task<'_>> = chosen.iter().map(|&at| tasks[at]).collect();
+            tally.episodes += due.len() as u64;
+            tally.practice += due.iter().filter(|task| task.is_practice()).count() as u64;
+            let mut started = 0;
+            let series = series_of(&due).into_iter().map(|tasks| {
+                started += tasks.len();
+                (started - tasks.len(), tasks)
+            });
+            let series: Vec<(usize, &[Task<'_>])> = series.collect();
+            let results = series.into_iter().par_bridge().map(|(first, tasks)| {
+                if is_stopped() {
+                    return Ok((first, Vec::new()));
+                }
+                let open = |task: &Task<'_>| Journal::open(&self.log_path(task));
+                let series = Series { tasks, watch: &watched, is_stopped: &is_stopped };
+                Ok((first, play_series(&series, &contestant, open, &played)?))
+            });
+            let results: Vec<(usize, Vec<(bool, PlayResult)>)> =
+                results.collect::<Result<_, EvaluationError>>()?;
+            ended.clear();
+            for (first, results) in results {
+                for (&at, (is_practice, result)) in chosen[first..].iter().zip(results) {
+                    if let PlayResult::Ended(outcome) = result {
+                        let won = outcome == Outcome::Won;
+                        ended.push((at, won));
+                        tally.ended += 1;
+                        tally.won += u64::from(won && !is_practice);
+                    }
+                }
+            }
+            ended.sort_unstable();
+            if ended.len() < chosen.len() {
+                break;
+            }
+        }
         let halted: Option<Halt> = first.into_inner().expect("no holder panics").or_else(|| watch.halt());
-        let (episodes, won, ended) = (tasks.len() as u64, ended(true), ended(false));
         Ok(Tally {
-            episodes,
-            ended,
-            won,
-            practice: tasks.iter().filter(|task| task.is_practice()).count() as u64,
             answers: answers.into_inner().expect("no holder panics"),
-            open: episodes - ended,
+            open: tally.episodes - tally.ended,
             infrastructure: matches!(
                 halted,
                 Some(Halt::Infrastructure(_) | Halt::Rejected(_) | Halt::Log(_))
             ),
             halted: halted.map(|halt| halt.to_string()),
+            ..tally
         })
     }
 }
@@ -412,6 +446,7 @@ fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
         "games" => "choice of games or levels".to_owned(),
         "max_steps" => "--max-steps".to_owned(),
         "runs" | "seed" | "commit" | "track" => format!("--{name}"),
+        "adaptive" => "scale, --target-error, --episodes or --batch".to_owned(),
         "suite" | "semantics" => "version of arcade".to_owned(),
         other => other.to_owned(),
     })

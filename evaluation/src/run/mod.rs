@@ -13,6 +13,6 @@ pub(crate) use episode::{available, graded};
 pub use episode::{PlayResult, Task, play};
 pub use evaluation::{Evaluation, Progress, Tally, tasks};
 pub use settings::{
-    Entrant, FORMAT, LevelEntry, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, Settings, SubjectEntry,
+    Adaptive, Entrant, FORMAT, LevelEntry, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, Settings, SubjectEntry,
 };
 pub use unusable::Answers;

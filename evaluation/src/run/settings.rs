@@ -51,8 +51,26 @@ pub struct Settings {
     /// The number of levels of a game that are played in one conversation, at most.
     #[serde(default = "alone", skip_serializing_if = "is_alone")]
     pub series: u64,
+    /// The adaptive choice of levels; `None` if all are played.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<Adaptive>,
     /// The games played.
     pub games: Vec<SubjectEntry>,
+}
+
+/// A choice of levels by the episodes before: which are played follows from it, the scale and the outcomes on record.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adaptive {
+    /// The digest of the file of the scale.
+    pub scale: Digest,
+    /// The number of episodes, at most.
+    pub episodes: u64,
+    /// The standard error of the ability at which it ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
+    /// The number of episodes that are chosen at a time.
+    pub batch: u64,
 }
 
 /// The length of a series of one level.

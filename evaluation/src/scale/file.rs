@@ -7,7 +7,8 @@ use engine::Digest;
 use serde::{Deserialize, Serialize};
 use statistics::Interval;
 use statistics::scale::{
-    Calibration, Correlated, Difficulties, Dimension, Estimated, Examinee, GamePlays, Month, Spreads,
+    Calibration, Correlated, Difficulties, Dimension, Estimated, Examinee, GamePlays, MismatchPrior, Month,
+    Spreads,
 };
 use std::path::Path;
 
@@ -285,6 +286,13 @@ impl ScaleFile {
             drift: month.drift.map(Estimate::from),
             games: games.collect(),
         });
+    }
+
+    /// Returns the prior of how strongly the matches of a player and games vary.
+    pub fn mismatch_prior(&self, is_reader: bool) -> MismatchPrior {
+        let SpreadsEntry { family, planner, reader, .. } = self.spreads;
+        let median = if is_reader { reader } else { (family * family + planner * planner).sqrt() };
+        MismatchPrior { median, ..MismatchPrior::default() }
     }
 
     /// Returns the place of a level: release, game, level.

@@ -3,7 +3,7 @@
 use super::file::{Estimate, ScaleFile, Span};
 use super::played::PersonPlays;
 use serde::Serialize;
-use statistics::scale::{Ability, Dimension, MismatchPrior, PlayedGame, PlayedLevel, ability};
+use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
 /// The least lower end of the correlation at which planners alone link a month for readers.
@@ -22,6 +22,9 @@ pub struct PersonAbility {
     pub months: Vec<MonthAbility>,
     /// Different episodes on levels that the scale does not know.
     pub unknown: u64,
+    /// Episodes with settings that the scale was not calibrated with, by what differs: `--commit 3`.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub left_out: BTreeMap<String, u64>,
 }
 
 /// The ability of a person as one release shows it.
@@ -80,7 +83,7 @@ pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbilit
     persons.iter().map(|person| of_person(scale, person)).collect()
 }
 
-fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbility {
+pub(super) fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbility {
     let is_reader = person.dimension == Dimension::Reader;
     let (mut months, mut unknown) = (BTreeMap::<usize, BTreeMap<usize, PlayedGame>>::new(), 0);
     let side = usize::from(is_reader);
@@ -96,7 +99,16 @@ fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbility {
         played.levels.push(PlayedLevel { difficulty, own, won: won as f64, of: of as f64 });
     }
     let months = months.into_iter().map(|(month, games)| of_month(scale, is_reader, month, games)).collect();
-    PersonAbility { player: person.player.label(), is_reader, months, unknown }
+    let left_out = person.left_out.clone();
+    PersonAbility { player: person.player.label(), is_reader, months, unknown, left_out }
+}
+
+impl ScaleFile {
+    /// Returns `true` if readers can be placed on a release, by its index: by anchors, or by planners where the correlation holds.
+    pub fn links_readers(&self, month: usize) -> bool {
+        let is_anchored = month == 0 || self.months[month].anchors >= ANCHORS;
+        is_anchored || self.correlation.is_some_and(|found| found.low >= LEAST_CORRELATION)
+    }
 }
 
 fn of_month(
@@ -105,18 +117,13 @@ fn of_month(
     month: usize,
     games: BTreeMap<usize, PlayedGame>,
 ) -> MonthAbility {
-    let (entry, spreads) = (&scale.months[month], scale.spreads);
+    let entry = &scale.months[month];
     let games: Vec<PlayedGame> = games.into_values().collect();
     let sum =
         |of: fn(&PlayedLevel) -> f64| games.iter().flat_map(|game| &game.levels).map(of).sum::<f64>() as u64;
-    let is_anchored = month == 0 || entry.anchors >= ANCHORS;
     let low = scale.correlation.map(|found| found.low);
-    let refused = is_reader && !is_anchored && low.is_none_or(|low| low < LEAST_CORRELATION);
-    let median = match is_reader {
-        true => spreads.reader,
-        false => (spreads.family * spreads.family + spreads.planner * spreads.planner).sqrt(),
-    };
-    let prior = MismatchPrior { median, ..MismatchPrior::default() };
+    let refused = is_reader && !scale.links_readers(month);
+    let prior = scale.mismatch_prior(is_reader);
     let found: Option<Ability> =
         (!refused).then(|| ability(&games, prior, entry.link[usize::from(is_reader)])).flatten();
     MonthAbility {

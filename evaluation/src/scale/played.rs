@@ -1,9 +1,12 @@
 //! The plays of persons on levels, from results folders: identical episodes count once.
 
 use crate::error::EvaluationError;
-use crate::run::Evaluation;
-use crate::study::{Player, Study};
+use crate::metrics::EpisodeMetrics;
+use crate::run::Settings;
+use crate::study::{Player, persons};
+use crate::track::Track;
 use engine::Digest;
+use itertools::Itertools;
 use statistics::scale::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -15,46 +18,116 @@ pub struct PersonPlays {
     pub player: Player,
     /// Planners see the state; all others read.
     pub dimension: Dimension,
-    /// The limits of steps of its evaluations.
-    pub max_steps: BTreeSet<u64>,
+    /// Episodes with settings that the scale was not calibrated with, by what differs: `--commit 3`. They are not among `levels`.
+    pub left_out: BTreeMap<String, u64>,
+    /// The versions of the suite that it was evaluated with, by the digest of the game.
+    pub suites: BTreeMap<Digest, BTreeSet<String>>,
     /// Won and all different episodes, by the digests of game and level.
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads results folders, of whose persons each is told apart as in reports. Aborted episodes do not count.
+/// Reads results folders, whose persons are told apart as in reports. Aborted episodes do not count, nor do those with another track,
+/// commitment or limit of steps than a scale of `max_steps`: the difficulty of its levels is not that for them. Cost: that of
+/// [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon pool.
 ///
 /// # Errors
-/// The same as those of [`Study::read`].
-pub fn played(folders: &[PathBuf]) -> Result<Vec<PersonPlays>, EvaluationError> {
-    let study = Study::read(folders)?;
-    let settings = folders
-        .iter()
-        .map(|folder| Evaluation::open(folder).map(|found| found.settings))
-        .collect::<Result<Vec<_>, EvaluationError>>()?;
-    let person = |(at, player): (usize, &Player)| {
-        let (mut levels, mut max_steps): (BTreeMap<_, (u64, u64)>, _) = (BTreeMap::new(), BTreeSet::new());
-        let mut dimension = Dimension::Reader;
-        let mut seen = BTreeSet::new();
-        for episode in study.on(at, None, None).iter().filter(|episode| episode.metrics.counts()) {
-            let Some(settings) = episode.metrics.folder.map(|folder| &settings[folder]) else { continue };
-            let Some(game) = settings.games.iter().find(|game| game.id == episode.metrics.game) else {
+/// A folder or log cannot be read, a replay differs from its log, or two folders hold different episodes of one person, level, run
+/// and seed.
+pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, EvaluationError> {
+    let (persons, settings) = persons(folders)?;
+    let person = |(player, episodes): (Player, Vec<EpisodeMetrics>)| {
+        let mut person = PersonPlays {
+            player,
+            dimension: Dimension::Reader,
+            left_out: BTreeMap::new(),
+            levels: BTreeMap::new(),
+            suites: BTreeMap::new(),
+        };
+        let (mut courses, mut runs) = (BTreeSet::new(), BTreeMap::new());
+        for episode in episodes.iter().filter(|episode| episode.counts()) {
+            let Some(folder) = episode.folder else { continue };
+            let settings = &settings[folder];
+            let Some(game) = settings.games.iter().find(|game| game.id == episode.game) else { continue };
+            let Some(level) = game.levels.iter().find(|level| level.number == episode.level) else {
                 continue;
             };
-            let level = game.levels.iter().find(|level| level.number == episode.metrics.level);
-            let Some(level) = level else { continue };
             if settings.entrant.details.get("planner").is_some() {
-                dimension = Dimension::Planner;
+                person.dimension = Dimension::Planner;
             }
-            max_steps.insert(settings.max_steps);
+            if let Some(other) = settings.apart_from(max_steps) {
+                *person.left_out.entry(other).or_default() += 1;
+                continue;
+            }
             let place = (game.digest, level.digest);
-            let course = episode.metrics.course;
-            if course.is_none_or(|course| seen.insert((place, course))) {
-                let counts = levels.entry(place).or_default();
-                counts.0 += u64::from(episode.metrics.won());
+            let run = (place, &settings.seed, episode.run);
+            let (first, course) = *runs.entry(run).or_insert((folder, episode.course));
+            if first != folder && (course.is_none() || course != episode.course) {
+                let what = format!(
+                    "{} also played run {} of {} level {} in {}; rename one of the two players",
+                    person.player.label(),
+                    episode.run,
+                    game.id,
+                    level.number,
+                    folders[first].display()
+                );
+                return Err(EvaluationError::malformed(&folders[folder], what));
+            }
+            person.suites.entry(game.digest).or_default().insert(settings.suite.clone());
+            if episode.course.is_none_or(|course| courses.insert((place, course))) {
+                let counts = person.levels.entry(place).or_default();
+                counts.0 += u64::from(episode.won());
                 counts.1 += 1;
             }
         }
-        PersonPlays { player: player.clone(), dimension, max_steps, levels }
+        Ok(person)
     };
-    Ok(study.players.iter().enumerate().map(person).collect())
+    persons.into_iter().map(person).collect()
+}
+
+impl Settings {
+    /// Returns by what flags it differs from the settings of a scale with this limit of steps; `None` if by none.
+    pub fn apart_from(&self, max_steps: u64) -> Option<String> {
+        let track = self.track.as_deref().and_then(|id| id.split('@').next());
+        let track = track.filter(|name| *name != Track::Told.name()).map(|name| format!("--track {name}"));
+        let commit = (!self.commit.is_one()).then(|| format!("--commit {}", self.commit));
+        let steps = (self.max_steps != max_steps).then(|| format!("--max-steps {}", self.max_steps));
+        let all = track.into_iter().chain(commit).chain(steps).collect_vec();
+        (!all.is_empty()).then(|| all.join(" "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Commitment;
+    use crate::run::{Entrant, FORMAT};
+
+    #[track_caller]
+    fn check(track: Option<&str>, commit: &str, max_steps: u64, expect: Option<&str>) {
+        let name = "m".to_owned();
+        let settings = Settings {
+            format: FORMAT,
+            semantics: engine::SEMANTICS,
+            suite: String::new(),
+            snapshot: None,
+            entrant: Entrant { name, mode: None, aids: Vec::new(), details: serde_json::Value::Null },
+            seed: String::new(),
+            runs: 1,
+            max_steps,
+            commit: commit.parse::<Commitment>().unwrap(),
+            track: track.map(str::to_owned),
+            series: 1,
+            adaptive: None,
+            games: Vec::new(),
+        };
+        assert_eq!(settings.apart_from(500).as_deref(), expect);
+    }
+
+    #[test]
+    fn a_scale_is_of_one_track_commitment_and_limit() {
+        check(None, "1", 500, None);
+        check(Some("told@1"), "1", 500, None);
+        check(Some("told@1"), "10", 500, Some("--commit 10"));
+        check(Some("masked@1"), "all", 40, Some("--track masked --commit all --max-steps 40"));
+    }
 }

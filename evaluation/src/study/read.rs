@@ -4,7 +4,7 @@ use crate::error::EvaluationError;
 use crate::log::Event;
 use crate::mask;
 use crate::metrics::EpisodeMetrics;
-use crate::run::{Evaluation, Task};
+use crate::run::{Evaluation, Settings, Task};
 use crate::study::person::{PersonResults, told_apart};
 use crate::study::{Player, Study, StudyGame, mirror};
 use crate::subject::{Subject, SubjectLevel};
@@ -46,7 +46,12 @@ impl Study {
             let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
             measured.iter_mut().for_each(|episode| episode.folder = Some(place));
             let open = tasks.len() - measured.len();
-            if open > 0 {
+            if evaluation.settings.adaptive.is_some() {
+                notes.push(format!(
+                    "The levels of {} were chosen by what it won before (--adaptive): its win rate is no measure; `arcade scale` places it.",
+                    player.label()
+                ));
+            } else if open > 0 {
                 notes.push(format!(
                     "{open} of {} episodes of {} were not started.",
                     tasks.len(),
@@ -259,6 +264,37 @@ impl Names {
                 .to_owned()
         })
     }
+}
+
+/// The persons of results folders with their episodes, and the settings of each folder. Unlike in a study, games of several folders may
+/// share an id.
+pub(crate) type Persons = (Vec<(Player, Vec<EpisodeMetrics>)>, Vec<Settings>);
+
+/// Reads the persons of results folders, told apart as in a study. Episodes for practice are left out.
+///
+/// # Errors
+/// A folder or log cannot be read, or a replay differs from its log.
+pub(crate) fn persons(folders: &[PathBuf]) -> Result<Persons, EvaluationError> {
+    let (mut results, mut settings) = (Vec::new(), Vec::new());
+    for (place, folder) in folders.iter().enumerate() {
+        let evaluation = Evaluation::open(folder)?;
+        let tasks = evaluation.tasks();
+        evaluation.check_logs(&tasks)?;
+        let measured = tasks.par_iter().filter_map(|task| measured(&evaluation, task).transpose());
+        let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
+        measured.retain(|episode| !episode.is_practice());
+        measured.iter_mut().for_each(|episode| episode.folder = Some(place));
+        results.extend(PersonResults::of(&evaluation.settings.entrant, None, measured));
+        settings.push(evaluation.settings);
+    }
+    let mut persons: Vec<(Player, Vec<EpisodeMetrics>)> = Vec::new();
+    for (player, episodes) in told_apart(results) {
+        match persons.iter_mut().find(|(known, _)| *known == player) {
+            Some((_, known)) => known.extend(episodes),
+            None => persons.push((player, episodes)),
+        }
+    }
+    Ok((persons, settings))
 }
 
 /// Returns the metrics of an episode, or `None` if it was not started.

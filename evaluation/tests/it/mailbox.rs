@@ -39,6 +39,7 @@ fn settings(subjects: &[Subject], seed: &str) -> Settings {
         commit: Commitment::ONE,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(subjects),
     }
 }

@@ -37,6 +37,7 @@ fn settings(subjects: &[Subject]) -> Settings {
         commit: Commitment::ONE,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(subjects),
     }
 }

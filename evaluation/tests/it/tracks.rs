@@ -303,6 +303,7 @@ fn settings(name: &str, track: Track, subjects: &[Subject]) -> Settings {
         commit: Commitment::ONE,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(subjects),
     };
     settings.on_track(track).unwrap()

@@ -70,7 +70,7 @@ impl Checker<'_> {
             wrong("it or one of its levels is missing or not a text".to_owned());
             return Ok(());
         };
-        let root = self.secret.map(crate::Secret::root_seed);
+        let root = self.secret.and_then(|secret| secret.seed_for(&self.manifest.recipe));
         let flaw = match SecretGame::load(&source, &texts) {
             Ok(secret) => secret.flaw(game, levels, root),
             Err(what) => Some(what),
@@ -106,11 +106,11 @@ impl Checker<'_> {
         if witness.canary != self.manifest.canary {
             wrong("its canary is not the release's".to_owned());
         }
-        if self.secret.is_some_and(|secret| !secret.leads_to(&witness)) {
+        if self.secret.is_some_and(|secret| !secret.leads_to(&witness, &self.manifest.recipe)) {
             wrong(UNRELATED_WITNESS.to_owned());
         }
         let (level, published) = &levels[number];
-        let root = self.secret.map(crate::Secret::root_seed);
+        let root = self.secret.and_then(|secret| secret.seed_for(&self.manifest.recipe));
         if let Some(what) = pair_flaw(published.as_ref(), &witness.episode, root) {
             wrong(what);
         }

@@ -64,15 +64,15 @@ pub struct Ability {
 }
 
 /// The distance of the nodes of abilities and of logits.
-const STEP: f64 = 0.15;
+pub(super) const STEP: f64 = 0.15;
 /// Abilities are within these nodes: ±10.05 logits.
-const SIDE: i32 = 67;
+pub(super) const SIDE: i32 = 67;
 /// The standard deviation of the prior of an ability.
-const ABILITY_SD: f64 = 5.0;
+pub(super) const ABILITY_SD: f64 = 5.0;
 /// The nodes of the standard deviation of matches: from the least by a constant ratio.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
 /// A normal variable is taken within this many standard deviations.
-const TAIL: f64 = 5.0;
+pub(super) const TAIL: f64 = 5.0;
 /// The number of parts that a step of abilities is divided into for the interval.
 const PARTS: usize = 10;
 
@@ -235,7 +235,7 @@ impl<'a> Density<'a> {
 impl PlayedGame {
     /// Returns the likelihood of its plays for the logits from `-reach` to `reach` steps, with the own errors of its levels
     /// integrated out.
-    fn likelihoods(&self, reach: i32) -> Vec<f64> {
+    pub(super) fn likelihoods(&self, reach: i32) -> Vec<f64> {
         let mut all = vec![1.0; 2 * reach as usize + 1];
         for level in self.levels.iter().filter(|level| level.of > 0.0) {
             for (at, node) in all.iter_mut().zip(-reach..) {
@@ -259,7 +259,7 @@ pub(super) fn nodes() -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// Returns the weights of a normal variable at the steps around 0.
-fn kernel(sd: f64) -> Vec<f64> {
+pub(super) fn kernel(sd: f64) -> Vec<f64> {
     let half = (TAIL * sd / STEP) as i32;
     let mut weights: Vec<f64> = (-half..=half)
         .map(|node| {

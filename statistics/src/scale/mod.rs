@@ -5,7 +5,7 @@
 //! the player's family and the game, plus that of the player and the game. Difficulty has two dimensions: for planners, and for
 //! readers, whose difficulty is a slope times that for planners plus a rest of its own. [`Calibration`] estimates spreads by
 //! Laplace's method, with the parametric bootstrap for what it shrinks, and adds months with abilities and spreads kept; [`ability()`]
-//! places a player by quadrature.
+//! places a player by quadrature. [`expected_error`] plans, and [`Selection`] chooses levels adaptively.
 
 mod ability;
 mod calibration;
@@ -13,6 +13,7 @@ mod maximise;
 mod plays;
 mod posterior;
 mod replicate;
+mod selection;
 pub mod simulated;
 mod spreads;
 
@@ -20,4 +21,5 @@ pub use ability::{Ability, MismatchPrior, PlayedGame, PlayedLevel, ability};
 pub use calibration::{Calibration, Difficulties, Estimated, GameDifficulties, Month};
 pub use plays::{Dimension, Examinee, GamePlays, Plays};
 pub use replicate::Correlated;
+pub use selection::{Chosen, Selection, expected_error};
 pub use spreads::Spreads;

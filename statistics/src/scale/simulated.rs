@@ -227,6 +227,65 @@ pub fn ability_trials(
     trials.collect()
 }
 
+/// The ability of a player by two designs, from one set of outcomes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AdaptiveTrial {
+    /// One episode on each level, spread over games first.
+    pub spread: AbilityTrial,
+    /// After each of the numbers of episodes, chosen adaptively.
+    pub adaptive: Vec<AbilityTrial>,
+}
+
+/// Calibrates two months, and has players of an ability and a mismatch play on the second: `episodes` spread over games, and
+/// `counts`, in rising order, chosen adaptively.
+pub fn adaptive_trials(
+    plan: &Plan,
+    (ability, mismatch): (f64, f64),
+    (episodes, counts): (usize, &[usize]),
+    persons: usize,
+    seed: u64,
+) -> Option<Vec<AdaptiveTrial>> {
+    let mut simulator = Simulator::new(plan.clone(), seed);
+    let (first, second) = (simulator.month(0.0, 0.0), simulator.month(0.0, 0.0));
+    let (calibration, _) = Calibration::new(&simulator.examinees, &first.plays)?;
+    let month = calibration.add(&second.plays)?;
+    let truth = ability - first.mean(Dimension::Planner);
+    let link = month.link[0];
+    let trial = |games: &[PlayedGame]| {
+        let found = super::ability(games, MismatchPrior::default(), link)?;
+        Some(AbilityTrial {
+            off: found.value - truth,
+            error: found.error,
+            is_covered: found.interval.low <= truth && truth <= found.interval.high,
+        })
+    };
+    let all = plan.games * plan.levels;
+    let trials = (0..persons).map(|_| {
+        // All levels are played; a design sees the plays that it chooses.
+        let played = simulator.person(&second, &month, Dimension::Planner, (ability, mismatch), all);
+        let mut spread = played.clone();
+        for (game, of) in spread.iter_mut().enumerate() {
+            of.levels.truncate(episodes / plan.games + usize::from(game < episodes % plan.games));
+        }
+        let mut selection = super::Selection::new(&played, MismatchPrior::default().median, 1);
+        let mut chosen = played.clone();
+        chosen.iter_mut().for_each(|game| game.levels.clear());
+        let (mut adaptive, mut count) = (Vec::new(), 0);
+        for &next in counts {
+            while count < next.min(all) {
+                let one = selection.choose()?;
+                let level = played[one.game].levels[one.level];
+                selection.record(one.game, one.level, level.won > 0.0);
+                chosen[one.game].levels.push(level);
+                count += 1;
+            }
+            adaptive.push(trial(&chosen)?);
+        }
+        Some(AdaptiveTrial { spread: trial(&spread)?, adaptive })
+    });
+    trials.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,6 +323,17 @@ mod tests {
         let covered = trials.iter().filter(|trial| trial.is_covered).count();
         assert!(covered >= 33, "{covered} of 40");
         assert!(trials.iter().all(|trial| (0.2..0.8).contains(&trial.error)), "{trials:?}");
+    }
+
+    /// Off target, 65 % of the episodes are enough if they are chosen adaptively.
+    #[test]
+    fn adaptive_choices_save_episodes() {
+        let trials = adaptive_trials(&plan(5, 0), (-3.0, 1.0), (40, &[26]), 24, 3).unwrap();
+        let sum = |of: fn(&AdaptiveTrial) -> f64| trials.iter().map(of).sum::<f64>();
+        let (spread, adaptive) = (sum(|trial| trial.spread.error), sum(|trial| trial.adaptive[0].error));
+        assert!(adaptive <= spread, "{adaptive}, {spread}");
+        let covered = trials.iter().filter(|trial| trial.adaptive[0].is_covered).count();
+        assert!(covered >= 20, "{covered} of 24");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use statistics::{Design, Spread};
 /// Simulates evaluations under the model of `arcade evaluate --dry-run`, and prints tables in Markdown.
 ///
 /// The same seed gives the same tables. At the default size the first three take about a minute on two cores, those of the scale
-/// (link, ability, drift) 10 to 40 minutes each.
+/// (link, ability, drift, adaptive) 10 to 40 minutes each.
 ///
 /// Example: cargo xtask simulate coverage --trials 1000
 #[derive(clap::Args)]
@@ -43,6 +43,8 @@ enum Question {
     Ability,
     /// The scale: a drift of difficulty for readers, as anchors see it
     Drift,
+    /// The scale: how many episodes an adaptive choice of levels needs
+    Adaptive,
 }
 
 impl Args {
@@ -61,6 +63,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Question::Link => scale::link(args),
         Question::Ability => scale::ability(args),
         Question::Drift => scale::drift(args),
+        Question::Adaptive => scale::adaptive(args),
     };
     print!("{}", table.to_markdown());
     Ok(())

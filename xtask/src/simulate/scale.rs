@@ -3,7 +3,9 @@
 use super::{Args, share};
 use rayon::prelude::*;
 use report::{Table, TableCell};
-use statistics::scale::simulated::{AbilityTrial, LinkTrial, Plan, ability_trials, link_trial};
+use statistics::scale::simulated::{
+    AbilityTrial, AdaptiveTrial, LinkTrial, Plan, ability_trials, adaptive_trials, link_trial,
+};
 use statistics::scale::{Dimension, Spreads};
 
 /// The players of one calibration.
@@ -127,6 +129,65 @@ pub(super) fn drift(args: &Args) -> Table {
         let sizes = [games, games * 5, anchors].map(|count| TableCell::Count(count as u64));
         let shares = [TableCell::number(drift, 1), share(flagged)];
         table.rows.push(sizes.into_iter().chain(shares).chain(errors(&pairs)).collect());
+    }
+    table
+}
+
+/// The episodes that an adaptive choice needs for the error of a spread design.
+pub(super) fn adaptive(args: &Args) -> Table {
+    const EPISODES: usize = 200;
+    let months = args.trials.unwrap_or(20);
+    let plan = plan(vec![1; 8], 2);
+    let counts: Vec<usize> = (6..=20).map(|tens| tens * 10).collect();
+    let mut cases = Vec::new();
+    for mismatch in [1.0, 2.0] {
+        cases.extend([-4.0, -3.0, -2.0, 0.0, 2.0, 3.0].map(|ability| (mismatch, ability)));
+    }
+    let note = format!(
+        "{} players each, {PERSONS} on each of {months} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
+         plays of each on a level; one episode on a level. Spread: {EPISODES} episodes, over games first. Adaptive: the fewest (in \
+         tens) whose stated error is at most that. Errors in logits.",
+        months * PERSONS as u64
+    );
+    let columns = [
+        "mismatch SD",
+        "ability",
+        "spread: error",
+        "stated",
+        "coverage",
+        "adaptive episodes",
+        "share",
+        "error",
+        "stated",
+        "coverage",
+    ];
+    let mut table = Table::new("adaptive", "Episodes of an adaptive choice at equal error", &note, &columns);
+    for (mismatch, ability) in cases {
+        // The same months for all players.
+        let found: Vec<Vec<AdaptiveTrial>> = trials(args, months, 0, |seed| {
+            adaptive_trials(&plan, (ability, mismatch), (EPISODES, &counts), PERSONS, seed)
+        });
+        let found: Vec<AdaptiveTrial> = found.into_iter().flatten().collect();
+        let cells = |of: &dyn Fn(&AdaptiveTrial) -> AbilityTrial| {
+            let all: Vec<AbilityTrial> = found.iter().map(of).collect();
+            let [off, stated, _] = errors(&all.iter().map(|one| (one.off, one.error)).collect::<Vec<_>>());
+            let covered = all.iter().filter(|one| one.is_covered).count();
+            [off, stated, share(covered as f64 / all.len() as f64)]
+        };
+        let stated =
+            |of: &dyn Fn(&AdaptiveTrial) -> f64| found.iter().map(of).sum::<f64>() / found.len() as f64;
+        let bar = stated(&|trial| trial.spread.error);
+        let enough = (0..counts.len()).find(|&at| stated(&|trial| trial.adaptive[at].error) <= bar);
+        let mut row = vec![TableCell::number(mismatch, 0), TableCell::number(ability, 0)];
+        row.extend(cells(&|trial| trial.spread));
+        match enough {
+            Some(at) => {
+                row.extend([TableCell::Count(counts[at] as u64), share(counts[at] as f64 / EPISODES as f64)]);
+                row.extend(cells(&|trial| trial.adaptive[at]));
+            }
+            None => row.extend([TableCell::text("more than 200")]),
+        }
+        table.push(row);
     }
     table
 }

@@ -10,6 +10,7 @@ mod curves;
 mod forest;
 mod heat_map;
 mod matrix;
+mod months;
 mod range;
 mod violin;
 
@@ -17,6 +18,7 @@ pub(crate) use curves::{CurvePoint, curve};
 pub(crate) use forest::{ForestRow, forest};
 pub(crate) use heat_map::{HeatMap, group_width, heat_map};
 pub(crate) use matrix::matrix;
+pub(crate) use months::{MonthPlot, MonthPoint, MonthSeries, over_months};
 pub(crate) use range::range;
 pub(crate) use violin::{Violin, violins};
 

@@ -1,8 +1,10 @@
 //! `arcade evaluate`: measures a player on games.
 
+mod choice;
 mod human;
 mod mailbox;
 mod model;
+mod progress;
 pub(crate) mod subjects;
 mod track;
 
@@ -16,20 +18,21 @@ use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
 use crate::whole_file;
 use agents::{Budget, PlannerSpec};
-use engine::{Outcome, SEMANTICS};
+use choice::{Choice, ChoiceArgs};
+use engine::SEMANTICS;
 use evaluation::client::Spent;
 use evaluation::player::mailbox::Mailbox;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
 use evaluation::player::{Contestant, Replay, Touching};
 use evaluation::prompt::PromptSettings;
-use evaluation::run::{self, Answers, FORMAT, PlayResult, Progress, SETTINGS_FILE, Tally, Task};
+use evaluation::run::{self, Answers, FORMAT, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
 use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, Track, study};
 use human::Human;
-use indicatif::ProgressBar;
 use itertools::Itertools;
 use mailbox::RequestedMailbox;
 use model::{ConnectedModel, ModelArgs};
+use progress::Bar;
 use serde_json::json;
 use statistics::Design;
 use std::num::NonZeroUsize;
@@ -105,6 +108,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     origin: OriginArgs,
     #[command(flatten)]
+    choice: ChoiceArgs,
+    #[command(flatten)]
     model: ModelArgs,
 }
 
@@ -159,7 +164,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let requested = requested_player(args)?;
     track::check(args, &requested)?;
     reject_unused_flags(args, &requested)?;
-    let subjects = subjects::read(&args.wanted())?;
+    let mut subjects = subjects::read(&args.wanted())?;
     let origin = match (args.origin.is_empty(), &subjects.release, subjects.snapshot) {
         (true, ..) => None,
         (false, Some(name), Some(root)) => {
@@ -182,15 +187,23 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         commit: args.commit,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(&subjects.games),
     };
     if let Some(track) = args.model.prompt.track {
         settings = settings.on_track(track).map_err(Failure::malformed)?;
     }
+    let mut choice = choice::choose(args, &requested, &mut settings, &mut subjects.games, console)?;
     settings
         .check()
         .map_err(|problem| malformed!("{problem}; see --runs, --max-steps, --games and --levels"))?;
     track::advise(args.model.prompt.track, &subjects.games, console);
+    if let Choice::Planned(plan) = &choice {
+        if args.only_plans() {
+            return choice::print(plan, &settings, console);
+        }
+        console.remark(choice::words(plan));
+    }
     if args.dry_run {
         return forecast(&requested, &settings, &subjects.games, console);
     }
@@ -226,7 +239,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         folder.display()
     );
     interrupt::watch(end_players, hint);
-    let episodes = evaluation.tasks().len();
+    let episodes = evaluation.settings.adaptive.as_ref().map(|adaptive| adaptive.episodes as usize);
+    let episodes = episodes.unwrap_or_else(|| evaluation.tasks().len());
     let bar = Bar {
         bar: console.progress(episodes as u64, "playing"),
         won: AtomicU64::new(0),
@@ -238,7 +252,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let contestant = |task: &Task<'_>| Ok::<_, Halt>(contestant(task));
     let threads = requested.threads(args, episodes, console);
-    let tally = in_pool(Some(threads), || evaluation.run(contestant, &bar));
+    let tally = in_pool(Some(threads), || match &mut choice {
+        Choice::Adaptive(choice) => {
+            evaluation.run_chosen(contestant, &bar, |played| choice.next(&evaluation.settings, played))
+        }
+        Choice::All | Choice::Planned(_) => evaluation.run(contestant, &bar),
+    });
     interrupt::defer();
     let tally = tally?.map_err(|error| match Failure::from(error) {
         Failure::Environment(error) => Failure::environment(
@@ -250,6 +269,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bar.bar.finish_and_clear();
     if let Some(mailbox) = &mailbox {
         mailbox.finish(&tally)?;
+    }
+    if let Choice::Adaptive(choice) = &choice {
+        console.remark(choice::record(choice, &folder)?);
     }
     let limited = bar.limited.load(Ordering::Relaxed);
     print_results(console, &folder, &evaluation.settings, &tally, limited, model.as_deref())
@@ -577,51 +599,5 @@ impl From<EvaluationError> for Failure {
             error @ EvaluationError::Io { .. } => Failure::Environment(error.into()),
             error => Failure::Malformed(error.into()),
         }
-    }
-}
-
-/// A progress bar with the episodes played and won.
-struct Bar<'a> {
-    bar: ProgressBar,
-    won: AtomicU64,
-    /// The number of episodes that reached the limit of steps.
-    limited: AtomicU64,
-    console: &'a Console,
-    keep_going: bool,
-    /// The folder of the logs.
-    logs: PathBuf,
-    /// The mailbox whose episodes wait, if the player has one.
-    mailbox: Option<Arc<Mailbox>>,
-}
-
-impl Progress for Bar<'_> {
-    fn unusable(&self, answers: &Answers, is_all: bool) -> bool {
-        self.bar.suspend(|| self.console.remark(useless(answers, &self.logs)));
-        let goes_on = !is_all || self.keep_going;
-        if !goes_on {
-            self.bar.suspend(|| {
-                self.console
-                    .remark("none is usable, so nothing more is asked; --resume --keep-going goes on anyway");
-            });
-        }
-        goes_on
-    }
-
-    fn stopped(&self, halt: &Halt) {
-        self.mailbox.iter().for_each(|mailbox| mailbox.stop(halt));
-    }
-
-    fn episode(&self, task: &Task<'_>, result: &PlayResult) {
-        if *result == PlayResult::Ended(Outcome::Won) {
-            self.won.fetch_add(1, Ordering::Relaxed);
-        }
-        if *result == PlayResult::Ended(Outcome::Ongoing) {
-            self.limited.fetch_add(1, Ordering::Relaxed);
-        }
-        if let PlayResult::Halted(halt) = result {
-            self.bar.println(format!("{}: {halt}", task.file_name()));
-        }
-        self.bar.set_message(format!("{} won", self.won.load(Ordering::Relaxed)));
-        self.bar.inc(1);
     }
 }

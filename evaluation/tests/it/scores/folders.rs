@@ -45,6 +45,7 @@ pub(super) fn with_details(
         commit: Commitment::ONE,
         track: None,
         series: 1,
+        adaptive: None,
         games: Evaluation::entries(&subjects),
     };
     let evaluation = Evaluation::create(folder, settings, subjects).expect("the folder is new");

@@ -1,0 +1,219 @@
+//! Values over the months, such as abilities, each with its interval.
+
+use super::canvas::{Anchor, Canvas};
+use super::shortened;
+
+/// Pixels of the margins.
+const LEFT: f64 = 38.0;
+const TOP: f64 = 8.0;
+const FOOT: f64 = 24.0;
+/// Pixels between the ends of lines that are named beside the plane.
+const LABEL: f64 = 13.0;
+/// The letters of a name beside the plane, and its pixels.
+const LETTERS: usize = 22;
+const NAMES: f64 = 150.0;
+
+/// A value of a month with its interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MonthPoint {
+    pub(crate) value: f64,
+    pub(crate) band: [f64; 2],
+    /// `true` for each end of the interval that is a finding; an interval without one goes on to the edge.
+    pub(crate) is_bounded: [bool; 2],
+}
+
+/// A line over the months.
+pub(crate) struct MonthSeries {
+    pub(crate) name: String,
+    /// The class of its colour: `hue0` to `hue5`, or `mark`.
+    pub(crate) class: String,
+    /// A value for each month; none where there is none.
+    pub(crate) points: Vec<Option<MonthPoint>>,
+    /// `true` to draw intervals, not the line alone.
+    pub(crate) whiskers: bool,
+}
+
+/// A plane of lines over the months.
+pub(crate) struct MonthPlot<'a> {
+    pub(crate) label: &'a str,
+    pub(crate) months: &'a [String],
+    /// Later lines lie above earlier ones.
+    pub(crate) series: &'a [MonthSeries],
+    /// The least and the greatest value of the axis.
+    pub(crate) range: [f64; 2],
+    /// Pixels of the plane.
+    pub(crate) plane: [f64; 2],
+    /// `true` to name the lines beside the plane.
+    pub(crate) names: bool,
+}
+
+/// Draws the lines over the months on an axis in logits, with a line at 0. Cost: O(points).
+pub(crate) fn over_months(plot: &MonthPlot<'_>) -> String {
+    let MonthPlot { months, series, range: [least, most], plane: [width, height], .. } = *plot;
+    let right = if plot.names { NAMES } else { 12.0 };
+    let mut canvas = Canvas::new("months", LEFT + width + right, TOP + height + FOOT, plot.label);
+    let up = |value: f64| TOP + height * (1.0 - ((value - least) / (most - least).max(1e-9)).clamp(0.0, 1.0));
+    let step = tick(most - least);
+    let ticks =
+        (libm::ceil(least / step) as i64..=libm::floor(most / step) as i64).map(|at| at as f64 * step);
+    for at in ticks {
+        let class = if at == 0.0 { "half" } else { "rule" };
+        canvas.lines(&[&[[LEFT, up(at)], [LEFT + width, up(at)]]], class);
+        let name = if step < 1.0 { format!("{at:+.1}") } else { format!("{at:+.0}") };
+        let name = if at == 0.0 { "0".to_owned() } else { name.replace('-', "−") };
+        canvas.text(LEFT - 6.0, up(at) + 4.0, Anchor::End, "soft", &name);
+    }
+    let slot = width / months.len().max(1) as f64;
+    let centre = |month: usize| LEFT + slot * (month as f64 + 0.5);
+    let room = months.iter().map(|name| name.chars().count()).max().unwrap_or(1) as f64 * 6.5 + 8.0;
+    let every = libm::ceil(room / slot).max(1.0) as usize;
+    for (at, name) in months.iter().enumerate().filter(|(at, _)| at % every == 0) {
+        canvas.text(centre(at), TOP + height + 16.0, Anchor::Middle, "soft", name);
+    }
+    // Lines with intervals stand side by side within a month.
+    let wide = series.iter().filter(|line| line.whiskers).count();
+    let dodge = (slot * 0.6 / wide.max(1) as f64).min(9.0);
+    let mut place = 0;
+    for line in series {
+        let shift = match line.whiskers {
+            true => {
+                place += 1;
+                dodge * (place as f64 - 0.5 - wide as f64 / 2.0)
+            }
+            false => 0.0,
+        };
+        draw(&mut canvas, plot, line, &|month| centre(month) + shift, &up);
+    }
+    if plot.names {
+        name_lines(&mut canvas, plot, LEFT + width + 8.0, &up);
+    }
+    canvas.finish()
+}
+
+fn draw(
+    canvas: &mut Canvas,
+    plot: &MonthPlot<'_>,
+    line: &MonthSeries,
+    along: &dyn Fn(usize) -> f64,
+    up: &dyn Fn(f64) -> f64,
+) {
+    let known = || line.points.iter().enumerate().filter_map(|(at, point)| Some((at, (*point)?)));
+    let bounded: Vec<[f64; 2]> = known()
+        .filter(|(_, point)| point.is_bounded == [true, true])
+        .map(|(at, point)| [along(at), up(point.value)])
+        .collect();
+    canvas.open(&line.class, &line.name);
+    canvas.lines(&[&bounded], "thread");
+    canvas.close();
+    for (at, point) in known() {
+        let MonthPoint { value, band: [low, high], is_bounded } = point;
+        let words = match is_bounded {
+            [true, true] => format!("{value:+.2}, {low:+.2} to {high:+.2}"),
+            [false, _] => format!("below {high:+.2}, with no win"),
+            [_, false] => format!("above {low:+.2}, with no loss"),
+        };
+        canvas.open(&line.class, &format!("{}, {}: {words}", line.name, plot.months[at]));
+        let x = along(at);
+        let low = if is_bounded[0] { low } else { plot.range[0] };
+        let high = if is_bounded[1] { high } else { plot.range[1] };
+        if line.whiskers {
+            canvas.lines(&[&[[x, up(low)], [x, up(high)]]], "whisker");
+        }
+        if is_bounded == [true, true] {
+            canvas.dot(x, up(value), if line.whiskers { 3.5 } else { 2.0 }, "dot");
+        } else if line.whiskers {
+            // The end that was found.
+            let end = up(if is_bounded[0] { low } else { high });
+            canvas.lines(&[&[[x - 4.0, end], [x + 4.0, end]]], "whisker");
+        }
+        canvas.close();
+    }
+}
+
+/// Names the lines at their ends, as far apart as letters are high.
+fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64) -> f64) {
+    let mut ends: Vec<(f64, &MonthSeries)> = plot
+        .series
+        .iter()
+        .filter_map(|line| {
+            let last = line.points.iter().flatten().rfind(|point| point.is_bounded == [true, true]);
+            let end = last.map(|point| point.value);
+            let end = end.or_else(|| {
+                line.whiskers
+                    .then(|| line.points.iter().flatten().next_back())
+                    .flatten()
+                    .map(|one| one.band[1])
+            });
+            Some((up(end?), line))
+        })
+        .collect();
+    ends.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.name.cmp(&other.1.name)));
+    // Pushed down where they are close, then up from the foot.
+    let mut taken = f64::NEG_INFINITY;
+    for (y, _) in &mut ends {
+        *y = y.max(taken + LABEL);
+        taken = *y;
+    }
+    let mut free = TOP + plot.plane[1] + LABEL / 2.0;
+    for (y, _) in ends.iter_mut().rev() {
+        *y = y.min(free);
+        free = *y - LABEL;
+    }
+    for (y, line) in ends {
+        canvas.open(&line.class, &line.name);
+        canvas.text(x, y + 4.0, Anchor::Start, "tint", &shortened(&line.name, LETTERS));
+        canvas.close();
+    }
+}
+
+/// Returns the distance of the axis' marks: five to ten of them.
+fn tick(range: f64) -> f64 {
+    [0.5, 1.0, 2.0, 5.0, 10.0].into_iter().find(|step| range / step <= 8.0).unwrap_or(20.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_stay_within_the_plane() {
+        let point =
+            |value: f64, is_bounded| Some(MonthPoint { value, band: [value - 1.0, value + 1.0], is_bounded });
+        let both = [true, true];
+        let series = [
+            MonthSeries {
+                name: "a<b".to_owned(),
+                class: "hue0".to_owned(),
+                points: vec![point(0.0, both), None, point(9.0, both)],
+                whiskers: true,
+            },
+            MonthSeries {
+                name: "none".to_owned(),
+                class: "mark".to_owned(),
+                points: vec![None, point(-4.0, [false, true]), None],
+                whiskers: true,
+            },
+        ];
+        let months = ["2027-01", "2027-02", "2027-03"].map(str::to_owned);
+        let plot = MonthPlot {
+            label: "abilities",
+            months: &months,
+            series: &series,
+            range: [-3.0, 3.0],
+            plane: [300.0, 120.0],
+            names: true,
+        };
+        let svg = over_months(&plot);
+        assert_eq!(svg.matches("<circle").count(), 2);
+        for part in ["a&lt;b", "below −", "2027-02", "class=\"hue0\""].map(|part| part.replace('−', "-"))
+        {
+            assert!(svg.contains(&part), "{part} in {svg}");
+        }
+        let number =
+            |text: &str| -> f64 { text.split('"').next().unwrap_or_default().parse().expect("a number") };
+        assert!(svg.split("cy=\"").skip(1).map(number).all(|y| (TOP..=TOP + 120.0).contains(&y)), "{svg}");
+        assert_eq!(svg.matches("<g ").count(), svg.matches("</g>").count());
+        // Without months there is an empty plane.
+        assert!(!over_months(&MonthPlot { months: &[], series: &[], ..plot }).contains("NaN"));
+    }
+}

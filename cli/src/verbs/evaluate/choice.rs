@@ -1,0 +1,220 @@
+//! The choice of levels by a scale: `--plan`, `--adaptive` and their targets.
+
+use super::{Args, RequestedPlayer};
+use crate::console::Console;
+use crate::counted::count;
+use crate::failure::{Answer, Failure};
+use crate::whole_file;
+use engine::Digest;
+use evaluation::run::Adaptive;
+use evaluation::scale::{AdaptiveChoice, Plan, PlannedErrors, ScaleFile, ScaledLevels, Target};
+use evaluation::{Settings, Subject};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// The file in a results folder that records an adaptive choice.
+const SELECTION_FILE: &str = "selection.json";
+
+#[derive(clap::Args)]
+pub(super) struct ChoiceArgs {
+    /// Choose the levels by this scale, as `arcade calibrate` writes it: for a target, spread over games first; --runs is the most
+    /// episodes on a level
+    #[arg(long, value_name = "FILE", help_heading = "Choice of levels")]
+    scale: Option<PathBuf>,
+    /// As many as leave this standard error of the ability, logits
+    #[arg(
+        long,
+        value_name = "LOGITS",
+        requires = "scale",
+        group = "target",
+        help_heading = "Choice of levels"
+    )]
+    target_error: Option<f64>,
+    /// As many as show this difference between two players on the same levels in 80 of 100 evaluations, logits
+    #[arg(
+        long,
+        value_name = "LOGITS",
+        requires = "scale",
+        group = "target",
+        conflicts_with = "adaptive",
+        help_heading = "Choice of levels"
+    )]
+    target_difference: Option<f64>,
+    /// This number of episodes; with --target-error and --adaptive, at most
+    #[arg(long, value_name = "N", requires = "scale", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..))]
+    episodes: Option<u64>,
+    /// The ability that the plan expects, logits (default: 0, the mean difficulty of the first month)
+    #[arg(
+        long,
+        value_name = "LOGITS",
+        requires = "scale",
+        conflicts_with = "adaptive",
+        allow_hyphen_values = true,
+        help_heading = "Choice of levels"
+    )]
+    ability: Option<f64>,
+    /// Only print which levels, how many, and the errors to expect
+    #[arg(long, requires = "scale", conflicts_with = "adaptive", help_heading = "Choice of levels")]
+    plan: bool,
+    /// Choose each level by the episodes before it: the one that tells the most at the ability so far. They are recorded in
+    /// selection.json
+    #[arg(long, requires = "scale", help_heading = "Choice of levels")]
+    adaptive: bool,
+    /// Episodes that --adaptive chooses at a time, to be played at once
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "adaptive", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    batch: u64,
+}
+
+/// The choice of an evaluation's levels.
+pub(super) enum Choice {
+    /// All that were named.
+    All,
+    /// Those of a plan, which the settings have already.
+    Planned(Box<Plan>),
+    /// One after the other.
+    Adaptive(Box<AdaptiveChoice>),
+}
+
+/// Chooses the levels: restricts settings and subjects to those of a plan, or prepares an adaptive choice.
+pub(super) fn choose(
+    args: &Args,
+    requested: &RequestedPlayer,
+    settings: &mut Settings,
+    subjects: &mut Vec<Subject>,
+    console: &Console,
+) -> Result<Choice, Failure> {
+    let ChoiceArgs { scale: Some(path), target_error, target_difference, episodes, ability, .. } =
+        &args.choice
+    else {
+        return Ok(Choice::All);
+    };
+    let scale = ScaleFile::read(path)?;
+    if let Some(flags) = settings.apart_from(scale.max_steps) {
+        bail!(
+            "{flags}: the scale is of the track `told`, a look before every action, and --max-steps {}; evaluate it so",
+            scale.max_steps
+        );
+    }
+    let is_reader = !matches!(requested, RequestedPlayer::Planner(_));
+    let levels = ScaledLevels::of(&scale, &settings.games, is_reader).map_err(|level| {
+        malformed!(
+            "{level} is not on the scale {}; `arcade calibrate --scale` adds a release",
+            path.display()
+        )
+    })?;
+    if !levels.is_linked {
+        console.remark(
+            "warning: this release has too few anchors to place readers, so `arcade scale` will not place the player, and the errors here \
+             are those beside others on the same release; calibrate it with two anchors (--readers)",
+        );
+    }
+    let numbers = [target_error, target_difference].into_iter().flatten();
+    if numbers.into_iter().any(|target| !(target.is_finite() && *target > 0.0)) {
+        bail!("a target is a number of logits above 0, such as 0.25");
+    }
+    if args.choice.adaptive {
+        if matches!(requested, RequestedPlayer::Mailbox(_)) {
+            bail!(
+                "--adaptive chooses episodes one after the other, and a mailbox offers all at once; use --plan"
+            );
+        }
+        if args.dry_run {
+            bail!("--adaptive depends on what is won, so there is no forecast; --plan has one");
+        }
+        if target_error.is_none() && episodes.is_none() {
+            bail!("--adaptive needs an end: give --target-error, --episodes, or both");
+        }
+        let all = settings.games.iter().map(|game| game.levels.len() as u64).sum::<u64>() * settings.runs;
+        let bytes = std::fs::read(path).map_err(|error| Failure::read(path, error))?;
+        settings.adaptive = Some(Adaptive {
+            scale: Digest::of(&bytes),
+            episodes: episodes.unwrap_or(all).min(all),
+            error: *target_error,
+            batch: args.choice.batch,
+        });
+        let choice = AdaptiveChoice::new(&levels, settings).expect("the settings are adaptive");
+        return Ok(Choice::Adaptive(Box::new(choice)));
+    }
+    let target = match (target_error, target_difference, episodes) {
+        (Some(error), None, None) => Target::Error(*error),
+        (None, Some(difference), None) => Target::Difference(*difference),
+        (None, None, Some(episodes)) => Target::Episodes(*episodes),
+        _ => {
+            bail!("--scale chooses levels for one target: --target-error, --target-difference or --episodes")
+        }
+    };
+    let plan = levels.plan(ability.unwrap_or(0.0), target, settings.runs);
+    settings.runs = plan.runs;
+    let mut kept = plan.levels.iter();
+    for subject in subjects.iter_mut() {
+        let of = kept.next().expect("a plan has all games");
+        let mut at = 0..;
+        subject.levels.retain(|_| at.next().is_some_and(|at: usize| of.contains(&at)));
+    }
+    subjects.retain(|subject| !subject.levels.is_empty());
+    settings.games = evaluation::Evaluation::entries(subjects);
+    Ok(Choice::Planned(Box::new(plan)))
+}
+
+impl Args {
+    /// Returns `true` if only the plan is asked for.
+    pub(super) fn only_plans(&self) -> bool {
+        self.choice.plan
+    }
+}
+
+/// Prints a plan.
+pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answer {
+    let games: Vec<_> = settings
+        .games
+        .iter()
+        .map(|game| json!({ "game": game.id, "levels": game.levels.iter().map(|level| level.number).collect::<Vec<_>>() }))
+        .collect();
+    console.document(&json!({
+        "target": plan.target, "ability": plan.ability, "is_reached": plan.is_reached, "runs": plan.runs, "games": games,
+        "errors": plan.errors, "others": plan.others,
+    }))?;
+    console.say(words(plan));
+    for game in &settings.games {
+        let numbers: Vec<String> = game.levels.iter().map(|level| level.number.to_string()).collect();
+        console.say(format_args!(
+            "  {}: {} {}",
+            game.id,
+            if numbers.len() == 1 { "level" } else { "levels" },
+            numbers.join(", ")
+        ));
+    }
+    console.say("\nepisodes  games  error  difference shown in 80 % of evaluations");
+    for PlannedErrors { episodes, games, error, difference } in &plan.others {
+        console.say(format_args!("{episodes:>8}  {games:>5}  {error:>5.2}  {difference:>10.2}"));
+    }
+    Ok(plan.is_reached)
+}
+
+/// Returns a plan in a sentence.
+pub(super) fn words(plan: &Plan) -> String {
+    let PlannedErrors { episodes, games, error, difference } = plan.errors;
+    let runs = if plan.runs > 1 { format!(", {} on each level", plan.runs) } else { String::new() };
+    let reached = match plan.is_reached {
+        true => "",
+        false => "; the target is out of reach with these levels: raise --runs, or name a larger release",
+    };
+    format!(
+        "{} on {}{runs}: at an ability of {:+.1}, an error of {error:.2} logits; between two players a difference of {difference:.2}{reached}",
+        count(episodes as usize, "episode"),
+        count(games as usize, "game"),
+        plan.ability
+    )
+}
+
+/// Records the choices of an adaptive evaluation, and returns their end in words.
+pub(super) fn record(choice: &AdaptiveChoice, folder: &Path) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(&json!({ "format": 1, "choices": choice.choices() }));
+    let text = text.map_err(|error| Failure::environment(error, "the choice of levels"))? + "\n";
+    whole_file::write(&folder.join(SELECTION_FILE), text.as_bytes())?;
+    let (ability, error) = choice.ability();
+    Ok(format!(
+        "{} chosen; ability about {ability:+.2}, error {error:.2}: `arcade scale` has it with its parts",
+        count(choice.choices().len(), "episode")
+    ))
+}

@@ -1,0 +1,58 @@
+//! The progress of an evaluation on the terminal.
+
+use super::useless;
+use crate::console::Console;
+use engine::Outcome;
+use evaluation::Halt;
+use evaluation::player::mailbox::Mailbox;
+use evaluation::run::{Answers, PlayResult, Progress, Task};
+use indicatif::ProgressBar;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A progress bar with the episodes played and won.
+pub(super) struct Bar<'a> {
+    pub(super) bar: ProgressBar,
+    pub(super) won: AtomicU64,
+    /// The number of episodes that reached the limit of steps.
+    pub(super) limited: AtomicU64,
+    pub(super) console: &'a Console,
+    pub(super) keep_going: bool,
+    /// The folder of the logs.
+    pub(super) logs: PathBuf,
+    /// The mailbox whose episodes wait, if the player has one.
+    pub(super) mailbox: Option<Arc<Mailbox>>,
+}
+
+impl Progress for Bar<'_> {
+    fn unusable(&self, answers: &Answers, is_all: bool) -> bool {
+        self.bar.suspend(|| self.console.remark(useless(answers, &self.logs)));
+        let goes_on = !is_all || self.keep_going;
+        if !goes_on {
+            self.bar.suspend(|| {
+                self.console
+                    .remark("none is usable, so nothing more is asked; --resume --keep-going goes on anyway");
+            });
+        }
+        goes_on
+    }
+
+    fn stopped(&self, halt: &Halt) {
+        self.mailbox.iter().for_each(|mailbox| mailbox.stop(halt));
+    }
+
+    fn episode(&self, task: &Task<'_>, result: &PlayResult) {
+        if *result == PlayResult::Ended(Outcome::Won) {
+            self.won.fetch_add(1, Ordering::Relaxed);
+        }
+        if *result == PlayResult::Ended(Outcome::Ongoing) {
+            self.limited.fetch_add(1, Ordering::Relaxed);
+        }
+        if let PlayResult::Halted(halt) = result {
+            self.bar.println(format!("{}: {halt}", task.file_name()));
+        }
+        self.bar.set_message(format!("{} won", self.won.load(Ordering::Relaxed)));
+        self.bar.inc(1);
+    }
+}

@@ -1,0 +1,84 @@
+//! `arcade timeline`: a year of months on one page.
+
+use crate::console::Console;
+use crate::failure::Answer;
+use crate::protected;
+use crate::timeline::write_timeline;
+use crate::verbs::release::in_pool;
+use crate::verbs::scale::left_out;
+use evaluation::scale::{ScaleFile, Timeline, played};
+use itertools::Itertools;
+use report::TableCell;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Shows the months of a scale on one page: abilities of players over the months, difficulties, drift, and who played what.
+///
+/// The scale is the one with the latest month, which has all earlier ones. Results may be of any of its months, in any order; those
+/// that calibrated it, plays/ beside each scale.json, show how constant the examinees are. DIR gets timeline.html (one file, for any
+/// browser), timeline.json, and every table as tables/*.csv and tables/*.tex (see `arcade docs timeline`).
+///
+/// Exit status 0: written. 2: malformed.
+///
+/// Example: arcade timeline results/*/* scales/*/plays/* --scale scales/2027-12/scale.json --out timeline
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Results folders, as `arcade evaluate` writes them
+    #[arg(value_name = "RESULTS", required = true)]
+    results: Vec<PathBuf>,
+    /// The scale with all months, as `arcade calibrate` writes it
+    #[arg(long, value_name = "FILE")]
+    scale: PathBuf,
+    /// Folder for the page and its numbers, absent or empty
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    // A folder that is taken is reported before the work.
+    let draft = protected::draft(&args.out)?;
+    let scale = ScaleFile::read(&args.scale)?;
+    let persons = in_pool(args.jobs, || played(&args.results, scale.max_steps))??;
+    let timeline = in_pool(args.jobs, || Timeline::of(&scale, &persons))?;
+    if timeline.players.iter().all(|player| player.ability.months.is_empty()) {
+        let remarks = persons
+            .iter()
+            .flat_map(|person| left_out(&person.player.label(), &person.left_out, scale.max_steps));
+        remarks.for_each(|line| console.remark(line));
+        bail!(
+            "none of the episodes in these results is on the scale; evaluate a release that it has: {}",
+            scale.months.iter().map(|month| &month.name).join(", ")
+        );
+    }
+    let files = write_timeline(draft, &timeline)?;
+    console.document(&json!({ "timeline": args.out.display().to_string(), "files": files }))?;
+    for player in &timeline.players {
+        let name = &player.ability.player;
+        if let Some(change) = &player.change {
+            let moved = change.from_first_to_last;
+            console.say(format_args!(
+                "{name}: {:+.2} over {} months, last − first {:+.2} ({:+.2} to {:+.2}), p {} for no change",
+                change.mean.value,
+                change.months,
+                moved.value,
+                moved.low,
+                moved.high,
+                TableCell::Probability(change.p).plain()
+            ));
+        }
+        if player.ability.unknown > 0 {
+            console.remark(format_args!(
+                "{name}: {} episodes on levels that the scale does not have were left out",
+                player.ability.unknown
+            ));
+        }
+        left_out(name, &player.ability.left_out, scale.max_steps)
+            .iter()
+            .for_each(|line| console.remark(line));
+    }
+    console.say(format_args!("timeline in {}", args.out.join("timeline.html").display()));
+    Ok(true)
+}

@@ -1,0 +1,296 @@
+//! The choice of levels by a scale: a plan for a target, and the choice of each next level by the episodes before it.
+
+use super::file::ScaleFile;
+use crate::run::{Adaptive, Settings, SubjectEntry};
+use serde::Serialize;
+use statistics::scale::{Chosen, MismatchPrior, PlayedGame, PlayedLevel, Selection, expected_error};
+
+/// The sum of the two normal quantiles of a two-sided test at 5 % with a power of 80 %.
+const POWER: f64 = 1.959964 + 0.841621;
+
+/// The levels of an evaluation with their difficulties for a player.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScaledLevels {
+    /// By game and level of the evaluation.
+    games: Vec<PlayedGame>,
+    /// The standard error that all difficulties have in common.
+    link: f64,
+    prior: MismatchPrior,
+    /// `true` if `arcade scale` would place the player on all of them.
+    pub is_linked: bool,
+}
+
+/// The target of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Target {
+    /// This standard error of the ability, logits.
+    Error(f64),
+    /// This difference between two players on the same levels, logits, is shown at 5 % in 80 % of evaluations.
+    Difference(f64),
+    /// This number of episodes.
+    Episodes(u64),
+}
+
+/// A plan: the levels to play, and the errors to expect.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Plan {
+    /// The target.
+    pub target: Target,
+    /// The ability that is expected.
+    pub ability: f64,
+    /// The levels of each game, by index.
+    pub levels: Vec<Vec<usize>>,
+    /// Episodes on each level.
+    pub runs: u64,
+    /// The episodes and the errors of the plan.
+    pub errors: PlannedErrors,
+    /// `true` if the target is reached.
+    pub is_reached: bool,
+    /// The same for other numbers of episodes, up to all levels.
+    pub others: Vec<PlannedErrors>,
+}
+
+/// The errors to expect after a number of episodes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PlannedErrors {
+    /// Episodes.
+    pub episodes: u64,
+    /// The games that they are on.
+    pub games: u64,
+    /// The standard error of the ability.
+    pub error: f64,
+    /// The smallest difference between two players on the same levels that is shown at 5 % in 80 % of evaluations.
+    pub difference: f64,
+}
+
+impl ScaledLevels {
+    /// Finds the levels of an evaluation on a scale.
+    ///
+    /// # Errors
+    /// A level is not on the scale, in words.
+    pub fn of(scale: &ScaleFile, games: &[SubjectEntry], is_reader: bool) -> Result<ScaledLevels, String> {
+        let (side, mut link, mut is_linked) = (usize::from(is_reader), 0.0_f64, true);
+        let mut found = Vec::new();
+        for game in games {
+            let mut played = PlayedGame::default();
+            for level in &game.levels {
+                let place = scale.place(game.digest, level.digest);
+                let (month, at, place) =
+                    place.ok_or_else(|| format!("level {} of {}", level.number, game.id))?;
+                let entry = &scale.months[month].games[at];
+                let (difficulty, own) = entry.difficulty(place, side);
+                played.common = entry.common[side];
+                played.levels.push(PlayedLevel { difficulty, own, won: 0.0, of: 0.0 });
+                link = link.max(scale.months[month].link[side]);
+                is_linked &= !is_reader || scale.links_readers(month);
+            }
+            found.push(played);
+        }
+        Ok(ScaledLevels { games: found, link, prior: scale.mismatch_prior(is_reader), is_linked })
+    }
+
+    /// Plans for a target, spread over games first: each round takes the level of each game that tells the most at this ability, of
+    /// those that are left. If all levels are too few, each is played up to `most_runs` times. Cost: O(levels²).
+    pub fn plan(&self, ability: f64, target: Target, most_runs: u64) -> Plan {
+        let order = self.order(ability);
+        let all = order.len() as u64;
+        let is_reached = |errors: &PlannedErrors| match target {
+            Target::Error(most) => errors.error <= most,
+            Target::Difference(most) => errors.difference <= most,
+            Target::Episodes(count) => errors.episodes >= count,
+        };
+        let sizes = (1..=all).map(|count| (count, 1)).chain((2..=most_runs).map(|runs| (all, runs)));
+        let mut sizes =
+            sizes.map(|(count, runs)| (count, runs, self.errors(&order[..count as usize], runs, ability)));
+        let mut chosen = None;
+        for (count, runs, errors) in &mut sizes {
+            chosen = Some((count, runs, errors));
+            if is_reached(&errors) {
+                break;
+            }
+        }
+        let (count, runs, errors) = chosen.unwrap_or((
+            0,
+            1,
+            PlannedErrors { episodes: 0, games: 0, error: f64::INFINITY, difference: f64::INFINITY },
+        ));
+        let mut levels = vec![Vec::new(); self.games.len()];
+        order[..count as usize].iter().for_each(|&(game, level)| levels[game].push(level));
+        levels.iter_mut().for_each(|of| of.sort_unstable());
+        let games = self.games.len() as u64;
+        let mut others: Vec<u64> = [25, 50, 100, 200, 400, games, all]
+            .into_iter()
+            .filter(|&count| (1..=all).contains(&count))
+            .collect();
+        others.sort_unstable();
+        others.dedup();
+        let others =
+            others.into_iter().map(|count| self.errors(&order[..count as usize], 1, ability)).collect();
+        Plan { target, ability, levels, runs, errors, is_reached: is_reached(&errors), others }
+    }
+
+    /// Returns all levels in the order in which a plan takes them.
+    fn order(&self, ability: f64) -> Vec<(usize, usize)> {
+        let mut order: Vec<(usize, f64, usize, usize)> = Vec::new();
+        for (game, of) in self.games.iter().enumerate() {
+            let mut levels: Vec<(f64, usize)> =
+                (0..of.levels.len()).map(|level| (self.error_of(game, level, ability), level)).collect();
+            levels.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+            order.extend(
+                levels.into_iter().enumerate().map(|(round, (error, level))| (round, error, game, level)),
+            );
+        }
+        order.sort_by(|one, other| {
+            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)).then((one.2, one.3).cmp(&(other.2, other.3)))
+        });
+        order.into_iter().map(|(.., game, level)| (game, level)).collect()
+    }
+
+    /// Returns the error that a play of a single level leaves.
+    fn error_of(&self, game: usize, level: usize, ability: f64) -> f64 {
+        let one = PlayedLevel { of: 1.0, ..self.games[game].levels[level] };
+        let game = PlayedGame { common: self.games[game].common, levels: vec![one] };
+        expected_error(&[game], ability, self.prior.median, 0.0)
+    }
+
+    fn errors(&self, levels: &[(usize, usize)], runs: u64, ability: f64) -> PlannedErrors {
+        let mut games = self.games.clone();
+        levels.iter().for_each(|&(game, level)| games[game].levels[level].of = runs as f64);
+        let error = expected_error(&games, ability, self.prior.median, self.link);
+        // Two players on the same levels share the errors of the difficulties.
+        for game in &mut games {
+            game.common = 0.0;
+            game.levels.iter_mut().for_each(|level| level.own = 0.0);
+        }
+        let alone = expected_error(&games, ability, self.prior.median, 0.0);
+        let played =
+            games.iter().filter(|game| game.levels.iter().any(|level| level.of > 0.0)).count() as u64;
+        PlannedErrors {
+            episodes: levels.len() as u64 * runs,
+            games: played,
+            error,
+            difference: POWER * std::f64::consts::SQRT_2 * alone,
+        }
+    }
+}
+
+/// The adaptive choice of the episodes of an evaluation. It depends on the scale, the settings and the outcomes so far only: the logs of
+/// an evaluation give its choices again.
+#[derive(Clone, Debug)]
+pub struct AdaptiveChoice {
+    selection: Selection,
+    adaptive: Adaptive,
+    /// The game and level of each episode of a run.
+    places: Vec<(usize, usize)>,
+    /// How often each level was chosen.
+    runs: Vec<u64>,
+    link: f64,
+    choices: Vec<AdaptiveStep>,
+}
+
+/// A choice with what was known before it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AdaptiveStep {
+    /// The game.
+    pub game: String,
+    /// The level's number.
+    pub level: usize,
+    /// The index of the episode among those on the level.
+    pub run: u64,
+    /// The ability that the episodes before it show.
+    pub ability: f64,
+    /// Its standard error.
+    pub error: f64,
+}
+
+impl AdaptiveChoice {
+    /// Starts an evaluation with these settings; `None` if they are not adaptive.
+    pub fn new(levels: &ScaledLevels, settings: &Settings) -> Option<AdaptiveChoice> {
+        let places: Vec<(usize, usize)> = (settings.games.iter().enumerate())
+            .flat_map(|(game, entry)| (0..entry.levels.len()).map(move |level| (game, level)))
+            .collect();
+        Some(AdaptiveChoice {
+            selection: Selection::new(&levels.games, levels.prior.median, settings.runs),
+            adaptive: settings.adaptive.clone()?,
+            runs: vec![0; places.len()],
+            places,
+            link: levels.link,
+            choices: Vec::new(),
+        })
+    }
+
+    /// Returns the next episodes by their index among all of the evaluation, none if there are enough. `played` are those that ended
+    /// since the last call, with `true` for won ones.
+    pub fn next(&mut self, settings: &Settings, played: &[(usize, bool)]) -> Vec<usize> {
+        for &(episode, won) in played {
+            let (game, level) = self.places[episode % self.places.len()];
+            self.selection.record(game, level, won);
+        }
+        let (_, error) = self.ability();
+        let is_exact = self.adaptive.error.is_some_and(|most| error <= most);
+        let left = self.adaptive.episodes.saturating_sub(self.choices.len() as u64);
+        let due = if is_exact { 0 } else { self.adaptive.batch.min(left) };
+        let link = self.link;
+        let mut next = Vec::new();
+        for _ in 0..due {
+            let Some(Chosen { game, level, ability, error }) = self.selection.choose() else { break };
+            let Some(at) = self.places.iter().position(|place| *place == (game, level)) else { break };
+            let run = self.runs[at];
+            self.runs[at] += 1;
+            let entry = &settings.games[game];
+            self.choices.push(AdaptiveStep {
+                game: entry.id.clone(),
+                level: entry.levels[level].number,
+                run,
+                ability,
+                error: (error * error + link * link).sqrt(),
+            });
+            next.push(run as usize * self.places.len() + at);
+        }
+        next
+    }
+
+    /// Returns the ability that the episodes so far show, and its standard error.
+    pub fn ability(&self) -> (f64, f64) {
+        let (ability, error) = self.selection.ability();
+        (ability, (error * error + self.link * self.link).sqrt())
+    }
+
+    /// Returns all choices so far.
+    pub fn choices(&self) -> &[AdaptiveStep] {
+        &self.choices
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn levels() -> ScaledLevels {
+        let level = |difficulty: f64| PlayedLevel { difficulty, own: 0.2, won: 0.0, of: 0.0 };
+        let game = PlayedGame { common: 0.2, levels: [-2.0, 0.0, 2.0].map(level).to_vec() };
+        ScaledLevels { games: vec![game; 40], link: 0.1, prior: MismatchPrior::default(), is_linked: true }
+    }
+
+    #[test]
+    fn plans_spread_over_games_first() {
+        let plan = levels().plan(2.0, Target::Episodes(50), 1);
+        assert_eq!((plan.errors.episodes, plan.errors.games, plan.runs), (50, 40, 1));
+        // The level that tells the most of each game, and of some a second one.
+        assert!(plan.levels.iter().all(|of| of.contains(&2)), "{plan:?}");
+        assert_eq!(plan.levels.iter().filter(|of| of.len() == 2).count(), 10);
+    }
+
+    #[test]
+    fn targets_are_reached_or_not() {
+        let plan = levels().plan(0.0, Target::Error(0.5), 1);
+        assert!(plan.is_reached && plan.errors.error <= 0.5 && plan.errors.episodes < 60, "{plan:?}");
+        let before = levels().plan(0.0, Target::Episodes(plan.errors.episodes - 1), 1);
+        assert!(before.errors.error > 0.5, "{before:?}");
+        let far = levels().plan(0.0, Target::Difference(0.2), 3);
+        assert!(!far.is_reached && far.runs == 3 && far.errors.episodes == 360, "{far:?}");
+        // All levels are the most that one run has.
+        assert_eq!(far.others.last().map(|one| one.episodes), Some(120));
+    }
+}

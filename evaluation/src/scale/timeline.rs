@@ -1,0 +1,360 @@
+//! Months on one scale: who had which ability when, and how difficult each month was.
+
+use super::file::{Estimate, ScaleFile, Span};
+use super::person::{MonthAbility, PersonAbility, Refusal, of_person};
+use super::played::PersonPlays;
+use engine::Digest;
+use itertools::Itertools;
+use report::{Table, TableCell};
+use serde::Serialize;
+use statistics::{Z95, benjamini_hochberg, chi_squared_p};
+use std::collections::BTreeSet;
+
+/// The months of a scale with the abilities of players on them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Timeline {
+    /// The limit of steps.
+    pub max_steps: u64,
+    /// The correlation of the difficulty for planners and for readers.
+    pub correlation: Option<Span>,
+    /// The months, the first one first.
+    pub months: Vec<TimelineMonth>,
+    /// The players: those that the scale was not calibrated by first, each group by mean ability, the most able first.
+    pub players: Vec<TimelinePlayer>,
+}
+
+/// A month of a timeline.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimelineMonth {
+    /// Its name.
+    pub name: String,
+    /// Its root digest, if it is a snapshot.
+    pub snapshot: Option<Digest>,
+    /// Its games.
+    pub games: u64,
+    /// Its levels.
+    pub levels: u64,
+    /// The mean difficulty above that of the first month, for any planner and for any reader.
+    pub shifts: [Estimate; 2],
+    /// The same for exactly the planners of the scale.
+    pub planners_shift: Estimate,
+    /// The standard deviations of the difficulties of its levels, for planners and for readers.
+    pub spreads: [f64; 2],
+    /// The mean misfit of its games: about 1 where the plays fit the model.
+    pub misfit: f64,
+    /// The readers of the scale that played it.
+    pub anchors: u64,
+    /// By how much more difficult it is for the anchors than follows from its difficulty for planners.
+    pub drift: Option<Estimate>,
+    /// `true` if the 95 % interval of the drift excludes 0.
+    pub is_drift_flagged: bool,
+}
+
+/// A player of a timeline.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimelinePlayer {
+    /// Its abilities.
+    #[serde(flatten)]
+    pub ability: PersonAbility,
+    /// `true` if the scale was calibrated by it: its abilities are then no independent evidence.
+    pub is_examinee: bool,
+    /// The versions of the suite that it was evaluated with, in the order of `months` of the ability.
+    pub suites: Vec<BTreeSet<String>>,
+    /// The evidence for a change; none with fewer than two months in which it won and lost.
+    pub change: Option<Change>,
+}
+
+/// The evidence that the ability of a player changed over the months.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Change {
+    /// The months in which it won and lost episodes; the others have no interval with two ends.
+    pub months: u64,
+    /// The mean of the abilities, weighted by their errors.
+    pub mean: Estimate,
+    /// The ability in the last of these months minus that in the first.
+    pub from_first_to_last: Span,
+    /// The sum of the squared deviations from the mean, each over the square of its error.
+    pub chi_squared: f64,
+    /// The probability of one at least as large if the ability never changed.
+    pub p: f64,
+    /// The p adjusted for the number of players (Benjamini and Hochberg).
+    pub q: f64,
+}
+
+impl Timeline {
+    /// Puts the players on the months of a scale. Cost: that of an ability for each player and month.
+    pub fn of(scale: &ScaleFile, persons: &[PersonPlays]) -> Timeline {
+        let mut players = persons.iter().map(|person| TimelinePlayer::of(scale, person)).collect_vec();
+        let tested = (0..players.len()).filter(|&at| players[at].change.is_some()).collect_vec();
+        let p = |at: &usize| players[*at].change.as_ref().map_or(1.0, |change| change.p);
+        let adjusted = benjamini_hochberg(&tested.iter().map(p).collect_vec());
+        for (&at, q) in tested.iter().zip(adjusted) {
+            players[at].change.iter_mut().for_each(|change| change.q = q);
+        }
+        players.sort_by(|one, other| {
+            let able = other.level().total_cmp(&one.level());
+            one.is_examinee
+                .cmp(&other.is_examinee)
+                .then(able)
+                .then(one.ability.player.cmp(&other.ability.player))
+        });
+        let month = |month: &super::MonthEntry| {
+            let levels = || month.games.iter().flat_map(|game| &game.levels);
+            let spread = |side: usize| {
+                let all = levels().map(|level| level.difficulty[side].value).collect_vec();
+                let count = all.len().max(1) as f64;
+                let mean = all.iter().sum::<f64>() / count;
+                (all.iter().map(|one| (one - mean) * (one - mean)).sum::<f64>() / count).sqrt()
+            };
+            let misfit = month.games.iter().map(|game| game.misfit).sum::<f64>();
+            TimelineMonth {
+                name: month.name.clone(),
+                snapshot: month.snapshot,
+                games: month.games.len() as u64,
+                levels: levels().count() as u64,
+                shifts: month.shifts,
+                planners_shift: month.planners_shift,
+                spreads: [0, 1].map(spread),
+                misfit: misfit / month.games.len().max(1) as f64,
+                anchors: month.anchors,
+                drift: month.drift,
+                is_drift_flagged: month.drift.is_some_and(|drift| drift.value.abs() > Z95 * drift.error),
+            }
+        };
+        Timeline {
+            max_steps: scale.max_steps,
+            correlation: scale.correlation,
+            months: scale.months.iter().map(month).collect(),
+            players,
+        }
+    }
+
+    /// Returns the players whose ability changed, at 5 % with the adjusted p, and the number of players that were tested.
+    pub fn changed(&self) -> (Vec<&TimelinePlayer>, usize) {
+        let tested = self.players.iter().filter(|player| player.change.is_some()).collect_vec();
+        let count = tested.len();
+        (
+            tested
+                .into_iter()
+                .filter(|player| player.change.as_ref().is_some_and(|one| one.q < 0.05))
+                .collect(),
+            count,
+        )
+    }
+
+    /// Returns all numbers as tables: abilities, changes, months, and the plays behind them.
+    pub fn tables(&self) -> Vec<Table> {
+        vec![self.abilities(), self.changes(), self.difficulties(), self.plays()]
+    }
+
+    fn abilities(&self) -> Table {
+        let note = "Logits above the mean difficulty of the first month. Error² = sampling² + mismatch² + link². An interval with one end \
+                    has no win, or no loss.";
+        let columns = [
+            "player", "month", "ability", "error", "sampling", "mismatch", "link", "bounds", "won",
+            "episodes", "games",
+        ];
+        let mut table = Table::new("abilities", "Ability by month", note, &columns);
+        for (player, month) in
+            self.players.iter().flat_map(|one| one.ability.months.iter().map(move |month| (one, month)))
+        {
+            let ability = month.ability.map_or(TableCell::Missing, |Span { value, low, high }| {
+                TableCell::Interval { value, low, high, digits: 2 }
+            });
+            let error = month
+                .error
+                .map_or([None; 4], |one| [one.total, one.sampling, one.mismatch, one.link].map(Some));
+            let bounds = match (&month.refusal, month.ability, month.is_bounded) {
+                (Some(Refusal::FewAnchors { .. }), ..) => "not placed: too few anchors",
+                (None, None, _) => "not placed",
+                (None, Some(_), [true, true]) => "both",
+                (None, Some(_), [false, _]) => "upper only: no win",
+                (None, Some(_), [_, false]) => "lower only: no loss",
+            };
+            let mut row =
+                vec![TableCell::text(&*player.ability.player), TableCell::text(&*month.month), ability];
+            row.extend(error.map(|part| part.map_or(TableCell::Missing, |part| TableCell::number(part, 2))));
+            row.push(TableCell::text(bounds));
+            row.extend([month.won, month.episodes, month.games].map(TableCell::Count));
+            table.push(row);
+        }
+        table
+    }
+
+    fn changes(&self) -> Table {
+        let note = "The χ² of the abilities about their mean, with one degree of freedom less than months; p: the probability of as much \
+                    if the ability never changed, q: the same adjusted for the number of players. Months without a win or without a loss \
+                    are left out.";
+        let columns = ["player", "part", "months", "mean ability", "last − first", "χ²", "p", "q"];
+        let mut table = Table::new("changes", "Change over the months", note, &columns);
+        for player in &self.players {
+            let part = if player.is_examinee { "calibrates the scale" } else { "placed on it" };
+            let mut row = vec![TableCell::text(&*player.ability.player), TableCell::text(part)];
+            if let Some(change) = &player.change {
+                let Span { value, low, high } = change.from_first_to_last;
+                let (mean, half) = (change.mean.value, Z95 * change.mean.error);
+                row.push(TableCell::Count(change.months));
+                row.push(TableCell::Interval { value: mean, low: mean - half, high: mean + half, digits: 2 });
+                row.push(TableCell::Interval { value, low, high, digits: 2 });
+                row.extend([
+                    TableCell::number(change.chi_squared, 1),
+                    TableCell::Probability(change.p),
+                    TableCell::Probability(change.q),
+                ]);
+            }
+            table.push(row);
+        }
+        table
+    }
+
+    fn difficulties(&self) -> Table {
+        let note = "Mean difficulty above that of the first month, logits, with 95 % intervals: to exactly the planners of the scale, to any \
+                    planner, to any reader. Drift: by how much more difficult it is for the anchors than follows from planners. SD: of the \
+                    difficulties of its levels. Misfit: about 1 where the plays fit the model.";
+        let columns = [
+            "month",
+            "games",
+            "levels",
+            "these planners",
+            "any planner",
+            "any reader",
+            "SD, planners",
+            "SD, readers",
+            "misfit",
+            "anchors",
+            "drift",
+            "flagged",
+            "root",
+        ];
+        let mut table = Table::new("months", "The months", note, &columns);
+        let interval = |one: Estimate| {
+            let half = Z95 * one.error;
+            TableCell::Interval { value: one.value, low: one.value - half, high: one.value + half, digits: 2 }
+        };
+        for month in &self.months {
+            let mut row = vec![
+                TableCell::text(&*month.name),
+                TableCell::Count(month.games),
+                TableCell::Count(month.levels),
+            ];
+            row.extend([month.planners_shift, month.shifts[0], month.shifts[1]].map(interval));
+            row.extend(month.spreads.map(|sd| TableCell::number(sd, 2)));
+            row.extend([TableCell::number(month.misfit, 2), TableCell::Count(month.anchors)]);
+            row.push(month.drift.map_or(TableCell::Missing, interval));
+            row.push(TableCell::text(if month.is_drift_flagged { "yes" } else { "no" }));
+            row.push(month.snapshot.map_or(TableCell::Missing, |root| {
+                TableCell::text(root.to_string().chars().take(12).collect::<String>())
+            }));
+            table.push(row);
+        }
+        table
+    }
+
+    /// Returns the table of who played which month: won of different episodes.
+    fn plays(&self) -> Table {
+        let note = "Won, of different episodes that were placed; a dash where the player did not play. Suite: the versions of arcade that \
+                    evaluated.";
+        let months = self.months.iter().map(|month| month.name.as_str());
+        let columns = ["player"].into_iter().chain(months).chain(["suite"]).collect_vec();
+        let mut table = Table::new("played", "Who played which month", note, &columns);
+        for player in &self.players {
+            let on = |month: &TimelineMonth| {
+                let found = player.ability.months.iter().find(|one| one.month == month.name);
+                found.map_or(TableCell::Missing, |one| {
+                    TableCell::Figure(format!("{} of {}", one.won, one.episodes))
+                })
+            };
+            let suites = player.suites.iter().flatten().unique().sorted().join(", ");
+            let mut row = vec![TableCell::text(&*player.ability.player)];
+            row.extend(self.months.iter().map(on));
+            row.push(TableCell::text(suites));
+            table.push(row);
+        }
+        table
+    }
+}
+
+impl TimelinePlayer {
+    fn of(scale: &ScaleFile, person: &PersonPlays) -> TimelinePlayer {
+        let ability = of_person(scale, person);
+        let suites = ability.months.iter().map(|month| {
+            let games =
+                scale.months.iter().filter(|entry| entry.name == month.month).flat_map(|entry| &entry.games);
+            games.filter_map(|game| person.suites.get(&game.digest)).flatten().cloned().collect()
+        });
+        let suites = suites.collect();
+        let change = Change::of(&ability.months);
+        let is_examinee = scale.examinees.iter().any(|one| one.name == ability.player);
+        TimelinePlayer { ability, is_examinee, suites, change }
+    }
+
+    /// Returns the mean ability, or the least number if it was never placed.
+    fn level(&self) -> f64 {
+        let values = self.ability.months.iter().filter_map(|month| Some(month.ability?.value)).collect_vec();
+        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+        if values.is_empty() {
+            f64::NEG_INFINITY
+        } else {
+            self.change.as_ref().map_or(mean, |change| change.mean.value)
+        }
+    }
+}
+
+impl Change {
+    /// `None` with fewer than two months with wins and losses. The `q` is still the `p`.
+    fn of(months: &[MonthAbility]) -> Option<Change> {
+        let placed = months.iter().filter(|month| month.is_bounded == [true, true]);
+        let placed =
+            placed.filter_map(|month| Some((month.ability?.value, month.error?.total))).collect_vec();
+        let [(first, first_error), .., (last, last_error)] = placed[..] else { return None };
+        let weight: f64 = placed.iter().map(|(_, error)| 1.0 / (error * error)).sum();
+        let mean = placed.iter().map(|(value, error)| value / (error * error)).sum::<f64>() / weight;
+        let chi_squared: f64 =
+            placed.iter().map(|(value, error)| (value - mean) * (value - mean) / (error * error)).sum();
+        let p = chi_squared_p(chi_squared, placed.len() as u64 - 1);
+        let (value, half) =
+            (last - first, Z95 * (first_error * first_error + last_error * last_error).sqrt());
+        Some(Change {
+            months: placed.len() as u64,
+            mean: Estimate { value: mean, error: (1.0 / weight).sqrt() },
+            from_first_to_last: Span { value, low: value - half, high: value + half },
+            chi_squared,
+            p,
+            q: p,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scale::ErrorParts;
+
+    fn month(name: &str, value: f64, is_bounded: [bool; 2]) -> MonthAbility {
+        MonthAbility {
+            month: name.to_owned(),
+            won: 1,
+            episodes: 2,
+            games: 2,
+            ability: Some(Span { value, low: value - 1.0, high: value + 1.0 }),
+            is_bounded,
+            error: Some(ErrorParts { total: 0.5, sampling: 0.4, mismatch: 0.3, link: 0.0 }),
+            mismatch_sd: None,
+            refusal: None,
+            drift: None,
+        }
+    }
+
+    #[test]
+    fn changes_are_measured_in_errors() {
+        let both = [true, true];
+        let found =
+            Change::of(&[month("a", 1.0, both), month("b", -9.0, [false, true]), month("c", 2.0, both)])
+                .unwrap();
+        assert_eq!((found.months, found.mean.value), (2, 1.5));
+        assert!((found.chi_squared - 2.0).abs() < 1e-12 && (found.p - 0.1573).abs() < 1e-4, "{found:?}");
+        let Span { value, low, high } = found.from_first_to_last;
+        assert!(value == 1.0 && low < 0.0 && high > 2.3, "{found:?}");
+        assert_eq!(Change::of(&[month("a", 1.0, both)]), None);
+    }
+}

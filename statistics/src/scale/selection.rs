@@ -1,0 +1,210 @@
+//! The choice of levels: the error that a plan of plays leaves, and the next level by information at the current ability.
+
+use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
+use super::posterior::logistic;
+
+/// Returns the standard error of an ability that planned plays are expected to leave: `of` of each level are planned, `won` is not
+/// used. `mismatch` is the standard deviation of the player's matches with games, `link` the standard error that all difficulties have
+/// in common. The information of a game's plays is that of its levels, of which the match, which they share, leaves less. Cost:
+/// O(levels).
+///
+/// ```
+/// use infinite_arcade_statistics::scale::{PlayedGame, PlayedLevel, expected_error};
+/// let level = PlayedLevel { difficulty: 0.0, own: 0.0, won: 0.0, of: 1.0 };
+/// let game = PlayedGame { common: 0.0, levels: vec![level] };
+/// // Without a mismatch, a play of even chances has the information 1/4.
+/// let error = expected_error(&vec![game; 100], 0.0, 0.0, 0.0);
+/// assert!((error - 0.2).abs() < 0.001);
+/// ```
+pub fn expected_error(games: &[PlayedGame], ability: f64, mismatch: f64, link: f64) -> f64 {
+    let of_game = |game: &PlayedGame| {
+        let variance = mismatch * mismatch + game.common * game.common;
+        let levels = game.levels.iter().filter(|level| level.of > 0.0);
+        let each = levels.map(|level| information(ability - level.difficulty, variance, level.own, level.of));
+        shared(each.sum(), variance)
+    };
+    let information = games.iter().map(of_game).sum::<f64>() + 1.0 / (ABILITY_SD * ABILITY_SD);
+    (1.0 / information + link * link).sqrt()
+}
+
+/// Returns the information of plays of a level on the ability in its game, whose logit varies with this variance; `own` is the standard
+/// error of the difficulty.
+fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
+    let sd = (variance + own * own).sqrt();
+    let mean: f64 = nodes()
+        .map(|(z, weight)| {
+            let chance = logistic(logit + sd * z);
+            weight * chance * (1.0 - chance)
+        })
+        .sum();
+    1.0 / (1.0 / (of * mean).max(1e-300) + own * own)
+}
+
+/// Returns the information on the ability of what a game tells of the ability in it.
+fn shared(within: f64, variance: f64) -> f64 {
+    within / (1.0 + variance * within)
+}
+
+/// An adaptive choice of levels: each next one tells the most at the ability that the plays so far show. It depends on nothing else, so
+/// the plays on record give the same choices again.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    /// The levels; `of` is the plays recorded.
+    games: Vec<PlayedGame>,
+    /// The plays chosen, by game and level.
+    chosen: Vec<Vec<f64>>,
+    mismatch: f64,
+    runs: f64,
+    /// The logarithm of the density of abilities, at the nodes.
+    logs: Vec<f64>,
+    /// The part of each game in it.
+    parts: Vec<Vec<f64>>,
+}
+
+/// A choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chosen {
+    /// The index of the game.
+    pub game: usize,
+    /// The index of the level in its game.
+    pub level: usize,
+    /// The ability that the plays before it show.
+    pub ability: f64,
+    /// Its standard error, without that of the link.
+    pub error: f64,
+}
+
+impl Selection {
+    /// Starts without plays: `games` has the difficulties, each level can be chosen `runs` times.
+    pub fn new(games: &[PlayedGame], mismatch: f64, runs: u64) -> Selection {
+        let mut games = games.to_vec();
+        for level in games.iter_mut().flat_map(|game| &mut game.levels) {
+            (level.won, level.of) = (0.0, 0.0);
+        }
+        let log = |node: i32| {
+            let at = f64::from(node) * STEP / ABILITY_SD;
+            -0.5 * at * at
+        };
+        let logs: Vec<f64> = (-SIDE..=SIDE).map(log).collect();
+        let parts = games.iter().map(|_| vec![0.0; logs.len()]).collect();
+        let chosen = games.iter().map(|game| vec![0.0; game.levels.len()]).collect();
+        Selection { games, chosen, mismatch, runs: runs as f64, logs, parts }
+    }
+
+    /// Returns the ability that the recorded plays show, and its standard error without that of the link.
+    pub fn ability(&self) -> (f64, f64) {
+        let most = self.logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let weights: Vec<f64> = self.logs.iter().map(|log| libm::exp(log - most)).collect();
+        let total: f64 = weights.iter().sum();
+        let at = |place: usize| (place as f64 - f64::from(SIDE)) * STEP;
+        let mean = weights.iter().enumerate().map(|(place, weight)| at(place) * weight).sum::<f64>() / total;
+        let square = |place: usize| (at(place) - mean) * (at(place) - mean);
+        let variance =
+            weights.iter().enumerate().map(|(place, weight)| square(place) * weight).sum::<f64>() / total;
+        (mean, variance.sqrt())
+    }
+
+    /// Chooses the next level: the one whose play adds most to the information on the ability, after the plays chosen so far. Equal
+    /// ones in the order of games and levels. `None` once all are chosen. Cost: O(levels).
+    pub fn choose(&mut self) -> Option<Chosen> {
+        let (ability, error) = self.ability();
+        let mut best: Option<(f64, usize, usize)> = None;
+        for (at, game) in self.games.iter().enumerate() {
+            let variance = self.mismatch * self.mismatch + game.common * game.common;
+            // The ability itself is uncertain.
+            let wide = variance + error * error;
+            let of = |level: usize, plays: f64| {
+                let one = &game.levels[level];
+                if plays > 0.0 { information(ability - one.difficulty, wide, one.own, plays) } else { 0.0 }
+            };
+            let within: f64 = (0..game.levels.len()).map(|level| of(level, self.chosen[at][level])).sum();
+            let before = shared(within, variance);
+            for level in (0..game.levels.len()).filter(|&level| self.chosen[at][level] < self.runs) {
+                let plays = self.chosen[at][level];
+                let gain = shared(within - of(level, plays) + of(level, plays + 1.0), variance) - before;
+                if best.is_none_or(|(most, ..)| gain > most) {
+                    best = Some((gain, at, level));
+                }
+            }
+        }
+        let (_, game, level) = best?;
+        self.chosen[game][level] += 1.0;
+        Some(Chosen { game, level, ability, error })
+    }
+
+    /// Records a play of a level.
+    pub fn record(&mut self, game: usize, level: usize, won: bool) {
+        let played = &mut self.games[game].levels[level];
+        played.of += 1.0;
+        played.won += f64::from(u8::from(won));
+        let game_played = &self.games[game];
+        let sd =
+            (self.mismatch * self.mismatch + game_played.common * game_played.common).sqrt().max(STEP / TAIL);
+        let reach = SIDE + (TAIL * sd / STEP) as i32 + 1;
+        let (likelihoods, kernel) = (game_played.likelihoods(reach), kernel(sd));
+        let half = kernel.len() / 2;
+        for (at, part) in self.parts[game].iter_mut().enumerate() {
+            let first = at + (reach - SIDE) as usize - half;
+            let window = &likelihoods[first..first + kernel.len()];
+            let mean: f64 = window.iter().zip(&kernel).map(|(value, weight)| value * weight).sum();
+            let log = libm::log(mean);
+            self.logs[at] += log - *part;
+            *part = log;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scale::{MismatchPrior, PlayedLevel, ability};
+
+    /// Games whose levels are easy, even and hard.
+    fn games(count: usize) -> Vec<PlayedGame> {
+        let level = |difficulty: f64| PlayedLevel { difficulty, own: 0.3, won: 0.0, of: 0.0 };
+        vec![PlayedGame { common: 0.2, levels: [-3.0, 0.0, 3.0].map(level).to_vec() }; count]
+    }
+
+    /// A player far below is given easy levels, one of each game first.
+    #[test]
+    fn choices_go_where_the_player_is() {
+        let mut selection = Selection::new(&games(20), 1.0, 1);
+        let mut chosen = Vec::new();
+        for _ in 0..20 {
+            let one = selection.choose().unwrap();
+            selection.record(one.game, one.level, one.level == 0 && one.game.is_multiple_of(2));
+            chosen.push(one);
+        }
+        let mut played: Vec<usize> = chosen.iter().map(|one| one.game).collect();
+        assert!(chosen[10..].iter().all(|one| one.level == 0), "{chosen:?}");
+        played.sort_unstable();
+        played.dedup();
+        assert_eq!(played.len(), 20, "{chosen:?}");
+        assert!(chosen[19].error < 0.5 * chosen[0].error && chosen[19].ability < -2.0);
+        // All that is left, and no more.
+        assert_eq!(std::iter::from_fn(|| selection.choose()).count(), 40);
+    }
+
+    /// The ability of a selection, whose mismatch is given, is that of the scale, which has it estimated; so is the expected error.
+    #[test]
+    fn errors_are_those_of_the_scale() {
+        let mut played = games(60);
+        let mut selection = Selection::new(&played, 1.0, 1);
+        for (at, game) in played.iter_mut().enumerate() {
+            for (place, level) in game.levels.iter_mut().enumerate() {
+                // One logit above the mean, with games that suit and games that do not.
+                let won = [at % 10 != 0, at % 3 != 0, at % 9 == 0][place];
+                (level.won, level.of) = (f64::from(u8::from(won)), 1.0);
+                selection.record(at, place, won);
+            }
+        }
+        let found = ability(&played, MismatchPrior { median: 1.0, log_sd: 0.05 }, 0.0).unwrap();
+        let (value, error) = selection.ability();
+        assert!(
+            (value - found.value).abs() < 0.02 && (error / found.error - 1.0).abs() < 0.03,
+            "{value} {error} {found:?}"
+        );
+        let expected = expected_error(&played, found.value, 1.0, 0.0);
+        assert!((expected / found.error - 1.0).abs() < 0.15, "{expected}, {found:?}");
+    }
+}
