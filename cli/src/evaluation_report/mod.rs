@@ -72,7 +72,7 @@ pub(crate) fn write_evaluation_report(draft: Draft, results: &Results<'_>) -> Re
         files.push((format!("tables/{}.tex", table.id), table.to_latex()));
     }
     for (name, text) in &files {
-        draft.write(name, text.as_bytes())?;
+        draft.write_of_any_size(name, text.as_bytes())?;
     }
     draft.commit()?;
     Ok(files.into_iter().map(|(name, _)| name).collect())

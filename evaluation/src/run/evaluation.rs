@@ -280,7 +280,7 @@ impl Evaluation {
 
     /// Plays episodes as [`Evaluation::run`] does, some at a time: `choose` is told which ended since its last call, each with `true`
     /// if it was won, and returns the next ones by their index in [`Evaluation::tasks`]; none to end. Those that have
-    /// ended before are not played again.
+    /// ended before keep their results.
     ///
     /// The rest is left open after a cap, a request that the server rejects, or `FAILURES_IN_A_ROW` consecutive episodes
     /// aborted by environment failures.

@@ -91,12 +91,20 @@ impl Draft {
     /// The path is unsafe, the file is larger than a reader would accept, it was written before (also in other case,
     /// on a case-insensitive file system), or the file system refuses.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
-        check_path(relative).map_err(|problem| SnapshotError::Path { path: relative.into(), problem })?;
-        let path = folder::join(&self.tree(), relative);
         let limit = Limits::SNAPSHOT.file_bytes;
         if bytes.len() as u64 > limit {
-            return Err(SnapshotError::TooLarge { path, limit });
+            return Err(SnapshotError::TooLarge { path: folder::join(&self.tree(), relative), limit });
         }
+        self.write_of_any_size(relative, bytes)
+    }
+
+    /// Writes a file like [`write`](Draft::write), however large: for folders that are no releases.
+    ///
+    /// # Errors
+    /// See [`write`](Draft::write).
+    pub fn write_of_any_size(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
+        check_path(relative).map_err(|problem| SnapshotError::Path { path: relative.into(), problem })?;
+        let path = folder::join(&self.tree(), relative);
         let parent = parent_of(&path);
         let is_secret = self.is_secret || relative.starts_with(HELD);
         create_folders(parent, is_secret).map_err(SnapshotError::io("create", parent))?;
@@ -433,8 +441,9 @@ pub(crate) mod tests {
         assert!(matches!(draft.write("a/b", b"two"), Err(SnapshotError::Io { .. })));
         let large = vec![0; (64 << 20) + 1];
         assert!(matches!(draft.write("large", &large), Err(SnapshotError::TooLarge { .. })));
+        draft.write_of_any_size("report", &large).expect("written");
         draft.commit().expect("published");
-        assert_eq!(names(&out), ["a"]);
+        assert_eq!(names(&out), ["a", "report"]);
         assert_eq!(fs::read(out.join("a")).expect("readable"), b"one");
         assert_eq!(names(home.path()), ["new"]);
     }
