@@ -1,6 +1,6 @@
 //! Marks: players that never change, kept in a release.
 
-use crate::arcade::{files, run, text};
+use crate::arcade::{files, run, sweeping, text};
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -36,7 +36,9 @@ fn marks_are_minted_again_bit_for_bit() {
     recipe(folder);
     let said = text(&run(folder, &["verify", &whole.display().to_string()], 0).stdout);
     assert!(said.contains("verified"), "{said}");
-    run(folder, &["regenerate", &whole.display().to_string(), "--jobs", "1"], 0);
+    if sweeping() {
+        run(folder, &["regenerate", &whole.display().to_string(), "--jobs", "1"], 0);
+    }
     for shard in ["1/2", "2/2"] {
         run(folder, &["release", "marked.toml", "--shard", shard, "--out", &shard[..1]], 0);
     }
