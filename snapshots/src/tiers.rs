@@ -14,6 +14,9 @@ pub(crate) struct PuzzleSection {
     keys: [&'static str; 6],
     rules: usize,
     cells: usize,
+    thing_key: &'static str,
+    /// The most things to push.
+    things: u32,
 }
 
 macro_rules! keys {
@@ -31,11 +34,21 @@ macro_rules! keys {
 
 impl PuzzleSection {
     /// Puzzles of pushed things.
-    pub(crate) const PUZZLES: PuzzleSection =
-        PuzzleSection { keys: keys!("puzzles"), rules: PushRules::ALL.len(), cells: 128 };
+    pub(crate) const PUZZLES: PuzzleSection = PuzzleSection {
+        keys: keys!("puzzles"),
+        rules: PushRules::ALL.len(),
+        cells: 128,
+        thing_key: "puzzles.things",
+        things: 5,
+    };
     /// Puzzles of locks.
-    pub(crate) const LOCKS: PuzzleSection =
-        PuzzleSection { keys: keys!("locks"), rules: LockRules::ALL.len(), cells: 256 };
+    pub(crate) const LOCKS: PuzzleSection = PuzzleSection {
+        keys: keys!("locks"),
+        rules: LockRules::ALL.len(),
+        cells: 256,
+        thing_key: "locks.things",
+        things: 3,
+    };
 }
 
 engine::with_defaults! {
@@ -52,6 +65,8 @@ engine::with_defaults! {
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
+        /// The number of things to push in tiers 3 and 4: 3 to 5. Not for locks.
+        pub things: u32 = 3,
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
         /// The minimum and maximum number of rows.
@@ -125,6 +140,13 @@ impl PuzzlePart {
         if !(1.0..=20.0).contains(&self.candidates) {
             return wrong(candidates, format!("is {}; it takes 1 to 20 for each game", self.candidates));
         }
+        if !(3..=section.things).contains(&self.things) {
+            let help = match section.things {
+                3 => "is for `[puzzles]` only: omit it".to_owned(),
+                most => format!("is {}; it takes 3 to {most}", self.things),
+            };
+            return wrong(section.thing_key, help);
+        }
         let cells = section.cells;
         for (key, (least, most)) in [(columns, self.columns), (rows, self.rows)] {
             if least < LEAST_SIDE || most < least || self.columns.1.saturating_mul(self.rows.1) > cells {
@@ -156,6 +178,8 @@ mod tests {
         check(&format!("{puzzles}{endless}"), "at most 128 cells");
         check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "it takes 1 to 15");
         let locks = format!("{}[tiers]\n4 = 1.0", puzzles.replace("[puzzles]", "[locks]"));
+        check(&locks.replace("games = 2", "games = 2\nthings = 4"), "`locks.things` is for `[puzzles]` only");
+        check(&format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"), "`puzzles.things` is 6; it takes 3 to 5");
         check(&locks.replace("= 2", "= 5"), "`locks.games` is 5; it takes 1 to 3");
         check(
             &locks.replace("games = 2", "games = 2\nrows = [16, 17]\ncolumns = [16, 16]"),

@@ -17,6 +17,8 @@ pub struct PuzzleLevels {
     pub tiers: Vec<Tier>,
     /// The rules, if the puzzles are of locks; otherwise they are of pushed things.
     pub locks: Option<Locks>,
+    /// The number of things to push in tiers 3 and 4.
+    pub things: usize,
 }
 
 /// The rules of a game of locks, and the characters of its levels under its own theme.
@@ -104,9 +106,14 @@ impl PuzzleLevels {
             ));
         }
         let tier = self.tier(number);
-        let target = target(tier);
+        let target = target(tier, self.things);
         let puzzle = match target {
-            Some(_) => PuzzleConfig { floor_plans: FLOOR_PLANS, target, ..PuzzleConfig::default() },
+            Some(_) => PuzzleConfig {
+                things: Some(self.things),
+                floor_plans: FLOOR_PLANS,
+                target,
+                ..PuzzleConfig::default()
+            },
             // The farthest position of a good floor plan is too far for the lower tiers.
             None => PuzzleConfig {
                 things: Some(2),
@@ -136,15 +143,19 @@ fn dead_ends(tier: Tier) -> f64 {
 }
 
 /// The target for a tier; `None` for those that need none. The generator counts the actions of a win with the fewest pushes;
-/// the shortest win has fewer, so there is a margin.
-fn target(tier: Tier) -> Option<PuzzleTarget> {
+/// the shortest win has fewer, so there is a margin. Puzzles of more than three things take more of both.
+fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     let pushes = match tier {
         Tier::One | Tier::Two => return None,
         Tier::Three => 30,
         Tier::Four => 60,
     };
     let decisions = tier.bounds().decisions;
-    Some(PuzzleTarget { pushes, decisions: decisions + decisions / 8 })
+    let more = things.saturating_sub(3);
+    Some(PuzzleTarget {
+        pushes: pushes + pushes * more / 3,
+        decisions: decisions + decisions * (1 + 3 * more) / 8,
+    })
 }
 
 /// The win of a puzzle: the shortest, if `calls` forward-model calls suffice to prove it, or else the one that the generator
@@ -195,8 +206,12 @@ mod tests {
             let retold = Rethemed::of(&rules.game(), Seed::from_text("locks")).unwrap();
             let game = Game::from_source(&engine::syntax::print(&retold.description)).unwrap();
             let config = LevelConfig { columns: (9, 9), rows: (9, 9), ..LevelConfig::default() };
-            let puzzles =
-                PuzzleLevels { config, tiers: vec![Tier::Two], locks: Some(Locks::of(rules, &retold)) };
+            let puzzles = PuzzleLevels {
+                config,
+                tiers: vec![Tier::Two],
+                locks: Some(Locks::of(rules, &retold)),
+                things: 3,
+            };
             let generator = puzzles.generator(&game, 0).unwrap();
             let made = (0..8)
                 .find_map(|draw| generator.create_solved(&game, Seed::from_text("x").child("draw", draw)));
@@ -222,7 +237,7 @@ mod tests {
             let retold = Rethemed::of(&rules.game(), Seed::from_text("floor")).unwrap();
             let game = Game::from_source(&engine::syntax::print(&retold.description)).unwrap();
             let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
-            let puzzles = PuzzleLevels { config, tiers: vec![Tier::One], locks: None };
+            let puzzles = PuzzleLevels { config, tiers: vec![Tier::One], locks: None, things: 3 };
             let generator = puzzles.generator(&game, 0).unwrap();
             let made = (0..8)
                 .find_map(|draw| generator.create_solved(&game, Seed::from_text("x").child("draw", draw)));

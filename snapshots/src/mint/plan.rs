@@ -232,6 +232,11 @@ impl<'a> Plan<'a> {
             "board": board,
             "criteria": criteria,
         });
+        if let Some(part) =
+            self.recipe.puzzles.as_ref().filter(|part| part.things != PuzzlePart::default().things)
+        {
+            decisive["things"] = part.things.into();
+        }
         if let Some(locks) = locks {
             decisive["locks"] = serde_json::json!(locks);
         }
@@ -309,7 +314,7 @@ impl<'a> Plan<'a> {
         let of_tiers = Tier::ALL.into_iter().zip(apportion(part.levels, &self.recipe.tiers.shares()));
         let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
         let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
-        let puzzles = PuzzleLevels { config, tiers, locks };
+        let puzzles = PuzzleLevels { config, tiers, locks, things: part.things as usize };
         let panel = Panel::new(&self.recipe.criteria).expect("the recipe was checked");
         let levels = Levels {
             count: part.levels,

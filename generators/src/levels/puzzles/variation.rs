@@ -31,7 +31,7 @@ engine::with_defaults! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct PuzzleConfig {
         /// The number of things to push; `None` takes it from [`LevelConfig::counts`], or else uses at least two, as
-        /// difficulty and room allow.
+        /// difficulty and room allow. With a target and more than three, a floor plan takes up to some seconds and 500 MB.
         pub things: Option<usize> = None,
         /// The maximum number of floor plans to examine for a level.
         pub floor_plans: usize = 600,
@@ -52,10 +52,12 @@ pub struct PuzzleTarget {
     pub decisions: usize,
 }
 
-/// The limits of a search with a target: positions of a floor plan, and of all of them.
+/// The limits of a search with a target: positions of a floor plan, and of all of them. More things take more.
 const DEEP_POSITIONS: usize = 150_000;
 const DEEP_SEARCH: usize = 150_000_000;
-/// The number of things of a puzzle with a target.
+const VAST_POSITIONS: usize = 3_000_000;
+const VAST_SEARCH: usize = 1_500_000_000;
+/// The number of things of a puzzle with a target, if nothing else is said, and with the lower limits.
 const DEEP_THINGS: usize = 3;
 /// The pushes by which the next floor plan has to be farther, after one that took enough pushes but too few actions.
 const RAISE: usize = 3;
@@ -156,7 +158,7 @@ impl<'a> PuzzleVariation<'a> {
 
     fn floors(&self, grid: Grid, counts: [usize; KINDS]) -> FloorPlans<'_> {
         let is_deep = self.puzzle.target.is_some();
-        let most_positions = if is_deep { DEEP_POSITIONS } else { floor::MAX_POSITIONS };
+        let most_positions = if is_deep { deep(counts).0 } else { floor::MAX_POSITIONS };
         FloorPlans { rules: &self.rules, grid, counts, most_positions, sills: is_deep }
     }
 
@@ -168,7 +170,8 @@ impl<'a> PuzzleVariation<'a> {
         floor_plans: usize,
         seed: Seed,
     ) -> Option<Solved> {
-        let mut search = annealing(floors, floor_plans, DEEP_SEARCH, seed.child("floor plans", 0));
+        let most = deep(floors.counts).1;
+        let mut search = annealing(floors, floor_plans, most, seed.child("floor plans", 0));
         let mut least = target.pushes;
         loop {
             let plans = search.ask(BATCH);
@@ -196,7 +199,8 @@ impl<'a> PuzzleVariation<'a> {
     fn level_of(&self, floor_plan: &FloorPlan, seed: Seed) -> Option<Solved> {
         let pushing = Pushing { floor_plan, rules: &self.rules };
         let is_deep = self.puzzle.target.is_some();
-        let searched = pushing.by_pushes(if is_deep { 2 * DEEP_POSITIONS } else { MAX_POSITIONS });
+        let most = if is_deep { 2 * deep(floor_plan.counts).0 } else { MAX_POSITIONS };
+        let searched = pushing.by_pushes(most);
         let starts = || searched.iter().filter(|(position, _)| pushing.is_start(position));
         let most = starts().map(|(_, pushes)| pushes).max()?;
         // Easy levels start closer to the solution.
@@ -347,6 +351,14 @@ impl Variation for PuzzleVariation<'_> {
             })
         });
         crossed.unwrap_or_else(|| self.mutate(one, sampler))
+    }
+}
+
+/// The limits of a search with a target for these things: positions of a floor plan, and of all of them.
+fn deep(counts: [usize; KINDS]) -> (usize, usize) {
+    match counts.iter().sum::<usize>() {
+        ..=DEEP_THINGS => (DEEP_POSITIONS, DEEP_SEARCH),
+        _ => (VAST_POSITIONS, VAST_SEARCH),
     }
 }
 
