@@ -40,8 +40,8 @@ pub struct Grade {
     pub insight: Option<f64>,
 }
 
-/// What a game holds for players who have to find out its rules by touching: the kinds, other than avatars and floors, by what a touch
-/// of them is to somebody who does not know.
+/// The kinds of a game, other than avatars and floors, by the effect of a touch on a player who does not know the rules and has to
+/// find them out by touching.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Trials {
     /// A touch hurts, or takes points.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// The minimum side of a puzzle.
 const LEAST_SIDE: usize = 8;
 
-/// What depends on the kind of the puzzles: the keys of their section, the number of different rules, and the maximum
+/// The parts of a section that depend on the kind of the puzzles: its keys, the number of different rules, and the maximum
 /// number of cells of a board.
 pub(crate) struct PuzzleSection {
     keys: [&'static str; 6],

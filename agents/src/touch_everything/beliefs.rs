@@ -1,4 +1,4 @@
-//! What touches have done so far, by kind of sprite.
+//! The effects of touches so far, by kind of sprite.
 
 use engine::Observation;
 use std::collections::{BTreeMap, BTreeSet};

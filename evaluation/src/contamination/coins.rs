@@ -2,7 +2,7 @@
 
 use engine::{Action, Digest};
 
-/// What the coins of a release published and withheld.
+/// The games and witnesses that the coins of a release published and withheld.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coins {
     /// The games.
@@ -36,9 +36,9 @@ pub struct LevelCoin {
 /// The side of a coin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Side {
-    /// What was published.
+    /// The one published.
     Published,
-    /// What was withheld.
+    /// The one withheld.
     Withheld,
 }
 

@@ -29,7 +29,7 @@ pub struct PlayerMemory {
     pub solutions: Option<SideTest>,
     /// The test of its wins on published games and on their withheld siblings.
     pub games: Option<SideTest>,
-    /// What the tests say.
+    /// The answer of the tests.
     pub evidence: Evidence,
     /// Episodes on levels that the release does not have.
     pub unknown: u64,
@@ -60,7 +60,7 @@ impl SideTest {
     }
 }
 
-/// What the tests say of a player.
+/// The answer of the tests for a player.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {

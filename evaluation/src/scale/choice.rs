@@ -183,7 +183,7 @@ pub struct AdaptiveChoice {
     adaptive: Adaptive,
     /// The game and level of each episode of a run.
     places: Vec<(usize, usize)>,
-    /// How often each level was chosen.
+    /// The number of times that each level was chosen.
     runs: Vec<u64>,
     link: f64,
     choices: Vec<AdaptiveStep>,

@@ -40,7 +40,7 @@ pub struct MonthAbility {
     pub games: u64,
     /// The ability, in logits above the mean difficulty of the first release.
     pub ability: Option<Span>,
-    /// Whether each end of the interval is a finding.
+    /// `true` for each end of the interval that is a finding.
     pub is_bounded: [bool; 2],
     /// The total standard error, and its parts.
     pub error: Option<ErrorParts>,

@@ -162,7 +162,7 @@ fn prompts_without_rules_tell_no_rules() {
     assert!(fixed.values().all(|parts| parts.len() == 1), "{fixed:?}");
 }
 
-/// What the rules say of the kinds of the corpus, which grades predictions.
+/// The truth about the kinds of the corpus by the rules, against which predictions are graded.
 #[test]
 fn truths_of_the_corpus() {
     let mut lines = String::new();

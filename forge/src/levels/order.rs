@@ -95,7 +95,7 @@ impl LevelOrder {
     /// The criteria of a release for levels, but stricter with random play: 1 of 40 episodes won at most, so that a second
     /// look with other dice finds 10 % or less.
     ///
-    /// Whether a game is readable is a property of its rules, not of its levels: it is not asked.
+    /// `readable` is left out: it is a property of the rules.
     pub fn criteria_by_default() -> Criteria {
         let ask = ["well-formed", "not-idle", "not-random", "early-death", "winnable", "length"];
         let ask = ask.into_iter().map(str::to_owned).collect();

@@ -156,7 +156,7 @@ pub struct Marks {
     pub asked: MarksPart,
     /// The win rates of each player with each commitment: on the levels of each tier, the lowest first, then on all.
     pub rates: Vec<MarkRate>,
-    /// How much less is won from each tier to the next, and from each commitment to the next.
+    /// The falls of the win rate from each tier to the next, and from each commitment to the next.
     pub falls: Falls,
     /// The games, in the order of their folders' names.
     pub games: Vec<GameMarks>,

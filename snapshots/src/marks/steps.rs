@@ -1,4 +1,4 @@
-//! How much less the marks win from tier to tier, and from commitment to commitment.
+//! The falls of the marks' win rates from tier to tier, and from commitment to commitment.
 
 use super::{GameMarks, LevelMarks, MarksPart};
 use serde::{Deserialize, Serialize};

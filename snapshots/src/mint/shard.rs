@@ -439,7 +439,7 @@ mod tests {
         }
     }
 
-    /// What coins withhold is checked, too.
+    /// Withheld siblings and witnesses are checked, too.
     #[test]
     fn forged_pairs_are_not_merged() {
         let open = tests::recipe("a");

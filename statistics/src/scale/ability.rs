@@ -57,7 +57,7 @@ pub struct Ability {
     pub link: f64,
     /// The 95 % interval.
     pub interval: Interval,
-    /// Whether each end of the interval is a finding; without wins there is no lower bound, without losses no upper one.
+    /// `true` for each end of the interval that is a finding; without wins there is no lower bound, without losses no upper one.
     pub is_bounded: [bool; 2],
     /// The mean of the standard deviation of the player's matches with games.
     pub mismatch_sd: f64,

@@ -180,7 +180,7 @@ pub struct AbilityTrial {
     pub off: f64,
     /// The error stated.
     pub error: f64,
-    /// Whether the 95 % interval covers the truth.
+    /// `true` if the 95 % interval covers the truth.
     pub is_covered: bool,
 }
 

@@ -1,6 +1,7 @@
 //! The choice of levels by a scale: `--plan`, `--adaptive` and their targets.
 
-use super::{Args, RequestedPlayer};
+use super::Args;
+use super::player::RequestedPlayer;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};

@@ -1,7 +1,8 @@
 //! The player `mailbox:DIR`: whoever answers the prompts in a folder.
 
+use super::Args;
 use super::model::prompters;
-use super::{Args, PlayerOf};
+use super::player::PlayerOf;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::shell;

@@ -4,6 +4,7 @@ mod choice;
 mod human;
 mod mailbox;
 mod model;
+mod player;
 mod progress;
 pub(crate) mod subjects;
 mod track;
@@ -14,32 +15,21 @@ use crate::interrupt;
 use crate::marks;
 use crate::protected;
 use crate::trusted::{OriginArgs, refuse};
-use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
 use crate::whole_file;
-use agents::{Budget, PlannerSpec};
 use choice::{Choice, ChoiceArgs};
 use engine::SEMANTICS;
 use evaluation::client::Spent;
-use evaluation::player::mailbox::Mailbox;
-use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
-use evaluation::player::{Contestant, Replay, Touching};
-use evaluation::prompt::PromptSettings;
 use evaluation::run::{self, Answers, FORMAT, SETTINGS_FILE, Tally, Task};
-use evaluation::serve::{PromptPlayer, Prompted};
-use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, Track, study};
-use human::Human;
+use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use itertools::Itertools;
-use mailbox::RequestedMailbox;
 use model::{ConnectedModel, ModelArgs};
+use player::{Connected, RequestedPlayer, reject_unused_flags, requested_player};
 use progress::Bar;
 use serde_json::json;
 use statistics::Design;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Duration;
 
 /// Lets a player play a snapshot or games, and records every episode.
 ///
@@ -124,33 +114,6 @@ impl Args {
             levels: &self.levels,
             as_reference: self.as_reference,
         }
-    }
-}
-
-enum RequestedPlayer {
-    Planner(PlannerSpec),
-    Replay(Replay),
-    Touching,
-    Human(PromptSettings),
-    Mailbox(RequestedMailbox),
-    Prompted(PromptPlayer, PromptSettings),
-    Process(Box<Process>),
-    Model(Box<model::RequestedModel>),
-}
-
-/// Makes the player of an episode.
-type PlayerOf = Box<dyn Fn(&Task<'_>) -> Contestant + Sync>;
-
-/// The players of the episodes, and their sides that outlive an episode.
-struct Connected {
-    contestant: PlayerOf,
-    model: Option<Arc<ConnectedModel>>,
-    mailbox: Option<Arc<Mailbox>>,
-}
-
-impl From<PlayerOf> for Connected {
-    fn from(contestant: PlayerOf) -> Connected {
-        Connected { contestant, model: None, mailbox: None }
     }
 }
 
@@ -311,124 +274,6 @@ fn forecast(
     Ok(true)
 }
 
-impl RequestedPlayer {
-    /// Returns the player as results name it.
-    fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
-        let (name, details) = match self {
-            RequestedPlayer::Model(model) => return model.entrant(subjects, args),
-            RequestedPlayer::Planner(spec) => {
-                let budget = spec.budget().unwrap_or(Budget(args.budget));
-                let looks_ahead =
-                    !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil" | "nearest-goal");
-                let name = match looks_ahead {
-                    true => format!("{}:{}", spec.name(), budget.0),
-                    false => spec.name().to_owned(),
-                };
-                (name, json!({ "planner": spec.name(), "budget": budget }))
-            }
-            RequestedPlayer::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
-            RequestedPlayer::Touching => (Touching::NAME.to_owned(), json!({ "player": Touching::NAME })),
-            RequestedPlayer::Human(prompts) => {
-                (args.name.clone().unwrap_or("human".to_owned()), json!({ "prompt": prompts }))
-            }
-            RequestedPlayer::Mailbox(mailbox) => return mailbox.entrant(args, subjects),
-            RequestedPlayer::Prompted(player, prompts) => (player.to_string(), json!({ "prompt": prompts })),
-            RequestedPlayer::Process(process) => {
-                let command = process.command();
-                (format!("cmd:{command}"), json!({ "command": command, "protocol": PROTOCOL }))
-            }
-        };
-        let aids = match self {
-            RequestedPlayer::Human(prompts) | RequestedPlayer::Prompted(_, prompts) => {
-                args.model.prompt.aids(prompts)
-            }
-            _ => Vec::new(),
-        };
-        Ok(Entrant { name, mode: None, aids, details })
-    }
-
-    /// Returns the players of the episodes.
-    fn connect(
-        &self,
-        args: &Args,
-        settings: &Settings,
-        subjects: &[Subject],
-        console: &Console,
-    ) -> Result<Connected, Failure> {
-        let contestant: PlayerOf = match self {
-            RequestedPlayer::Planner(spec) => {
-                let (spec, budget) = (spec.clone(), Budget(args.budget));
-                Box::new(move |_| Contestant::Planner { spec: spec.clone(), budget })
-            }
-            RequestedPlayer::Replay(replay) => {
-                let replay = replay.clone();
-                Box::new(move |_| Contestant::Agent(Box::new(replay.clone())))
-            }
-            RequestedPlayer::Touching => {
-                let is_blind = args.model.prompt.track == Some(Track::Discover);
-                let player = move |task: &Task<'_>| match is_blind {
-                    true => Touching::new(task.chance()).without_score(),
-                    false => Touching::new(task.chance()),
-                };
-                Box::new(move |task| Contestant::Agent(Box::new(player(task))))
-            }
-            RequestedPlayer::Human(prompts) => {
-                let prompters = model::prompters(subjects, prompts, args.max_steps, args.commit)?;
-                let player = move |task: &Task<'_>| Human::new(prompters[&task.subject.id].clone());
-                Box::new(move |task| Contestant::Agent(Box::new(player(task))))
-            }
-            RequestedPlayer::Prompted(player, prompts) => {
-                let (player, prompters) =
-                    (player.clone(), model::prompters(subjects, prompts, args.max_steps, args.commit)?);
-                let prompter = move |task: &Task<'_>| prompters[&task.subject.id].clone();
-                Box::new(move |task| {
-                    Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter(task))))
-                })
-            }
-            RequestedPlayer::Process(read) => {
-                let (command, timeout) = (read.command().to_owned(), args.model.timeout());
-                let remark = console.remarks();
-                let track = args.model.prompt.track.unwrap_or(Track::Told);
-                let process = move || {
-                    let process = process(&command, timeout).expect("it was read before");
-                    process.with_notices(remark.clone()).on_track(track)
-                };
-                Box::new(move |_| Contestant::Agent(Box::new(process())))
-            }
-            RequestedPlayer::Mailbox(mailbox) => {
-                let (contestant, mailbox) = mailbox.connect(args, settings, subjects, console)?;
-                return Ok(Connected { mailbox: Some(mailbox), ..contestant.into() });
-            }
-            RequestedPlayer::Model(model) => {
-                let model = Arc::new(model.connect(subjects, args.max_steps, args.commit)?);
-                let connected = model.clone();
-                let contestant: PlayerOf = Box::new(move |task| connected.contestant(task));
-                return Ok(Connected { model: Some(model), ..contestant.into() });
-            }
-        };
-        Ok(contestant.into())
-    }
-
-    /// Returns the number of concurrent episodes, at most their number. Episodes of models wait most of the time.
-    fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
-        let requested = match self {
-            RequestedPlayer::Model(_) => args.model.concurrency().get(),
-            RequestedPlayer::Human(_) => 1,
-            RequestedPlayer::Mailbox(_) => args.jobs.unwrap_or(1),
-            _ => {
-                args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
-            }
-        };
-        let episodes = episodes.max(1);
-        if args.jobs.is_some() && requested > episodes {
-            console.remark(format_args!(
-                "--jobs {requested}: there are {episodes} episodes, so {episodes} at a time"
-            ));
-        }
-        requested.min(episodes)
-    }
-}
-
 /// Adds the commitment to what distinguishes the player from others.
 fn with_commitment(mut entrant: Entrant, commit: Commitment) -> Entrant {
     entrant.aids.extend(commit.aid());
@@ -439,86 +284,6 @@ fn with_commitment(mut entrant: Entrant, commit: Commitment) -> Entrant {
 fn end_players() {
     #[cfg(unix)]
     evaluation::player::process::end_all();
-}
-
-/// Refuses flags that would have no effect: a user who gives them expects one.
-fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
-    if matches!(requested, RequestedPlayer::Model(_)) {
-        return match args.jobs {
-            Some(_) => Err(malformed!(
-                "--jobs does not apply to models; set the number of concurrent requests with --concurrency"
-            )),
-            None => Ok(()),
-        };
-    }
-    let player = args.player.as_deref().unwrap_or_default();
-    if let Some(flag) = args.model.unused_without_model() {
-        bail!("{flag} applies to language models (--model) only; remove it for the player `{player}`");
-    }
-    if args.model.timeout.is_some() && !matches!(requested, RequestedPlayer::Process(_)) {
-        bail!(
-            "--timeout applies to language models (--model) and programs (`cmd:`) only; remove it for the player `{player}`"
-        );
-    }
-    let is_named = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Mailbox(_));
-    if args.name.is_some() && !is_named {
-        bail!(
-            "--name applies to the players `human` and `mailbox:DIR` only; remove it for the player `{player}`"
-        );
-    }
-    let is_shown_prompts = is_named || matches!(requested, RequestedPlayer::Prompted(..));
-    if !is_shown_prompts && args.model.prompt.has_flags()? {
-        bail!(
-            "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
-             player `{player}`"
-        );
-    }
-    Ok(())
-}
-
-fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
-    if let Some(id) = &args.model.model {
-        return Ok(RequestedPlayer::Model(Box::new(model::RequestedModel::new(id, &args.model)?)));
-    }
-    let Some(player) = args.player.as_deref() else {
-        bail!(
-            "no player is given: name one with --player (`random`, `mcts:100`, \"cmd:python3 my_agent.py\"), or a language model with \
-             --model (`openai:ID`)"
-        );
-    };
-    if let Some(file) = player.strip_prefix("replay:") {
-        let episode = crate::episodes::read(Path::new(file))?;
-        return Ok(RequestedPlayer::Replay(Replay::of(&episode)));
-    }
-    if player == Touching::NAME {
-        return Ok(RequestedPlayer::Touching);
-    }
-    if player == "human" {
-        return Ok(RequestedPlayer::Human(args.model.prompt.settings()?));
-    }
-    if let Some(folder) = player.strip_prefix("mailbox:") {
-        return Ok(RequestedPlayer::Mailbox(RequestedMailbox::new(folder, args)?));
-    }
-    if let Some(command) = player.strip_prefix("cmd:") {
-        let process = process(command, args.model.timeout()).map_err(Failure::malformed)?;
-        #[cfg(unix)]
-        process.find().map_err(Failure::malformed)?;
-        return Ok(RequestedPlayer::Process(Box::new(process)));
-    }
-    if player == "reflex" || player.starts_with("planner:") {
-        let player: PromptPlayer = player.parse().map_err(Failure::malformed)?;
-        return Ok(RequestedPlayer::Prompted(player, args.model.prompt.settings()?));
-    }
-    let name = if player == "nil" { "do-nothing" } else { player };
-    name.parse().map(RequestedPlayer::Planner).map_err(Failure::malformed)
-}
-
-/// Makes a player of a program.
-fn process(command: &str, timeout: Duration) -> Result<Process, String> {
-    Process::new(
-        command,
-        ProcessConfig { timeout, guard: player_guard::command(), ..ProcessConfig::default() },
-    )
 }
 
 /// Returns `results/` with the player's name.

@@ -1,6 +1,7 @@
 //! The players of each track.
 
-use super::{Args, RequestedPlayer};
+use super::Args;
+use super::player::RequestedPlayer;
 use crate::console::Console;
 use crate::failure::Failure;
 use evaluation::predictions::Trials;
