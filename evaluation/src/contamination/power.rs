@@ -62,7 +62,7 @@ pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
 mod tests {
     use super::*;
 
-    /// The simulations of docs/twins.md: 200 levels, and 100 games.
+    /// The designs of the review of scores: 200 levels, and 100 games.
     #[test]
     fn power_is_that_of_the_page() {
         let found = Power::of(200, &[1; 100], ALPHA);
