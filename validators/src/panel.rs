@@ -162,7 +162,17 @@ impl Panel {
     /// The first of their values that is out of its range; see [`Criteria::check`].
     pub fn new(criteria: &Criteria) -> Result<Panel, CriteriaError> {
         criteria.check()?;
-        Ok(Panel::with_allowance(criteria, None))
+        Ok(Panel::with_allowance(criteria, None, false))
+    }
+
+    /// Like [`Panel::new`], but players stop as soon as the answer is as good as sure: for minting, where candidates are many and
+    /// those let in are judged again. See [`SkillPays::sequential`] for the errors.
+    ///
+    /// # Errors
+    /// As [`Panel::new`].
+    pub fn sequential(criteria: &Criteria) -> Result<Panel, CriteriaError> {
+        criteria.check()?;
+        Ok(Panel::with_allowance(criteria, None, true))
     }
 
     /// Like [`Panel::new`], with a number of forward-model calls for each level, and for the game over all its
@@ -177,7 +187,7 @@ impl Panel {
     }
 
     /// The panel of criteria that were checked.
-    fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>) -> Panel {
+    fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>, sequential: bool) -> Panel {
         let bounded = allowance.map(|allowance| allowance.bounds(criteria));
         let c = bounded.as_ref().unwrap_or(criteria);
         let players = c.ladder_config().expect("the criteria were checked");
@@ -205,7 +215,13 @@ impl Panel {
             (Stage::Win, Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
             (
                 Stage::Ladder,
-                Box::new(SkillPays { players, wins: c.skill_wins, scores: c.skill_scores, play_calls }),
+                Box::new(SkillPays {
+                    players,
+                    wins: c.skill_wins,
+                    scores: c.skill_scores,
+                    play_calls,
+                    sequential,
+                }),
             ),
         ];
         let rules: [(Subject, Box<dyn GameValidator + Send>); 3] = [
@@ -233,7 +249,7 @@ impl Panel {
             None => self.run(game, level, None, seed, false),
             Some((criteria, calls)) => {
                 let allowance = Allowance::of(*calls, game, [level]);
-                Panel::with_allowance(criteria, Some(allowance)).run(game, level, None, seed, false)
+                Panel::with_allowance(criteria, Some(allowance), false).run(game, level, None, seed, false)
             }
         }
     }
@@ -292,7 +308,7 @@ impl Panel {
         }
         if let Some((criteria, calls)) = &self.bound {
             let allowance = Allowance::of(*calls, game, levels);
-            let panel = Panel::with_allowance(criteria, Some(allowance));
+            let panel = Panel::with_allowance(criteria, Some(allowance), false);
             return panel.together(game, levels, reports, seed, screen);
         }
         let analysis = Analysis::of(game);

@@ -76,6 +76,7 @@ impl GameSetReport {
             .section("variety", variety::variety(&measured))
             .section("novelty", likeness::novelty(&measured, &distances, &forms))
             .section("cost", cost.zip(accepted).map(|(cost, accepted)| price(cost, made, accepted)))
+            .table(cost.map(|cost| cost.judges_table(made)))
             .table(variety::kinds(&measured))
             .table(places);
         let near = distances.each.into_iter();
