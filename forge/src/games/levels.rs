@@ -359,6 +359,7 @@ impl Levels<'_> {
         };
         let quick = panel(self.criteria.budget.min(FIRST_SEARCH));
         let mut unsolved = Vec::new();
+        let mut misfits = 0;
         for candidate in 0..self.tries {
             let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
             let (level, asks, known) = match generator.generate(game, seed.child("layout", 0)) {
@@ -385,17 +386,23 @@ impl Levels<'_> {
             match self.in_company(&quick, game, level, place, (number, others), tally) {
                 Judged::Passed(found) => return Some(FoundLevel { asks, ..*found }),
                 Judged::Unsolved(level) => unsolved.push((level, asks, place)),
+                Judged::Misfit => misfits += 1,
                 Judged::Failed => {}
+            }
+            if misfits == MISFITS {
+                return None;
             }
         }
         if self.criteria.budget <= FIRST_SEARCH {
             return None;
         }
+        // The more levels a game has, the more would be lost with it.
+        let patience = SECOND_SEARCHES * (others.len() + 1);
         let thorough = panel(self.criteria.budget);
-        unsolved.into_iter().take(SECOND_SEARCHES).find_map(|(level, asks, place)| {
+        unsolved.into_iter().take(patience).find_map(|(level, asks, place)| {
             match self.in_company(&thorough, game, level, place, (number, others), tally) {
                 Judged::Passed(found) => Some(FoundLevel { asks, ..*found }),
-                Judged::Unsolved(_) | Judged::Failed => None,
+                Judged::Unsolved(_) | Judged::Misfit | Judged::Failed => None,
             }
         })
     }
@@ -416,11 +423,13 @@ impl Levels<'_> {
             let others = (number, others);
             let objection = self
                 .objection_to_place(game, found, others, spent)
-                .or_else(|| self.objection_to_skill(game, found, spent))
-                .or_else(|| self.objection_to_course(game, found, others, spent));
+                .or_else(|| self.objection_to_skill(game, found, spent));
             if let Some(objection) = objection {
                 spent.level_taken_back(objection);
                 judged = Judged::Failed;
+            } else if let Some(objection) = self.objection_to_course(game, found, others, spent) {
+                spent.level_taken_back(objection);
+                judged = Judged::Misfit;
             }
         }
         let spent = std::mem::take(spent);
@@ -588,6 +597,8 @@ enum Judged {
     Passed(Box<FoundLevel>),
     /// It misses one.
     Failed,
+    /// It meets all, and all levels together do not.
+    Misfit,
     /// No win was found within the budget: with a larger one it may pass.
     Unsolved(Level),
 }
@@ -595,8 +606,12 @@ enum Judged {
 /// The calls of the first search for a win of a candidate.
 pub const FIRST_SEARCH: u64 = 150_000;
 
-/// The number of candidates of a place whose win is searched for with the whole budget, if none is accepted before.
-const SECOND_SEARCHES: usize = 6;
+/// The number of candidates of the first place whose win is searched for with the whole budget, if none is accepted before; each
+/// later place has as many more.
+const SECOND_SEARCHES: usize = 2;
+
+/// Candidates of the last place beside which the others fail a gate, after which the game is given up.
+const MISFITS: usize = 3;
 
 /// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
 const LATER_SHARE: f64 = 0.6;
