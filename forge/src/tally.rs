@@ -203,3 +203,28 @@ pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
     let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{why} {count}")).collect();
     words.join(", ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn calls_are_told_by_the_fate_of_what_was_judged() {
+        let spent = |calls, is_met| {
+            let mut tally = Tally::default();
+            tally.judge("winnable", is_met, calls);
+            tally
+        };
+        let mut game = Tally::default();
+        game.add(&spent(30, true));
+        game.add(&spent(100, false).of_refused());
+        let mut all = game.clone().of_lost();
+        all.add(&game);
+        let cost = all.judges["winnable"];
+        let [accepted, refused, lost] = [cost.calls_accepted, cost.calls_refused, cost.calls_lost];
+        assert_eq!(([accepted, refused, lost], cost.asked, cost.refused), ([30, 200, 30], 4, 2));
+        assert_eq!((all.calls, cost.calls()), (260, 260));
+        let table = all.judges_table(2).to_csv();
+        assert!(table.contains("winnable,4,2,"), "{table}");
+    }
+}
