@@ -166,7 +166,7 @@ impl Panel {
     }
 
     /// Like [`Panel::new`], but players stop as soon as the answer is as good as sure: for minting, where candidates are many and
-    /// those let in are judged again. See [`SkillPays::sequential`] for the errors.
+    /// those let in are judged again. See [`SkillPays::sequential`].
     ///
     /// # Errors
     /// As [`Panel::new`].

@@ -23,9 +23,8 @@ pub struct SkillPays {
     pub scores: f64,
     /// Forward-model calls of one play, after which it is broken off; then a failure becomes unknown.
     pub play_calls: u64,
-    /// Stops after a round of plays, from the second on, if skill pays at the confidence of [`EARLY`], or, from the third on, if no
-    /// player is ahead of the baseline at all: then more plays would seldom change the answer. `cargo xtask judging` counts how
-    /// often.
+    /// Stops after a round of plays, from the second on, if skill pays by a stricter boundary, or, from the third on, if no player is
+    /// far ahead of the baseline: then more plays would seldom change the answer. `cargo xtask judging` counts how often.
     pub sequential: bool,
 }
 
@@ -58,7 +57,7 @@ struct Advantage {
     pays: bool,
     /// `true` if it is large enough, but not significant.
     unsure: bool,
-    /// `true` if the player is ahead at all.
+    /// `true` if it is large enough, or half as large in scores: more plays may show it.
     leads: bool,
 }
 
@@ -175,7 +174,7 @@ impl SkillPays {
             result.player, weaker.player,
         );
         let (mut pays, mut unsure) = (interval.low > 0.0 && more >= self.wins, more >= self.wins);
-        let mut leads = more > 0.0;
+        let mut leads = more >= self.wins;
         if range <= 0.0 {
             text.push_str(", and all score alike");
         } else {
@@ -192,7 +191,7 @@ impl SkillPays {
                 let is_large = gain >= self.scores * range;
                 pays |= low > 0.0 && is_large && gains.len() >= boundary.scored_plays;
                 unsure |= is_large;
-                leads |= gain > 0.0;
+                leads |= gain >= self.scores * range / 2.0;
             }
         }
         Advantage { text, pays, unsure: unsure && !pays, leads }
