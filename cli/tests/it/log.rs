@@ -16,11 +16,26 @@ fn says(folder: &Path, args: &[&str], status: i32, words: &str) {
 /// A recipe with one new game and one level.
 const RECIPE: &str = "name = '2027-01'\ndescription = 'x'\ncommitment = 'COMMITMENT'\n[generated]\ngames = 1\n\
     levels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\ndepths = [10, 25]\n\
-    random_plays = 20\n[beacon]\nsource = 'drand quicknet'\nround = 7\n";
+    random_plays = 20\n[beacon]\nsource = 'drand quicknet'\nround = 1000\n";
 
-fn beacon(folder: &Path, name: &str, round: u64, value: &str) {
-    let text =
-        format!("{{ \"source\": \"drand quicknet\", \"round\": {round}, \"randomness\": \"{value}\" }}");
+/// Two rounds of drand quicknet, as it serves them.
+const ROUND_123: [&str; 2] = [
+    "fb8f7bc29bf24db51871ec8c79f3a1e4bd0557bc0dfcee9ed1d924e69d1c60dc",
+    "b75c69d0b72a5d906e854e808ba7e2accb1542ac355ae486d591aa9d43765482e26cd02df835d3546d23c4b13e0dfc92",
+];
+const ROUND_1000: [&str; 2] = [
+    "fe290beca10872ef2fb164d2aa4442de4566183ec51c56ff3cd603d930e54fdd",
+    "b44679b9a59af2ec876b1a6b1ad52ea9b1615fc3982b19576350f93447cb1125e342b73a8dd2bacbe47e4b6b63ed5e39",
+];
+
+fn drand(folder: &Path, name: &str, round: u64, [value, signature]: [&str; 2]) {
+    let rest = format!("\"randomness\": \"{value}\", \"signature\": \"{signature}\"");
+    let text = format!("{{ \"source\": \"drand quicknet\", \"round\": {round}, {rest} }}");
+    fs::write(folder.join(name), text).unwrap();
+}
+
+fn beacon(folder: &Path, name: &str, source: &str, round: u64, value: &str) {
+    let text = format!("{{ \"source\": \"{source}\", \"round\": {round}, \"value\": \"{value}\" }}");
     fs::write(folder.join(name), text).unwrap();
 }
 
@@ -35,8 +50,13 @@ fn a_sealed_month_waits_for_its_beacon() {
         says(folder, &[&["log", "check", "log", "--key", "log.pub"], more].concat(), status, words);
     };
     run(folder, &["keygen", "log", "--no-password"], 0);
+    let unknown = RECIPE.replace("quicknet", "quiknet").replace("COMMITMENT", &"0".repeat(64));
+    fs::write(folder.join("month.toml"), unknown).unwrap();
+    let commit = ["--json", "release", "month.toml", "--commit", "--out", "secret.json"];
+    says(folder, &commit, 2, "names no network of drand: write `drand quicknet`");
+    append(&["--commitment", "month.toml"], 2, "names no network of drand: write `drand quicknet`");
     fs::write(folder.join("month.toml"), RECIPE.replace("COMMITMENT", &"0".repeat(64))).unwrap();
-    let output = run(folder, &["--json", "release", "month.toml", "--commit", "--out", "secret.json"], 0);
+    let output = run(folder, &commit, 0);
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
     fs::write(
         folder.join("month.toml"),
@@ -49,7 +69,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     append(
         &["--commitment", "month.toml", "--origin", "example.org/arcade"],
         0,
-        "2027-01, with round 7 of drand quicknet",
+        "2027-01, with round 1000 of drand quicknet",
     );
     append(&["--commitment", "month.toml"], 2, "a publisher commits once");
     run(folder, &["log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
@@ -57,27 +77,27 @@ fn a_sealed_month_waits_for_its_beacon() {
     // Nothing is minted before the value is known, and with no other value.
     let mint = ["release", "month.toml", "--secret", "secret.json", "--out", "out"];
     says(folder, &mint, 2, "give its value with --beacon FILE, once it is published");
-    beacon(folder, "other.json", 8, &"ab".repeat(32));
-    says(folder, &[&mint[..], &["--beacon", "other.json"]].concat(), 2, "names round 7 of drand quicknet");
-    beacon(folder, "round.json", 7, &"cd".repeat(32));
+    let minted = |file: &str, words: &str| {
+        says(folder, &[&mint[..], &["--beacon", file]].concat(), 2, words);
+    };
+    drand(folder, "other.json", 123, ROUND_123);
+    minted("other.json", "names round 1000 of drand quicknet");
+    // A value that the publisher likes better has no signature of the network.
+    beacon(folder, "chosen.json", "drand quicknet", 1000, &"ab".repeat(32));
+    minted("chosen.json", "has no `signature` of round 1000 of drand quicknet");
+    drand(folder, "chosen.json", 1000, ROUND_123);
+    minted("chosen.json", "its `signature` is not the one of round 1000 of drand quicknet");
+    append(&["--beacon", "chosen.json"], 2, "its `signature` is not the one of round 1000");
+    drand(folder, "round.json", 1000, ROUND_1000);
     run(folder, &[&mint[..], &["--beacon", "round.json"]].concat(), 0);
     run(folder, &["verify", "out/public"], 0);
-    append(&["--release", "out/public"], 2, "takes round 7 of drand quicknet, whose value is not in the log");
-    beacon(folder, "swapped.json", 7, &"ef".repeat(32));
+    append(
+        &["--release", "out/public"],
+        2,
+        "takes round 1000 of drand quicknet, whose value is not in the log",
+    );
     let copy = folder.join("copy");
     copy_tree(&folder.join("log"), &copy);
-    let swapped = [
-        "log",
-        "append",
-        "copy",
-        "--secret",
-        "log.key",
-        "--beacon",
-        "swapped.json",
-        "--release",
-        "out/public",
-    ];
-    says(folder, &swapped, 2, "was minted with another value than round 7");
     append(&["--beacon", "round.json", "--release", "out/public"], 0, "3 entries");
     let reveal = ["release", "out/public", "--reveal", "out/held", "--out", "revealed"];
     run(folder, &reveal, 0);
@@ -130,9 +150,10 @@ fn a_sealed_month_waits_for_its_beacon() {
     // The copy, taken back to its first entry, and continued in another way.
     let rolled = ["log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
     says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, and 4 were seen before");
-    let forks = ["log", "append", "copy", "--secret", "log.key", "--beacon", "swapped.json", "other.json"];
-    run(folder, &forks, 0);
-    beacon(folder, "third.json", 9, &"01".repeat(32));
+    let forks = ["log", "append", "copy", "--secret", "log.key", "--beacon", "dice.json", "other.json"];
+    beacon(folder, "dice.json", "dice", 1, &"ef".repeat(32));
+    says(folder, &forks, 0, "round 1 of dice, as the log states it");
+    beacon(folder, "third.json", "dice", 2, &"01".repeat(32));
     run(folder, &["log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
     says(folder, &rolled, 1, "the log has forked: its first 4 entries are not those that were seen before");
     says(

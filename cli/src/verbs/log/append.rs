@@ -4,7 +4,7 @@ use super::{counted, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::trusted::{open_secret, signatures_of};
-use crate::verbs::release::{find_recipe, read_secret_file};
+use crate::verbs::release::{check_beacon, find_recipe, read_secret_file};
 use engine::Digest;
 use serde_json::json;
 use snapshots::{Recipe, SECRET_FILE, follow, integrity_of};
@@ -73,7 +73,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     for file in &args.beacon {
         let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &file.display().to_string())?;
-        new.push(Entry::Beacon { round: drawn.of(), value: drawn.value });
+        new.push(drawn.entry());
     }
     for place in &args.release {
         new.push(release(place)?);
@@ -153,6 +153,7 @@ fn commitment(file: &Path, parent: Option<&Path>) -> Result<Entry, Failure> {
             file.display()
         );
     };
+    check_beacon(&recipe)?;
     let beacon = recipe.beacon.as_ref().map(|part| Round { source: part.source.clone(), round: part.round });
     Ok(Entry::Commitment {
         release: recipe.name.clone(),
