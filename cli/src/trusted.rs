@@ -159,8 +159,9 @@ pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<S
 /// Reads a password: the first line of a file, or what is typed on the terminal, unseen.
 pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
     if let Some(file) = file {
-        let text = read_bounded(file, MAX_KEY_FILE)?;
-        let text = String::from_utf8_lossy(&text);
+        let Ok(text) = String::from_utf8(read_bounded(file, MAX_KEY_FILE)?) else {
+            bail!("`{}` is not UTF-8: write the password into a text file", file.display());
+        };
         return Ok(text.lines().next().unwrap_or_default().to_owned());
     }
     rpassword::prompt_password(prompt).map_err(|_| {

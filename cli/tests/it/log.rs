@@ -1,7 +1,7 @@
 //! A public log of a sealed month: committed to, waiting for its beacon, minted, revealed, played.
 
 use crate::arcade::{TINY, copy_tree, files, run, text};
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -176,6 +176,96 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &copy, 1, "the log is cut");
 }
 
+/// A scale without examinees, of one release.
+fn scale_of(root: &Value) -> String {
+    let none = json!({ "value": 0.0, "error": 1.0 });
+    let names = ["game", "level", "family", "planner", "game_slope", "level_slope"];
+    let names = names.into_iter().chain(["game_rest", "level_rest", "reader"]);
+    let spreads: Value = names.map(|name| (name.to_owned(), json!(1.0))).collect::<Map<_, _>>().into();
+    let month = json!({
+        "name": "tiny", "snapshot": root, "seed": "x", "shifts": [none, none], "planners_shift": none,
+        "link": [0.0, 0.0], "anchors": 0, "drift": null, "games": [],
+    });
+    let scale = json!({
+        "format": 1, "suite": "0.13.0", "max_steps": 60, "examinees": [], "spreads": spreads,
+        "covariance": [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], "origins": [0.0, 0.0], "ease": 0.0,
+        "correlation": null, "replicates": 0, "months": [month],
+    });
+    scale.to_string()
+}
+
+/// Files of another kind, and none at all: each message names the file and the next move.
+#[test]
+fn wrong_files_are_named() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
+    run(folder, &["keygen", "log", "--no-password"], 0);
+    let log = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
+    run(folder, &[&log[..], &["--release", "tiny"]].concat(), 0);
+    fs::write(folder.join("empty"), "").unwrap();
+    fs::write(folder.join("binary"), [0xff, 0xfe, 0, 1]).unwrap();
+    fs::write(folder.join("long"), vec![b'a'; 1 << 17]).unwrap();
+    fs::create_dir(folder.join("folder")).unwrap();
+    for file in ["empty", "binary", "long", "folder", "missing"] {
+        let next = |of_content: &'static str| match file {
+            "long" => "which no such file has: check the path",
+            "folder" => "is a folder: name a file in it",
+            "missing" => "does not exist: check the path",
+            _ => of_content,
+        };
+        let shown = format!("`{file}`");
+        let cases: [(&[&str], &str); 8] = [
+            (&["log", "check", "log", "--key", file], next("is neither a public key of minisign")),
+            (
+                &["log", "check", "log", "--key", "log.pub", "--seen", file],
+                next("give a log's file `checkpoint`"),
+            ),
+            (
+                &["log", "check", "--key", "log.pub", "--proof", file, "--entry", "log.pub"],
+                next("give the file that `arcade log prove --out` wrote"),
+            ),
+            (
+                &["log", "append", "log", "--secret", "log.key", "--beacon", file],
+                next("write the answer of the source with its name"),
+            ),
+            (
+                &["log", "append", "log", "--secret", file, "--release", "tiny"],
+                next("give the file `NAME.key`"),
+            ),
+            (&["sign", "tiny", "--secret", file], next("give the file `NAME.key`")),
+            (&["verify", "tiny", "--key", file], next("is neither a public key of minisign")),
+            (
+                &[
+                    "log",
+                    "cosign",
+                    "log",
+                    "--key",
+                    "log.pub",
+                    "--witness",
+                    "w",
+                    "--time",
+                    "1",
+                    "--secret",
+                    file,
+                ],
+                next("give the file `NAME.key`"),
+            ),
+        ];
+        for (args, words) in cases {
+            says(folder, args, 2, words);
+            says(folder, args, 2, &shown);
+        }
+    }
+    says(folder, &["keygen", "k", "--password-file", "binary"], 2, "write the password into a text file");
+    says(folder, &["keygen", "k", "--password-file", "empty"], 2, "the password is empty");
+    let at_file =
+        ["log", "append", "empty", "--secret", "log.key", "--release", "tiny", "--origin", "x.org/y"];
+    says(folder, &at_file, 2, "`empty` is a file: name a folder for the log");
+    let replay = ["log", "check", "log", "--key", "log.pub", "--replay", "empty"];
+    says(folder, &replay, 2, "`empty` is a file: name the folder that `arcade evaluate --out` wrote");
+}
+
 #[test]
 fn rows_are_replayed() {
     let home = tempfile::tempdir().unwrap();
@@ -199,8 +289,19 @@ fn rows_are_replayed() {
     says(folder, &again, 2, "are in the log already");
     let check = ["log", "check", "log", "--key", "log.pub", "--replay", "results"];
     says(folder, &check, 0, "sound; 2 entries");
-    says(folder, &[&append[..], &["--calibration", "tiny=log.pub"]].concat(), 0, "calibration  tiny");
-    says(folder, &[&append[..], &["--calibration", "huge=log.pub"]].concat(), 2, "`huge` is not in the log");
+    let calibrated = |given: &str, status: i32, words: &str| {
+        says(folder, &[&append[..], &["--calibration", given]].concat(), status, words);
+    };
+    let manifest: Value =
+        serde_json::from_slice(&fs::read(folder.join("tiny/MANIFEST.json")).unwrap()).unwrap();
+    fs::write(folder.join("scale.json"), scale_of(&manifest["root"])).unwrap();
+    fs::write(folder.join("other.json"), scale_of(&"ab".repeat(32).into())).unwrap();
+    fs::write(folder.join("latin"), b"\xff").unwrap();
+    calibrated("tiny=scale.json", 0, "calibration  tiny");
+    calibrated("huge=scale.json", 2, "`huge` is not in the log");
+    calibrated("tiny=other.json", 2, "the scale has no release with the root of `tiny`");
+    calibrated("tiny=log.pub", 2, "give the scale.json that `arcade calibrate` wrote");
+    calibrated("tiny=latin", 2, "is not UTF-8); give the scale.json that `arcade calibrate` wrote");
 
     // A log of an episode whose result was altered: its folder is no longer the one of the row, and it does not replay.
     let episodes = folder.join("results/episodes");

@@ -117,7 +117,7 @@ pub struct ResultRow {
     pub horizon: String,
     /// The number of episodes that ended.
     pub episodes: u64,
-    /// The number of episodes that were aborted or are not finished.
+    /// The number of episodes that were aborted, or not finished, or not played.
     pub open: u64,
     /// The number of episodes that were won.
     pub wins: u64,
