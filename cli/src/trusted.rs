@@ -55,7 +55,7 @@ pub(crate) struct OriginArgs {
     trust: TrustArgs,
 }
 
-/// What was checked of a release's root, for the record.
+/// The checks of a release's root, for the record.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Origin {
     /// The root.
