@@ -87,6 +87,12 @@ impl Rows {
     }
 }
 
+/// Other ways in each sweep, whose seed is in the variable.
+fn chance(purpose: &str, number: u64) -> Sampler {
+    let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
+    Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("alteration", number).sampler()
+}
+
 fn episodes(files: &Files) -> Vec<String> {
     files.keys().filter(|name| name.ends_with(".jsonl")).cloned().collect()
 }
@@ -302,10 +308,8 @@ const NOT_REPLAYED_OR_ENDED: &[&str] = &["is recorded as", "the log records", "t
 fn altered_logs_are_refused() {
     let rows = Rows::new();
     let (mut refused, mut same) = (0, 0);
-    let sweep = std::env::var("ARCADE_SWEEP").unwrap_or_default();
     for number in 0..if sweeping() { 1000 } else { 48 } {
-        let mut chance =
-            Seed::from_text(&format!("altered rows {sweep}")).child("alteration", number).sampler();
+        let mut chance = chance("altered rows", number);
         let mut altered = rows.honest.clone();
         let expect = alter(&mut altered, number, &mut chance);
         assert_ne!(altered, rows.honest, "{number}");
@@ -335,10 +339,9 @@ fn altered_logs_are_refused() {
 #[test]
 fn altered_bytes_are_refused() {
     let rows = Rows::new();
-    let sweep = std::env::var("ARCADE_SWEEP").unwrap_or_default();
     let names: Vec<String> = rows.honest.keys().filter(|name| !name.starts_with('.')).cloned().collect();
     for number in 0..if sweeping() { 1000 } else { 24 } {
-        let mut chance = Seed::from_text(&format!("altered bytes {sweep}")).child("byte", number).sampler();
+        let mut chance = chance("altered bytes", number);
         let mut altered = rows.honest.clone();
         let content = altered.get_mut(one_of(&names, &mut chance)).unwrap();
         let at = chance.below(content.len());
