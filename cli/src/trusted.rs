@@ -8,6 +8,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use trust::{Anchor, MAX_KEY_FILE, SecretKey, Signatures, Signed, TrustError, is_encrypted, read_bounded};
 
 /// The folder of the signatures of a release, below it.
@@ -55,7 +56,7 @@ pub(crate) struct OriginArgs {
     trust: TrustArgs,
 }
 
-/// What was checked of a release's root, for the record.
+/// The checks of a release's root, for the record.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Origin {
     /// The root.
@@ -159,14 +160,41 @@ pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<S
 /// Reads a password: the first line of a file, or what is typed on the terminal, unseen.
 pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
     if let Some(file) = file {
-        let text = read_bounded(file, MAX_KEY_FILE)?;
-        let text = String::from_utf8_lossy(&text);
+        let Ok(text) = String::from_utf8(read_bounded(file, MAX_KEY_FILE)?) else {
+            bail!("`{}` is not UTF-8: write the password into a text file", file.display());
+        };
         return Ok(text.lines().next().unwrap_or_default().to_owned());
     }
-    rpassword::prompt_password(prompt).map_err(|_| {
+    keep_echo();
+    rpassword::prompt_password(prompt).map_err(|error| {
+        if error.kind() == ErrorKind::Interrupted {
+            // The signal is on its way, and ends the program unless it is ignored.
+            std::thread::sleep(Duration::from_secs(2));
+            return malformed!("no password was given: try again");
+        }
         malformed!("there is no terminal to ask for the password on: give it with --password-file FILE")
     })
 }
+
+/// Sees to it that Ctrl-C at the question for a password leaves a terminal that shows what is typed.
+#[cfg(unix)]
+fn keep_echo() {
+    use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+    use std::sync::Once;
+    static ONCE: Once = Once::new();
+    let Ok(terminal) = std::fs::File::open("/dev/tty") else { return };
+    let Ok(before) = tcgetattr(&terminal) else { return };
+    ONCE.call_once(|| {
+        let restore = move || {
+            // There is nobody left to tell.
+            let _ = tcsetattr(&terminal, OptionalActions::Now, &before);
+        };
+        crate::interrupt::watch(restore, "interrupted: the same command does the rest".to_owned());
+    });
+}
+
+#[cfg(not(unix))]
+fn keep_echo() {}
 
 /// A file that is not there, or not what it should be, is a malformed question; a disk failure is not.
 impl From<TrustError> for Failure {

@@ -198,7 +198,7 @@ mod tests {
         close(back.p, found.p);
     }
 
-    /// Whoever wins everything proves as much as the games allow, and nothing on five.
+    /// A player that wins everything proves as much as the games allow, and nothing on five.
     #[test]
     fn few_games_prove_little() {
         for (games, p) in [(2, 0.5), (5, 0.0625), (6, 0.03125), (12, 0.00048828125)] {

@@ -16,7 +16,7 @@ pub mod log;
 mod signatures;
 mod statement;
 
-pub use beacon::{Drawn, MAX_BEACON};
+pub use beacon::{Chain, Drawn, MAX_BEACON, Metadata, Proof, check_source};
 pub use disk::{Access, Disk};
 pub use error::TrustError;
 pub use key::{MAX_KEY_FILE, NewKey, PublicKey, SecretKey, generate, is_encrypted};

@@ -367,7 +367,10 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
     let read = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
     read.map_err(TrustError::io("read", path))?;
     match bytes.len() as u64 > limit {
-        true => Err(TrustError::document(path.display().to_string(), format!("has more than {limit} bytes"))),
+        true => Err(TrustError::document(
+            path.display().to_string(),
+            format!("has more than {limit} bytes, which no such file has: check the path"),
+        )),
         false => Ok(bytes),
     }
 }

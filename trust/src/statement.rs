@@ -1,4 +1,4 @@
-//! What a publisher signs about a release: its name and root, the keys in force, and what made it.
+//! The statement that a publisher signs about a release: its name and root, the keys in force, and what made it.
 
 use crate::error::TrustError;
 use crate::key_set::canonical;

@@ -11,8 +11,8 @@ use trust::{Anchor, Disk, KeySet, KeysInForce, Provenance, Signatures, Statement
 
 /// Signs the root of a release, for `arcade verify --key`.
 ///
-/// What is signed is a statement: name and root of the release, the set of keys in force, version, lock file and
-/// commit of the software. It lies in papers/signatures, beside a file of minisign for each key, and the root does not
+/// It signs a statement: name and root of the release, the set of keys in force, version, lock file and commit of the
+/// software. The statement lies in papers/signatures, beside a file of minisign for each key, and the root does not
 /// cover it. Other holders sign the same statement on their machines. The release is not played: verify it first.
 ///
 /// Exit status 0: signed by enough keys. 1: more keys have to sign. 2: not a snapshot, or not a sound one.

@@ -1,7 +1,7 @@
 //! A public log of a sealed month: committed to, waiting for its beacon, minted, revealed, played.
 
 use crate::arcade::{TINY, copy_tree, files, run, text};
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -16,11 +16,26 @@ fn says(folder: &Path, args: &[&str], status: i32, words: &str) {
 /// A recipe with one new game and one level.
 const RECIPE: &str = "name = '2027-01'\ndescription = 'x'\ncommitment = 'COMMITMENT'\n[generated]\ngames = 1\n\
     levels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\ndepths = [10, 25]\n\
-    random_plays = 20\n[beacon]\nsource = 'drand quicknet'\nround = 7\n";
+    random_plays = 20\n[beacon]\nsource = 'drand quicknet'\nround = 1000\n";
 
-fn beacon(folder: &Path, name: &str, round: u64, value: &str) {
-    let text =
-        format!("{{ \"source\": \"drand quicknet\", \"round\": {round}, \"randomness\": \"{value}\" }}");
+/// Two rounds of drand quicknet, as it serves them.
+const ROUND_123: [&str; 2] = [
+    "fb8f7bc29bf24db51871ec8c79f3a1e4bd0557bc0dfcee9ed1d924e69d1c60dc",
+    "b75c69d0b72a5d906e854e808ba7e2accb1542ac355ae486d591aa9d43765482e26cd02df835d3546d23c4b13e0dfc92",
+];
+const ROUND_1000: [&str; 2] = [
+    "fe290beca10872ef2fb164d2aa4442de4566183ec51c56ff3cd603d930e54fdd",
+    "b44679b9a59af2ec876b1a6b1ad52ea9b1615fc3982b19576350f93447cb1125e342b73a8dd2bacbe47e4b6b63ed5e39",
+];
+
+fn drand(folder: &Path, name: &str, round: u64, [value, signature]: [&str; 2]) {
+    let rest = format!("\"randomness\": \"{value}\", \"signature\": \"{signature}\"");
+    let text = format!("{{ \"source\": \"drand quicknet\", \"round\": {round}, {rest} }}");
+    fs::write(folder.join(name), text).unwrap();
+}
+
+fn beacon(folder: &Path, name: &str, source: &str, round: u64, value: &str) {
+    let text = format!("{{ \"source\": \"{source}\", \"round\": {round}, \"value\": \"{value}\" }}");
     fs::write(folder.join(name), text).unwrap();
 }
 
@@ -35,8 +50,13 @@ fn a_sealed_month_waits_for_its_beacon() {
         says(folder, &[&["log", "check", "log", "--key", "log.pub"], more].concat(), status, words);
     };
     run(folder, &["keygen", "log", "--no-password"], 0);
+    let unknown = RECIPE.replace("quicknet", "quiknet").replace("COMMITMENT", &"0".repeat(64));
+    fs::write(folder.join("month.toml"), unknown).unwrap();
+    let commit = ["--json", "release", "month.toml", "--commit", "--out", "secret.json"];
+    says(folder, &commit, 2, "names no network of drand: write `drand quicknet`");
+    append(&["--commitment", "month.toml"], 2, "names no network of drand: write `drand quicknet`");
     fs::write(folder.join("month.toml"), RECIPE.replace("COMMITMENT", &"0".repeat(64))).unwrap();
-    let output = run(folder, &["--json", "release", "month.toml", "--commit", "--out", "secret.json"], 0);
+    let output = run(folder, &commit, 0);
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
     fs::write(
         folder.join("month.toml"),
@@ -49,7 +69,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     append(
         &["--commitment", "month.toml", "--origin", "example.org/arcade"],
         0,
-        "2027-01, with round 7 of drand quicknet",
+        "2027-01, with round 1000 of drand quicknet",
     );
     append(&["--commitment", "month.toml"], 2, "a publisher commits once");
     run(folder, &["log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
@@ -57,27 +77,27 @@ fn a_sealed_month_waits_for_its_beacon() {
     // Nothing is minted before the value is known, and with no other value.
     let mint = ["release", "month.toml", "--secret", "secret.json", "--out", "out"];
     says(folder, &mint, 2, "give its value with --beacon FILE, once it is published");
-    beacon(folder, "other.json", 8, &"ab".repeat(32));
-    says(folder, &[&mint[..], &["--beacon", "other.json"]].concat(), 2, "names round 7 of drand quicknet");
-    beacon(folder, "round.json", 7, &"cd".repeat(32));
+    let minted = |file: &str, words: &str| {
+        says(folder, &[&mint[..], &["--beacon", file]].concat(), 2, words);
+    };
+    drand(folder, "other.json", 123, ROUND_123);
+    minted("other.json", "names round 1000 of drand quicknet");
+    // A value that the publisher likes better has no signature of the network.
+    beacon(folder, "chosen.json", "drand quicknet", 1000, &"ab".repeat(32));
+    minted("chosen.json", "has no `signature` of round 1000 of drand quicknet");
+    drand(folder, "chosen.json", 1000, ROUND_123);
+    minted("chosen.json", "its `signature` is not the one of round 1000 of drand quicknet");
+    append(&["--beacon", "chosen.json"], 2, "its `signature` is not the one of round 1000");
+    drand(folder, "round.json", 1000, ROUND_1000);
     run(folder, &[&mint[..], &["--beacon", "round.json"]].concat(), 0);
     run(folder, &["verify", "out/public"], 0);
-    append(&["--release", "out/public"], 2, "takes round 7 of drand quicknet, whose value is not in the log");
-    beacon(folder, "swapped.json", 7, &"ef".repeat(32));
+    append(
+        &["--release", "out/public"],
+        2,
+        "takes round 1000 of drand quicknet, whose value is not in the log",
+    );
     let copy = folder.join("copy");
     copy_tree(&folder.join("log"), &copy);
-    let swapped = [
-        "log",
-        "append",
-        "copy",
-        "--secret",
-        "log.key",
-        "--beacon",
-        "swapped.json",
-        "--release",
-        "out/public",
-    ];
-    says(folder, &swapped, 2, "was minted with another value than round 7");
     append(&["--beacon", "round.json", "--release", "out/public"], 0, "3 entries");
     let reveal = ["release", "out/public", "--reveal", "out/held", "--out", "revealed"];
     run(folder, &reveal, 0);
@@ -130,9 +150,10 @@ fn a_sealed_month_waits_for_its_beacon() {
     // The copy, taken back to its first entry, and continued in another way.
     let rolled = ["log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
     says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, and 4 were seen before");
-    let forks = ["log", "append", "copy", "--secret", "log.key", "--beacon", "swapped.json", "other.json"];
-    run(folder, &forks, 0);
-    beacon(folder, "third.json", 9, &"01".repeat(32));
+    let forks = ["log", "append", "copy", "--secret", "log.key", "--beacon", "dice.json", "other.json"];
+    beacon(folder, "dice.json", "dice", 1, &"ef".repeat(32));
+    says(folder, &forks, 0, "round 1 of dice, as the log states it");
+    beacon(folder, "third.json", "dice", 2, &"01".repeat(32));
     run(folder, &["log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
     says(folder, &rolled, 1, "the log has forked: its first 4 entries are not those that were seen before");
     says(
@@ -153,6 +174,96 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &copy, 1, "the log is NOT sound");
     fs::remove_file(&entries).unwrap();
     says(folder, &copy, 1, "the log is cut");
+}
+
+/// A scale without examinees, of one release.
+fn scale_of(root: &Value) -> String {
+    let none = json!({ "value": 0.0, "error": 1.0 });
+    let names = ["game", "level", "family", "planner", "game_slope", "level_slope"];
+    let names = names.into_iter().chain(["game_rest", "level_rest", "reader"]);
+    let spreads: Value = names.map(|name| (name.to_owned(), json!(1.0))).collect::<Map<_, _>>().into();
+    let month = json!({
+        "name": "tiny", "snapshot": root, "seed": "x", "shifts": [none, none], "planners_shift": none,
+        "link": [0.0, 0.0], "anchors": 0, "drift": null, "games": [],
+    });
+    let scale = json!({
+        "format": 1, "suite": "0.13.0", "max_steps": 60, "examinees": [], "spreads": spreads,
+        "covariance": [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], "origins": [0.0, 0.0], "ease": 0.0,
+        "correlation": null, "replicates": 0, "months": [month],
+    });
+    scale.to_string()
+}
+
+/// Files of another kind, and none at all: each message names the file and the next move.
+#[test]
+fn wrong_files_are_named() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
+    run(folder, &["keygen", "log", "--no-password"], 0);
+    let log = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
+    run(folder, &[&log[..], &["--release", "tiny"]].concat(), 0);
+    fs::write(folder.join("empty"), "").unwrap();
+    fs::write(folder.join("binary"), [0xff, 0xfe, 0, 1]).unwrap();
+    fs::write(folder.join("long"), vec![b'a'; 1 << 17]).unwrap();
+    fs::create_dir(folder.join("folder")).unwrap();
+    for file in ["empty", "binary", "long", "folder", "missing"] {
+        let next = |of_content: &'static str| match file {
+            "long" => "which no such file has: check the path",
+            "folder" => "is a folder: name a file in it",
+            "missing" => "does not exist: check the path",
+            _ => of_content,
+        };
+        let shown = format!("`{file}`");
+        let cases: [(&[&str], &str); 8] = [
+            (&["log", "check", "log", "--key", file], next("is neither a public key of minisign")),
+            (
+                &["log", "check", "log", "--key", "log.pub", "--seen", file],
+                next("give a log's file `checkpoint`"),
+            ),
+            (
+                &["log", "check", "--key", "log.pub", "--proof", file, "--entry", "log.pub"],
+                next("give the file that `arcade log prove --out` wrote"),
+            ),
+            (
+                &["log", "append", "log", "--secret", "log.key", "--beacon", file],
+                next("write the answer of the source with its name"),
+            ),
+            (
+                &["log", "append", "log", "--secret", file, "--release", "tiny"],
+                next("give the file `NAME.key`"),
+            ),
+            (&["sign", "tiny", "--secret", file], next("give the file `NAME.key`")),
+            (&["verify", "tiny", "--key", file], next("is neither a public key of minisign")),
+            (
+                &[
+                    "log",
+                    "cosign",
+                    "log",
+                    "--key",
+                    "log.pub",
+                    "--witness",
+                    "w",
+                    "--time",
+                    "1",
+                    "--secret",
+                    file,
+                ],
+                next("give the file `NAME.key`"),
+            ),
+        ];
+        for (args, words) in cases {
+            says(folder, args, 2, words);
+            says(folder, args, 2, &shown);
+        }
+    }
+    says(folder, &["keygen", "k", "--password-file", "binary"], 2, "write the password into a text file");
+    says(folder, &["keygen", "k", "--password-file", "empty"], 2, "the password is empty");
+    let at_file =
+        ["log", "append", "empty", "--secret", "log.key", "--release", "tiny", "--origin", "x.org/y"];
+    says(folder, &at_file, 2, "`empty` is a file: name a folder for the log");
+    let replay = ["log", "check", "log", "--key", "log.pub", "--replay", "empty"];
+    says(folder, &replay, 2, "`empty` is a file: name the folder that `arcade evaluate --out` wrote");
 }
 
 #[test]
@@ -178,8 +289,19 @@ fn rows_are_replayed() {
     says(folder, &again, 2, "are in the log already");
     let check = ["log", "check", "log", "--key", "log.pub", "--replay", "results"];
     says(folder, &check, 0, "sound; 2 entries");
-    says(folder, &[&append[..], &["--calibration", "tiny=log.pub"]].concat(), 0, "calibration  tiny");
-    says(folder, &[&append[..], &["--calibration", "huge=log.pub"]].concat(), 2, "`huge` is not in the log");
+    let calibrated = |given: &str, status: i32, words: &str| {
+        says(folder, &[&append[..], &["--calibration", given]].concat(), status, words);
+    };
+    let manifest: Value =
+        serde_json::from_slice(&fs::read(folder.join("tiny/MANIFEST.json")).unwrap()).unwrap();
+    fs::write(folder.join("scale.json"), scale_of(&manifest["root"])).unwrap();
+    fs::write(folder.join("other.json"), scale_of(&"ab".repeat(32).into())).unwrap();
+    fs::write(folder.join("latin"), b"\xff").unwrap();
+    calibrated("tiny=scale.json", 0, "calibration  tiny");
+    calibrated("huge=scale.json", 2, "`huge` is not in the log");
+    calibrated("tiny=other.json", 2, "the scale has no release with the root of `tiny`");
+    calibrated("tiny=log.pub", 2, "give the scale.json that `arcade calibrate` wrote");
+    calibrated("tiny=latin", 2, "is not UTF-8); give the scale.json that `arcade calibrate` wrote");
 
     // A log of an episode whose result was altered: its folder is no longer the one of the row, and it does not replay.
     let episodes = folder.join("results/episodes");
@@ -216,15 +338,22 @@ fn an_independent_program_agrees() {
     run(folder, &["keys", "keys", "--add", "ada=ada.pub"], 0);
     run(folder, &["sign", "releases/tiny", "--secret", "ada.key", "--keys", "keys/keys-1.json"], 0);
     let append = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
-    run(folder, &[&append[..], &["--keys", "keys/keys-1.json", "--release", "releases/tiny"]].concat(), 0);
+    fs::create_dir(folder.join("beacons")).unwrap();
+    drand(folder, "beacons/round.json", 1000, ROUND_1000);
+    let appended =
+        ["--keys", "keys/keys-1.json", "--beacon", "beacons/round.json", "--release", "releases/tiny"];
+    run(folder, &[&append[..], &appended].concat(), 0);
     let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scripts/trust/check.py");
     let check = || {
-        let flags =
-            ["--log", "log", "--log-key", "log.pub", "--keys", "keys/keys-1.json", "--releases", "releases"];
+        let flags = ["--log", "log", "--log-key", "log.pub", "--keys", "keys/keys-1.json"];
+        let flags = [&flags[..], &["--releases", "releases", "--beacons", "beacons"]].concat();
         let output = Command::new("python3").arg(&program).args(flags).current_dir(folder).output().unwrap();
         (output.status.code(), text(&output.stdout) + &text(&output.stderr))
     };
-    assert_eq!(check(), (Some(0), "2 entries, 1 releases, 1 sets of keys, 0 beacons: sound\n".to_owned()));
+    let (status, said) = check();
+    let held = said.starts_with("3 entries, 1 releases, 1 sets of keys, 1 beacons");
+    // Without py_ecc it says that the signature of the round was not checked.
+    assert!(status == Some(0) && held && said.ends_with(": sound\n"), "{said}");
     let level =
         files(&folder.join("releases/tiny")).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();
     fs::write(folder.join("releases/tiny").join(&level), "w").unwrap();

@@ -1,5 +1,6 @@
 //! The `arcade` binary as its users run it.
 
+mod altered_rows;
 mod arcade;
 mod conformance;
 mod contamination;

@@ -300,3 +300,44 @@ fn another_secret_is_refused() {
         text(&output.stderr)
     );
 }
+
+/// Memory and a beacon together: the coins, the siblings and the second wins follow from the seed with the value mixed in.
+#[test]
+fn coins_follow_from_the_beacon_too() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let text = |commitment: &str| {
+        recipe(commitment) + "[memory]\nwitnesses = true\n[beacon]\nsource = 'dice'\nround = 7\n"
+    };
+    fs::write(folder.join("sealed.toml"), text(&"0".repeat(64))).unwrap();
+    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    fs::write(folder.join("sealed.toml"), text(answer["commitment"].as_str().unwrap())).unwrap();
+    let mut roots = Vec::new();
+    for (name, value) in [("one", "ab"), ("two", "cd")] {
+        let value = value.repeat(32);
+        let drawn = format!("{{ \"source\": \"dice\", \"round\": 7, \"value\": \"{value}\" }}");
+        fs::write(folder.join("round.json"), drawn).unwrap();
+        let secret = ["--secret", "sealed.secret.json", "--beacon", "round.json", "--out", name];
+        run(folder, &[&["release", "sealed.toml"][..], &secret].concat(), 0);
+        let [public, held, revealed] = ["public", "held", "revealed"].map(|part| format!("{name}/{part}"));
+        run(folder, &["verify", &public], 0);
+        run(folder, &["release", &public, "--reveal", &held, "--out", &revealed], 0);
+        let held = files(&folder.join(&held)).into_keys().filter(|name| name != "secret.json").count();
+        assert!(held > 0, "something is withheld");
+        run(folder, &["verify", &revealed], 0);
+        run(folder, &["regenerate", &revealed], 0);
+        let manifest = fs::read(folder.join(revealed).join("MANIFEST.json")).unwrap();
+        let manifest: serde_json::Value = serde_json::from_slice(&manifest).unwrap();
+        assert_eq!(manifest["recipe"]["beacon"]["value"], value);
+        roots.push(manifest["root"].clone());
+    }
+    assert_ne!(roots[0], roots[1]);
+    // The value is under the root.
+    let moved = folder.join("one/revealed/MANIFEST.json");
+    let swapped = fs::read_to_string(&moved).unwrap().replace(&"ab".repeat(32), &"cd".repeat(32));
+    fs::write(&moved, swapped).unwrap();
+    let output = run(folder, &["verify", "one/revealed"], 1);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("wrong root"), "{said}");
+}

@@ -2,7 +2,7 @@
 
 use crate::error::EvaluationError;
 use crate::log::event::Event;
-use crate::run::text::open_file;
+use crate::run::text::{RESTORE, open_file};
 use itertools::Itertools;
 use serde_json::Value;
 use std::fs::{File, OpenOptions};
@@ -100,7 +100,7 @@ pub fn read(path: &Path) -> Result<Vec<Event>, EvaluationError> {
 
 /// Returns the events and the number of bytes they take.
 fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
-    let mut file = BufReader::new(open_file(path, MAX_LOG)?.take(MAX_LOG));
+    let mut file = BufReader::new(open_file(path, MAX_LOG, RESTORE)?.take(MAX_LOG));
     let (mut events, mut sound, mut line) = (Vec::new(), 0, Vec::new());
     loop {
         line.clear();

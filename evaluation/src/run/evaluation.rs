@@ -7,7 +7,7 @@ use crate::player::{Contestant, Halt};
 use crate::run::episode::{PlayResult, Task};
 use crate::run::series::{Series, play_series, series_of};
 use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
-use crate::run::text::read_text;
+use crate::run::text::{RESTORE, read_text};
 use crate::run::unusable::{Answers, Watch};
 use crate::subject::Subject;
 use crate::track::SeriesPlace;
@@ -160,7 +160,7 @@ impl Evaluation {
     /// There is none, it has a newer format, or it is damaged.
     pub fn open(folder: &Path) -> Result<Evaluation, EvaluationError> {
         let path = folder.join(SETTINGS_FILE);
-        let text = read_text(&path, MAX_SETTINGS).map_err(|error| match error {
+        let text = read_text(&path, MAX_SETTINGS, RESTORE).map_err(|error| match error {
             EvaluationError::Io { source, .. } if is_absent(&source) => {
                 let what = format!(
                     "no results of an evaluation here (no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes such a folder"
@@ -170,8 +170,9 @@ impl Evaluation {
             other => other,
         })?;
         let wrong = |what: String| EvaluationError::malformed(&path, what);
-        let unreadable =
-            |error: serde_json::Error| wrong(format!("not the settings of an evaluation: {error}"));
+        let unreadable = |error: serde_json::Error| {
+            wrong(format!("not the settings of an evaluation: {error}; {RESTORE}"))
+        };
         let value: serde_json::Value = serde_json::from_str(&text).map_err(unreadable)?;
         let format = value.get("format").and_then(serde_json::Value::as_u64);
         if let Some(format) = format.filter(|&format| format > u64::from(FORMAT)) {
@@ -181,7 +182,7 @@ impl Evaluation {
         }
         let settings: Settings = serde_json::from_value(value).map_err(unreadable)?;
         if let Some(entry) = settings.games.iter().find(|entry| !is_file_name(&entry.id)) {
-            return Err(wrong(format!("{:?} is not the name of a game", entry.id)));
+            return Err(wrong(format!("{:?} is not the name of a game; {RESTORE}", entry.id)));
         }
         settings.check().map_err(|problem| {
             wrong(format!("{problem}; the file is damaged: restore the results folder"))

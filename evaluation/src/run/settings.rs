@@ -2,7 +2,7 @@
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
-use crate::run::text::read_text;
+use crate::run::text::{RESTORE, read_text};
 use crate::subject::{Subject, SubjectFacts, Unreadable};
 use crate::track::Track;
 use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
@@ -194,9 +194,9 @@ impl SubjectEntry {
     /// They are missing, do not compile, or differ from the ones that were played.
     pub(crate) fn read(&self, results: &Path) -> Result<Subject, EvaluationError> {
         let folder = results.join("games").join(&self.id);
-        let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE)?;
+        let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE, RESTORE)?;
         let level = |level: &LevelEntry| {
-            let text = read_text(&folder.join(format!("lvl{}.txt", level.number)), MAX_LEVEL_TEXT)?;
+            let text = read_text(&folder.join(format!("lvl{}.txt", level.number)), MAX_LEVEL_TEXT, RESTORE)?;
             Ok((level.number, text, level.optimal_ticks))
         };
         let levels = self.levels.iter().map(level).collect::<Result<Vec<_>, EvaluationError>>()?;

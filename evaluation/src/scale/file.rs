@@ -17,6 +17,9 @@ pub const SCALE_FORMAT: u32 = 1;
 /// The largest file that is read, bytes.
 const MAX_SCALE: usize = 1 << 28;
 
+/// The next step for a file that is no scale.
+const NEXT_STEP: &str = "give the scale.json that `arcade calibrate` wrote";
+
 /// A scale with its releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -209,18 +212,18 @@ impl ScaleFile {
     /// # Errors
     /// It cannot be read, is of a newer format, or is no scale.
     pub fn read(path: &Path) -> Result<ScaleFile, EvaluationError> {
-        let text = read_text(path, MAX_SCALE)?;
+        let text = read_text(path, MAX_SCALE, NEXT_STEP)?;
         let wrong = |what: String| EvaluationError::malformed(path, what);
-        let value: serde_json::Value =
-            serde_json::from_str(&text).map_err(|error| wrong(format!("not a scale: {error}")))?;
+        let value: serde_json::Value = serde_json::from_str(&text)
+            .map_err(|error| wrong(format!("not a scale: {error}; {NEXT_STEP}")))?;
         let format = value.get("format").and_then(serde_json::Value::as_u64);
         if let Some(format) = format.filter(|&format| format > u64::from(SCALE_FORMAT)) {
             return Err(wrong(format!(
                 "a scale of format {format}; this version of arcade reads up to {SCALE_FORMAT}: update it"
             )));
         }
-        let scale: ScaleFile =
-            serde_json::from_value(value).map_err(|error| wrong(format!("not a scale: {error}")))?;
+        let scale: ScaleFile = serde_json::from_value(value)
+            .map_err(|error| wrong(format!("not a scale: {error}; {NEXT_STEP}")))?;
         let size = scale.examinees.len() + 3;
         if scale.covariance.len() != size * size || scale.months.is_empty() {
             return Err(wrong("the scale is damaged: calibrate again".to_owned()));

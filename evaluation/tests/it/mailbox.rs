@@ -164,8 +164,8 @@ fn files_that_are_no_answers_are_set_aside() {
     assert_eq!(steps.collect::<Vec<_>>(), [Validity::Valid, Validity::Invalid, Validity::Valid]);
 }
 
-/// Whatever part of the log was written, and whatever files were left, when the program was killed: the log in the end is
-/// the same, and no answered turn is asked again.
+/// A program that is killed leaves any part of the log, and any files: the log in the end is the same, and no answered turn
+/// is asked again.
 #[test]
 fn interrupted_episodes_are_resumed() {
     let whole = tempfile::tempdir().unwrap();

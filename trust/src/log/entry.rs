@@ -1,5 +1,6 @@
 //! The entries of a log: what a publisher states, in the order in which it was stated.
 
+use crate::beacon::{Proof, check_source};
 use crate::error::TrustError;
 use crate::key_set::canonical;
 use engine::Digest;
@@ -38,6 +39,9 @@ pub enum Entry {
         round: Round,
         /// The 32 bytes.
         value: Digest,
+        /// The signature of the round, which a value of drand needs.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        proof: Option<Proof>,
     },
     /// A release.
     Root {
@@ -113,7 +117,7 @@ pub struct ResultRow {
     pub horizon: String,
     /// The number of episodes that ended.
     pub episodes: u64,
-    /// The number of episodes that were aborted or are not finished.
+    /// The number of episodes that were aborted, or not finished, or not played.
     pub open: u64,
     /// The number of episodes that were won.
     pub wins: u64,
@@ -202,7 +206,11 @@ impl Entry {
                 format!("commitment   {release}, with round {} of {}", round.round, round.source)
             }
             Entry::Commitment { release, .. } => format!("commitment   {release}"),
-            Entry::Beacon { round, .. } => format!("beacon       round {} of {}", round.round, round.source),
+            Entry::Beacon { round, proof, .. } => {
+                let is_signed = proof.is_some() && check_source(&round.source) == Ok(true);
+                let known = if is_signed { "signed by the network" } else { "as the log states it" };
+                format!("beacon       round {} of {}, {known}", round.round, round.source)
+            }
             Entry::Root { release, root, .. } => format!("root         {release}  {root}"),
             Entry::Reveal(revealed) => format!("reveal       {}", revealed.release),
             Entry::Calibration { release, .. } => format!("calibration  {release}"),

@@ -1,13 +1,14 @@
 //! The rules that the entries of a log obey together: who commits first, and what may follow.
 
 use super::entry::{Entry, Revealed, Round};
+use crate::beacon::{Drawn, check_source};
 use engine::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Computes the commitment to a secret that was revealed.
 pub type CommitmentOf<'a> = &'a dyn Fn(&Revealed) -> Digest;
 
-/// What the entries so far have fixed.
+/// The facts that the entries so far have fixed.
 #[derive(Default)]
 struct History {
     keys: Option<(u32, Digest)>,
@@ -55,13 +56,10 @@ impl History {
                 };
                 self.commitment(release, new)
             }
-            Entry::Beacon { round, value } => match self.beacons.insert(round.clone(), *value) {
-                Some(before) if before != *value => vec![format!(
-                    "round {} of {} has two values: {before} before, and now {value}",
-                    round.round, round.source
-                )],
-                _ => Vec::new(),
-            },
+            Entry::Beacon { round, value, proof } => {
+                let drawn = Drawn { round: round.clone(), value: *value, proof: proof.clone() };
+                self.beacon(&drawn)
+            }
             Entry::Root { release, root, parent, commitment, beacon, .. } => {
                 self.root(release, *root, *parent, *commitment, *beacon)
             }
@@ -73,6 +71,21 @@ impl History {
                 self.known(&row.release, &row.root).into_iter().chain(twice).collect()
             }
         }
+    }
+
+    fn beacon(&mut self, drawn: &Drawn) -> Vec<String> {
+        let (round, value) = (&drawn.round, drawn.value);
+        let mut problems = Vec::new();
+        if let Err(fault) = drawn.check() {
+            problems.push(format!("the value of round {} of {}: {fault}", round.round, round.source));
+        }
+        if let Some(before) = self.beacons.insert(round.clone(), value).filter(|before| *before != value) {
+            problems.push(format!(
+                "round {} of {} has two values: {before} before, and now {value}",
+                round.round, round.source
+            ));
+        }
+        problems
     }
 
     fn keys(&mut self, version: u32, digest: Digest, previous: Option<Digest>) -> Vec<String> {
@@ -96,6 +109,9 @@ impl History {
         }
         if self.roots.contains_key(release) {
             problems.push(format!("a commitment for `{release}`, whose root is in the log already"));
+        }
+        if let Some(Err(fault)) = new.beacon.as_ref().map(|round| check_source(&round.source)) {
+            problems.push(format!("the commitment for `{release}`: {fault}"));
         }
         if let Some(round) = new.beacon.as_ref().filter(|round| self.beacons.contains_key(*round)) {
             problems.push(format!(

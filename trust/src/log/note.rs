@@ -104,9 +104,12 @@ impl Checkpoint {
     /// # Errors
     /// It is no checkpoint.
     pub fn parse(text: &str, place: &str) -> Result<Checkpoint, TrustError> {
-        Checkpoint::read(text)
-            .filter(|found| found.to_text() == text)
-            .ok_or_else(|| TrustError::document(place, "is not the checkpoint of a log"))
+        Checkpoint::read(text).filter(|found| found.to_text() == text).ok_or_else(|| {
+            TrustError::document(
+                place,
+                "is not the checkpoint of a log: give a log's file `checkpoint`, or a copy",
+            )
+        })
     }
 
     fn read(text: &str) -> Option<Checkpoint> {

@@ -1,4 +1,7 @@
 //! The Merkle tree of a log: RFC 6962, with SHA-256.
+//!
+//! The tree of a release has the same shape, with BLAKE3 and with paths in its leaves. It is in the crate that makes
+//! releases, which this one does not stand on, nor that one on this: the two share no code.
 
 use sha2::{Digest as _, Sha256};
 

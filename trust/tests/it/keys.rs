@@ -146,7 +146,7 @@ fn a_lost_key_is_revoked_and_replaced() {
     refused(home.path(), &set_anchor(&first), "the revoked key of `bo` is not revoked any more");
 }
 
-/// Whoever has one key cannot go back to a set in which one sufficed.
+/// The holder of one key cannot go back to a set in which one sufficed.
 #[test]
 fn earlier_thresholds_count_no_longer() {
     let home = tempfile::tempdir().unwrap();

@@ -1,11 +1,13 @@
 //! The log of a year, and attacks on it. Each attack is tried in many ways: 1,000 in a sweep (`cargo xtask sweep`).
 
+use blst::min_sig;
 use engine::{Digest, Sampler, Seed};
 use infinite_arcade_trust::log::{
     CHECKPOINT_FILE, Checkpoint, Consistency, Entry, Inclusion, Log, ResultRow, Revealed, Round, append,
     frozen, problems, unkept,
 };
-use infinite_arcade_trust::{Disk, SecretKey, generate};
+use infinite_arcade_trust::{Chain, Disk, Drawn, Metadata, Proof, SecretKey, generate};
+use sha2::{Digest as _, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -48,26 +50,69 @@ fn months() -> Vec<String> {
     (1..=12).map(|month| format!("2027-{month:02}")).collect()
 }
 
+/// A network of drand's kind, whose key the tests have.
+struct Network {
+    key: min_sig::SecretKey,
+    chain: Chain,
+}
+
+impl Network {
+    fn new() -> Network {
+        let key = min_sig::SecretKey::key_gen(&[7; 32], &[]).unwrap();
+        let mut chain = Chain {
+            public_key: hex(&key.sk_to_pk().to_bytes()),
+            period: 3,
+            genesis_time: 1_800_000_000,
+            hash: digest("filled in"),
+            group_hash: digest("group"),
+            scheme: "bls-unchained-g1-rfc9380".to_owned(),
+            metadata: Metadata { beacon_id: "tests".to_owned() },
+        };
+        chain.hash = chain.computed_hash().unwrap();
+        Network { key, chain }
+    }
+
+    fn round(&self, round: u64) -> Drawn {
+        let message = Sha256::digest(round.to_be_bytes());
+        let signature =
+            self.key.sign(&message, b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_", &[]).to_bytes();
+        let value: [u8; 32] = Sha256::digest(signature).into();
+        let chain = Some(self.chain.clone());
+        let proof = Proof { signature: hex(&signature), previous_signature: None, chain };
+        let round = Round { source: format!("drand {}", self.chain.hash), round };
+        Drawn { round, value: Digest::from_bytes(value), proof: Some(proof) }
+    }
+}
+
+fn bytes_of(hex: &str) -> Vec<u8> {
+    (0..hex.len()).step_by(2).map(|at| u8::from_str_radix(&hex[at..at + 2], 16).unwrap()).collect()
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// A year as its publisher states it: each month is committed to, waits for its beacon, is minted, revealed, calibrated,
 /// and played by somebody.
 fn year() -> Vec<Entry> {
     let first_keys = Entry::Keys { version: 1, digest: digest("keys 1"), previous: None };
     let mut entries = vec![first_keys];
+    let network = Network::new();
     let mut parent = None;
     for (number, month) in (1..).zip(months()) {
         let secret = secret_of(&month);
-        let round = Round { source: "drand quicknet".to_owned(), round: 1000 * number };
+        let drawn = network.round(1000 * number);
+        let (round, value) = (drawn.round.clone(), drawn.value);
         let (release, root) = (month.clone(), secret.root);
         let commitment = commitment_of(&secret);
-        let value = digest(&format!("round {number}"));
         entries.push(Entry::Commitment {
             release: release.clone(),
             commitment,
             recipe: secret.recipe,
             parent,
-            beacon: Some(round.clone()),
+            beacon: Some(round),
         });
-        entries.push(Entry::Beacon { round, value });
+        entries.push(drawn.entry());
         entries.push(Entry::Root {
             release: release.clone(),
             root,
@@ -245,7 +290,7 @@ fn swapped_beacons_are_told() {
     for number in 0..mutations() {
         let mut chance = chance("beacon", number);
         let mut forged = entries.clone();
-        let words = match number % 5 {
+        let words = match number % 8 {
             0 => {
                 // The release was minted with another value.
                 if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
@@ -275,6 +320,51 @@ fn swapped_beacons_are_told() {
                 }
                 forged.insert(place + 1, second);
                 "has two values"
+            }
+            4 => {
+                // The value is made up, and so is the release.
+                let place = one_of(&beacons, &mut chance);
+                let made_up = any_digest(&mut chance);
+                if let Entry::Beacon { value, proof, .. } = &mut forged[place] {
+                    *value = made_up;
+                    if chance.below(2) == 0 {
+                        *proof = None;
+                    }
+                }
+                if let Entry::Root { beacon, .. } = &mut forged[place + 1] {
+                    *beacon = Some(made_up);
+                }
+                "the value of round"
+            }
+            5 => {
+                // The signature is altered, and the value is its hash.
+                let place = one_of(&beacons, &mut chance);
+                let mut made_up = None;
+                if let Entry::Beacon { value, proof: Some(proof), .. } = &mut forged[place] {
+                    let mut signature = bytes_of(&proof.signature);
+                    let at = chance.below(signature.len());
+                    signature[at] ^= 1 << chance.below(8);
+                    proof.signature = hex(&signature);
+                    let hash: [u8; 32] = Sha256::digest(&signature).into();
+                    *value = Digest::from_bytes(hash);
+                    made_up = Some(*value);
+                }
+                if let Entry::Root { beacon, .. } = &mut forged[place + 1] {
+                    *beacon = made_up;
+                }
+                "its `signature` is not the one of round"
+            }
+            6 => {
+                // The value is that of another round of the network, which suits the publisher.
+                let place = one_of(&beacons, &mut chance);
+                let other = Network::new().round(100_000 + chance.below(1_000_000) as u64);
+                if let Entry::Beacon { value, proof, .. } = &mut forged[place] {
+                    (*value, *proof) = (other.value, other.proof);
+                }
+                if let Entry::Root { beacon, .. } = &mut forged[place + 1] {
+                    *beacon = Some(other.value);
+                }
+                "its `signature` is not the one of round"
             }
             _ => {
                 // The value never came.

@@ -4,10 +4,11 @@ use super::{counted, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::trusted::{open_secret, signatures_of};
-use crate::verbs::release::{find_recipe, read_secret_file};
+use crate::verbs::release::{check_beacon, find_recipe, read_secret_file};
 use engine::Digest;
+use evaluation::scale::ScaleFile;
 use serde_json::json;
-use snapshots::{Recipe, SECRET_FILE, follow, integrity_of};
+use snapshots::{Manifest, Recipe, SECRET_FILE, follow, integrity_of};
 use std::path::{Path, PathBuf};
 use trust::log::{Entry, Log, Revealed, Round, append, verifier_key};
 use trust::{Anchor, Disk, Drawn, MAX_BEACON, Signatures, read_bounded};
@@ -60,6 +61,9 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    if args.log.exists() && !args.log.is_dir() {
+        bail!("`{}` is a file: name a folder for the log", args.log.display());
+    }
     let known = match Log::open(&args.log)? {
         Some(log) => log.entries()?,
         None => Vec::new(),
@@ -73,10 +77,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     for file in &args.beacon {
         let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &file.display().to_string())?;
-        new.push(Entry::Beacon { round: drawn.of(), value: drawn.value });
+        new.push(drawn.entry());
     }
     for place in &args.release {
-        new.push(release(place)?);
+        new.push(release(sound(place)?, place)?);
     }
     for place in &args.reveal {
         new.push(reveal(place)?);
@@ -92,8 +96,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let Some((name, file)) = text.split_once('=') else {
             bail!("`{text}` is not a scale with the name of its release: write NAME=FILE");
         };
-        let content = read_bounded(Path::new(file), MAX_SCALE)?;
         let root = root_of(name, &new)?;
+        let scale = ScaleFile::read(Path::new(file))?;
+        if !scale.months.iter().any(|month| month.snapshot == Some(root)) {
+            bail!("`{file}`: the scale has no release with the root of `{name}`, {root}: name another scale");
+        }
+        let content = read_bounded(Path::new(file), MAX_SCALE)?;
         new.push(Entry::Calibration { release: name.to_owned(), root, file: Digest::of(&content) });
     }
     for folder in &args.result {
@@ -153,6 +161,7 @@ fn commitment(file: &Path, parent: Option<&Path>) -> Result<Entry, Failure> {
             file.display()
         );
     };
+    check_beacon(&recipe)?;
     let beacon = recipe.beacon.as_ref().map(|part| Round { source: part.source.clone(), round: part.round });
     Ok(Entry::Commitment {
         release: recipe.name.clone(),
@@ -164,8 +173,7 @@ fn commitment(file: &Path, parent: Option<&Path>) -> Result<Entry, Failure> {
 }
 
 /// The entry of a release: the same whoever makes it, but for the statement about it.
-pub(super) fn release(place: &Path) -> Result<Entry, Failure> {
-    let manifest = sound(place)?;
+pub(super) fn release(manifest: Manifest, place: &Path) -> Result<Entry, Failure> {
     let folder = signatures_of(place);
     let statement = match folder.is_dir() {
         true => Signatures::read(&folder)?.statement_of(&manifest.root)?,
@@ -183,7 +191,8 @@ pub(super) fn release(place: &Path) -> Result<Entry, Failure> {
     })
 }
 
-fn sound(place: &Path) -> Result<snapshots::Manifest, Failure> {
+/// The manifest of a release whose files are those that it lists.
+pub(super) fn sound(place: &Path) -> Result<Manifest, Failure> {
     let integrity = integrity_of(place)?;
     match integrity.problems.first() {
         None => Ok(integrity.manifest),

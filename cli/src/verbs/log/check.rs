@@ -6,6 +6,7 @@ use crate::failure::{Answer, Failure};
 use crate::verbs::release::in_pool;
 use crate::whole_file;
 use serde_json::json;
+use snapshots::Manifest;
 use std::path::{Path, PathBuf};
 use trust::log::{Consistency, Entry, Inclusion, Log, MAX_CHECKPOINT, MAX_ENTRY, frozen, unkept};
 use trust::{PublicKey, TrustError, read_bounded};
@@ -39,7 +40,8 @@ pub(crate) struct Args {
     /// Releases that have to be in the log, in folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
     release: Vec<PathBuf>,
-    /// Results folders whose rows have to be in the log; every episode is replayed
+    /// Results folders whose rows have to be in the log; every episode is replayed, and its games are compared with those
+    /// of the --release
     #[arg(long, value_name = "RESULTS", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
     replay: Vec<PathBuf>,
     /// Witnesses that have to have signed the checkpoint, each with its public key
@@ -91,11 +93,17 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     problems.extend(rules(&entries));
     problems.extend(args.month.as_ref().and_then(|month| frozen(&entries, month)));
     problems.extend(witnesses(&args.witness, &log)?);
+    let mut releases = Vec::new();
     for place in &args.release {
-        problems.extend(missing(place, &entries)?);
+        let manifest = append::sound(place)?;
+        problems.extend(missing(place, manifest.clone(), &entries)?);
+        releases.push(manifest);
     }
+    let mut notes = Vec::new();
     for folder in &args.replay {
-        problems.extend(in_pool(args.jobs, || replay(folder, &entries))??);
+        let replayed = in_pool(args.jobs, || replay(folder, &entries, &releases))??;
+        problems.extend(replayed.problems);
+        notes.extend(replayed.note);
     }
     let sound = problems.is_empty();
     let unkept = unkept(&entries);
@@ -104,7 +112,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let size = log.checkpoint.size;
     console.document(&json!({
-        "origin": log.checkpoint.origin, "size": size, "entries": entries, "unkept": unkept, "problems": problems,
+        "origin": log.checkpoint.origin, "size": size, "entries": entries, "unkept": unkept, "notes": notes,
+        "problems": problems,
     }))?;
     for (number, entry) in entries.iter().enumerate() {
         console.say(format_args!("{number:>5}  {}", entry.line()));
@@ -112,7 +121,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     for name in &unkept {
         console.say(format_args!("`{name}` was committed to, and has no root yet"));
     }
-    problems.iter().for_each(|problem| console.say(problem));
+    notes.iter().chain(&problems).for_each(|line| console.say(line));
     let entries = counted(size);
     console.say(match sound {
         true => format!("{}: sound; {entries}, signed by {}", log.checkpoint.origin, key.id()),
@@ -143,9 +152,9 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
 }
 
 /// The fault of a log without this release.
-fn missing(place: &Path, entries: &[Entry]) -> Result<Option<String>, Failure> {
+fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option<String>, Failure> {
     let shown = place.display();
-    let asked = append::release(place)?;
+    let asked = append::release(manifest, place)?;
     let Entry::Root { release, root, parent, commitment, beacon, .. } = &asked else { return Ok(None) };
     let found =
         entries.iter().find(|entry| matches!(entry, Entry::Root { release: name, .. } if name == release));
@@ -164,26 +173,46 @@ fn missing(place: &Path, entries: &[Entry]) -> Result<Option<String>, Failure> {
     Ok(fault)
 }
 
-/// The differences between the row of results in the log and what their episodes give.
-fn replay(folder: &Path, entries: &[Entry]) -> Result<Vec<String>, Failure> {
+/// The judgement of a row.
+#[derive(Default)]
+struct Replayed {
+    problems: Vec<String>,
+    /// The comparison that was not made.
+    note: Option<String>,
+}
+
+/// The differences between the row of results in the log and what their episodes give, played on the games of the release.
+fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Replayed, Failure> {
     let shown = folder.display();
+    let only = |problem: String| Ok(Replayed { problems: vec![format!("`{shown}`: {problem}")], note: None });
     let digest = row::digest(folder)?;
     let logged = entries.iter().find_map(|entry| match entry {
         Entry::Result(row) if row.results == digest => Some(row),
         _ => None,
     });
     let Some(logged) = logged else {
-        return Ok(vec![format!(
-            "`{shown}`: no row of the log has its digest, {digest}: it was altered since, or never entered"
-        )]);
+        return only(format!(
+            "no row of the log has its digest, {digest}: it was altered since, or never entered"
+        ));
     };
     // An episode that does not replay is an answer: the row does not hold.
     let again = match row::of(folder, entries) {
         Ok(again) => again,
-        Err(Failure::Malformed(error)) => return Ok(vec![format!("`{shown}`: {error:#}")]),
+        Err(Failure::Malformed(error)) => return only(format!("{error:#}")),
         Err(failure) => return Err(failure),
     };
-    Ok(logged.differences(&again).into_iter().map(|difference| format!("`{shown}`: {difference}")).collect())
+    let mut replayed = Replayed::default();
+    replayed.problems.extend(logged.differences(&again).iter().map(|found| format!("`{shown}`: {found}")));
+    match releases.iter().find(|manifest| manifest.root == again.root) {
+        Some(manifest) => replayed.problems.extend(row::not_of(manifest, folder)?),
+        None => {
+            replayed.note = Some(format!(
+                "`{shown}`: its games were not compared with those of the release `{}`: name it too, with --release",
+                again.release
+            ));
+        }
+    }
+    Ok(replayed)
 }
 
 fn inclusion(proof: &Path, entry: &Path, key: &PublicKey, console: &Console) -> Answer {

@@ -5,6 +5,7 @@ use crate::input::sorted_entries;
 use engine::Digest;
 use evaluation::Evaluation;
 use evaluation::study::Study;
+use snapshots::Manifest;
 use snapshots::merkle::{self, Leaf};
 use std::fs;
 use std::path::Path;
@@ -36,7 +37,8 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
         track: settings.track.clone(),
         horizon: settings.commit.to_string(),
         episodes: row.scores.episodes,
-        open: row.scores.excluded,
+        // Episodes without a log among them: nobody can leave out what was lost.
+        open: (evaluation.tasks().len() as u64).saturating_sub(row.scores.episodes),
         wins: row.scores.wins,
         rate: rate.value,
         interval: (rate.low, rate.high),
@@ -44,8 +46,30 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     })
 }
 
+/// The games and levels of results that are not files of their release. Empty if all are.
+pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, Failure> {
+    let mut problems = Vec::new();
+    for Leaf { path, digest } in leaves(folder)? {
+        let is_played = path.starts_with("games/");
+        if is_played && !manifest.items.iter().any(|item| item.path == path && item.digest == digest) {
+            let (folder, name) = (folder.display(), &manifest.name);
+            problems.push(format!(
+                "`{folder}`: {path} is not the file of the release `{name}`: another game was played"
+            ));
+        }
+    }
+    Ok(problems)
+}
+
 /// The digest of a results folder: the root of a tree like that of a release, over all of its files but hidden ones.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
+    merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.display()))
+}
+
+fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
+    if folder.exists() && !folder.is_dir() {
+        bail!("`{}` is a file: name the folder that `arcade evaluate --out` wrote", folder.display());
+    }
     let mut leaves = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(next) = folders.pop() {
@@ -58,10 +82,14 @@ pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
                 folders.push(path);
                 continue;
             }
+            // Reading a pipe could wait for ever.
+            if !path.is_file() {
+                bail!("`{}` is no file: restore the results folder", path.display());
+            }
             let bytes = fs::read(&path).map_err(|error| Failure::read(&path, error))?;
             let below = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().replace('\\', "/");
             leaves.push(Leaf { path: below, digest: Digest::of(&bytes) });
         }
     }
-    merkle::root(&leaves).map_err(|error| malformed!("`{}`: {error}", folder.display()))
+    Ok(leaves)
 }

@@ -16,7 +16,7 @@ use crate::protected;
 use crate::shell;
 pub(crate) use crate::threads::in_pool;
 pub(crate) use progress::ProgressBars;
-pub(crate) use sealed::read as read_secret_file;
+pub(crate) use sealed::{check_beacon, read as read_secret_file};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Minted, Plan, Shard, lay_out, make_jobs};
 use snapshots::version::CURRENT;

@@ -13,11 +13,12 @@ use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use trust::{Drawn, MAX_BEACON, read_bounded};
+use trust::{Drawn, MAX_BEACON, check_source, read_bounded};
 
 /// Draws a secret for a recipe and writes it to a file that only its owner can read.
 pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, console: &Console) -> Answer {
     let mut recipe = find_recipe(file, Recipe::to_commit)?;
+    check_beacon(&recipe)?;
     if let Some(parent) = parent {
         follow(&mut recipe, parent)?;
     }
@@ -77,6 +78,13 @@ pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(Failure::from)
 }
 
+/// Checks that a recipe can get the value of the beacon that it names.
+pub(crate) fn check_beacon(recipe: &Recipe) -> Result<(), Failure> {
+    let Some(beacon) = &recipe.beacon else { return Ok(()) };
+    check_source(&beacon.source).map_err(|fault| malformed!("`beacon.source` of the recipe: {fault}"))?;
+    Ok(())
+}
+
 /// Fills in the value of the beacon that a recipe names.
 pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failure> {
     let shown = file.display().to_string();
@@ -86,7 +94,9 @@ pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failur
             "the recipe names no beacon, so it takes no --beacon: a release has one if its commitment covers it"
         );
     };
-    beacon.take(&drawn.source, drawn.round, drawn.value).map_err(|error| malformed!("`{shown}`: {error}"))
+    beacon
+        .take(&drawn.round.source, drawn.round.round, drawn.value)
+        .map_err(|error| malformed!("`{shown}`: {error}"))
 }
 
 /// Reads a recipe to be minted. If it has neither seed nor commitment and a secret is given, it gets the commitment

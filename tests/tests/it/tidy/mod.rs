@@ -71,6 +71,7 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("nalgebra", &["statistics"]),
     ("tar", &["snapshots"]),
     ("zstd", &["snapshots"]),
+    ("blst", &["trust"]),
     ("minisign", &["trust"]),
     ("ed25519", &["trust"]),
     ("sha2", &["trust"]),

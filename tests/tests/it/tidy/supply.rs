@@ -1,8 +1,10 @@
-//! The origin of what is built: crates of others come from one registry, each with its checksum, and no crate of ours
-//! has unsafe code.
+//! The origin of what is built: crates of others come from one registry, each with its checksum, under the licences that
+//! `deny.toml` allows; and no crate of ours has unsafe code. `cargo deny check` says more, where it is installed.
 
 use super::{get, manifests, report};
-use tests::read;
+use std::collections::BTreeSet;
+use std::process::Command;
+use tests::{read, workspace_root};
 use toml::de::{DeTable, DeValue};
 
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
@@ -28,6 +30,111 @@ fn crates_of_others_come_from_one_registry() {
     }
     assert!(others > 100, "{others} crates of others");
     report(problems);
+}
+
+/// The crates of this platform, with the features that tests are built with.
+#[test]
+fn licences_are_allowed() {
+    let allowed = allowed();
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--offline", "--locked", "--format-version", "1"])
+        .args(["--filter-platform", &host()])
+        .current_dir(workspace_root())
+        .output()
+        .expect("cargo runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let (mut others, mut problems) = (0, Vec::new());
+    for package in found["packages"].as_array().expect("packages") {
+        if package["source"].is_null() {
+            continue;
+        }
+        others += 1;
+        let licence = package["license"].as_str().unwrap_or_default();
+        if !is_allowed(licence, &allowed) {
+            let name = package["name"].as_str().unwrap_or_default();
+            problems.push(format!(
+                "deny.toml:1: `{name}` has the licence `{licence}`, which is not allowed there; take another crate, or \
+                 decide about the licence"
+            ));
+        }
+    }
+    assert!(others > 100, "{others} crates of others");
+    report(problems);
+}
+
+/// The licences that the policy allows.
+fn allowed() -> BTreeSet<String> {
+    let source = read("deny.toml");
+    let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("deny.toml: {error}"));
+    let licences = get(root.get_ref(), "licenses").and_then(DeValue::as_table).expect("licenses");
+    let names = get(licences, "allow").and_then(DeValue::as_array).expect("allow");
+    names.iter().filter_map(|name| name.get_ref().as_str()).map(str::to_owned).collect()
+}
+
+/// The platform that the compiler runs on.
+fn host() -> String {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = Command::new(rustc).arg("-vV").current_dir(workspace_root()).output().expect("rustc runs");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    text.lines().find_map(|line| line.strip_prefix("host: ")).expect("a host").to_owned()
+}
+
+/// Tests whether a licence expression (SPDX, or `/` for `OR` as older manifests have it) can be met by licences that are
+/// allowed.
+fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
+    let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
+    let tokens: Vec<&str> = spaced.split_whitespace().collect();
+    let mut rest = tokens.as_slice();
+    any(&mut rest, allowed) == Some(true) && rest.is_empty()
+}
+
+/// Alternatives: `OR` binds less than `AND`. `None` if the expression ends early.
+fn any(rest: &mut &[&str], allowed: &BTreeSet<String>) -> Option<bool> {
+    let mut holds = all(rest, allowed)?;
+    while let ["OR", after @ ..] = rest {
+        *rest = after;
+        holds |= all(rest, allowed)?;
+    }
+    Some(holds)
+}
+
+fn all(rest: &mut &[&str], allowed: &BTreeSet<String>) -> Option<bool> {
+    let mut holds = one(rest, allowed)?;
+    while let ["AND", after @ ..] = rest {
+        *rest = after;
+        holds &= one(rest, allowed)?;
+    }
+    Some(holds)
+}
+
+fn one(rest: &mut &[&str], allowed: &BTreeSet<String>) -> Option<bool> {
+    let (name, after) = match *rest {
+        ["(", after @ ..] => {
+            *rest = after;
+            let holds = any(rest, allowed)?;
+            *rest = rest.strip_prefix(&[")"])?;
+            return Some(holds);
+        }
+        [licence, "WITH", exception, after @ ..] => (format!("{licence} WITH {exception}"), after),
+        [licence, after @ ..] => ((*licence).to_owned(), after),
+        [] => return None,
+    };
+    *rest = after;
+    Some(allowed.contains(&name))
+}
+
+#[test]
+fn licence_expressions_are_understood() {
+    let allowed = ["MIT", "ISC", "Apache-2.0 WITH LLVM-exception"].map(str::to_owned).into();
+    for expression in
+        ["MIT", "GPL-3.0/MIT", "GPL-3.0 OR MIT", "(GPL-3.0 OR MIT) AND ISC", "Apache-2.0 WITH LLVM-exception"]
+    {
+        assert!(is_allowed(expression, &allowed), "{expression}");
+    }
+    for expression in ["", "GPL-3.0", "MIT AND GPL-3.0", "Apache-2.0", "(MIT", "MIT ISC", "MIT OR"] {
+        assert!(!is_allowed(expression, &allowed), "{expression}");
+    }
 }
 
 #[test]

@@ -1,0 +1,231 @@
+//! drand: networks whose rounds are signed by a threshold of their members, with BLS signatures on the curve BLS12-381.
+//!
+//! A network is known by its chain hash, which covers its public key. Two of them have names here; any other is named by
+//! its chain hash, so that a commitment to the name fixes the key.
+
+use super::{Proof, hex, not_hex};
+use crate::log::Round;
+use blst::{BLST_ERROR, min_pk, min_sig};
+use engine::Digest;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+
+/// The facts about a network that its chain hash covers, with the scheme of its signatures: as the network serves them
+/// under `/info`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Chain {
+    /// The public key, in hexadecimal digits.
+    pub public_key: String,
+    /// The seconds between rounds.
+    pub period: u32,
+    /// The time of round 1, in seconds since 1970.
+    pub genesis_time: i64,
+    /// The chain hash.
+    pub hash: Digest,
+    /// The digest of the members at the start.
+    #[serde(rename = "groupHash")]
+    pub group_hash: Digest,
+    /// The scheme of the signatures.
+    #[serde(rename = "schemeID")]
+    pub scheme: String,
+    /// The name among the networks of its members.
+    pub metadata: Metadata,
+}
+
+/// The part of [`Chain`] with the name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Metadata {
+    /// The name, such as `quicknet`.
+    #[serde(rename = "beaconID")]
+    pub beacon_id: String,
+}
+
+impl Chain {
+    /// The chain hash of the other fields. `None` if the key is not hexadecimal digits.
+    pub fn computed_hash(&self) -> Option<Digest> {
+        let mut hasher = Sha256::new()
+            .chain_update(self.period.to_be_bytes())
+            .chain_update(self.genesis_time.to_be_bytes())
+            .chain_update(hex(&self.public_key)?)
+            .chain_update(self.group_hash.as_bytes());
+        // Networks had no names at first.
+        if self.metadata.beacon_id != "default" {
+            hasher.update(self.metadata.beacon_id.as_bytes());
+        }
+        let hash: [u8; 32] = hasher.finalize().into();
+        Some(Digest::from_bytes(hash))
+    }
+}
+
+/// A network whose key is in the tree.
+pub(super) struct Known {
+    name: &'static str,
+    hash: &'static str,
+    public_key: &'static str,
+    scheme: &'static str,
+}
+
+/// The networks that have names here: those of the League of Entropy that run today.
+const KNOWN: [Known; 2] = [
+    Known {
+        name: "drand quicknet",
+        hash: "52db9ba70e0cc0f6eaf7803dd07447a1f5477735fd3f661792ba94600c84e971",
+        public_key: "83cf0f2896adee7eb8b5f01fcad3912212c437e0073e911fb90022d3e760183c8c4b450b6a0a6c3ac6a5776a2d106451\
+                     0d1fec758c921cc22b0e17e63aaf4bcb5ed66304de9cf809bd274ca73bab4af5a6e9c76a4bc09e76eae8991ef5ece45a",
+        scheme: "bls-unchained-g1-rfc9380",
+    },
+    Known {
+        name: "drand default",
+        hash: "8990e7a9aaed2ffed73dbd7092123d6f289930540d7651336225dc172e51b2ce",
+        public_key: "868f005eb8e6e4ca0a47c8a77ceaa5309a47978a7c71bc5cce96366b5d7a569937c529eeda66c7293784a9402801af31",
+        scheme: "pedersen-bls-chained",
+    },
+];
+
+/// A network that a source names.
+pub(super) enum Network {
+    /// One of [`KNOWN`].
+    Known(&'static Known),
+    /// One whose file has to state its key.
+    Hash(Digest),
+}
+
+/// The network that a source names. `None` if the source is no drand network.
+///
+/// # Errors
+/// The source mentions drand, and names no network: then the names to write.
+pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
+    if !source.to_lowercase().contains("drand") {
+        return Ok(None);
+    }
+    if let Some(known) = KNOWN.iter().find(|known| known.name == source) {
+        return Ok(Some(Network::Known(known)));
+    }
+    let hash = source.strip_prefix("drand ").and_then(|hash| hash.parse().ok());
+    if let Some(known) = KNOWN.iter().find(|known| source.strip_prefix("drand ") == Some(known.hash)) {
+        // One name for each, so that no round is waited for twice.
+        return Err(format!("`{source}` is the network `{}`: write that", known.name));
+    }
+    hash.map(|hash| Some(Network::Hash(hash))).ok_or_else(|| {
+        format!(
+            "`{source}` names no network of drand: write `drand quicknet`, `drand default`, or `drand` and the chain hash of \
+             another, 64 hexadecimal digits"
+        )
+    })
+}
+
+/// Checks the name of a source in a recipe: one that mentions drand has to name one of its networks, as
+/// [`Drawn::check`](super::Drawn::check) knows them. Returns whether it is such a network.
+///
+/// # Errors
+/// The names to write instead.
+pub fn check_source(source: &str) -> Result<bool, String> {
+    named(source).map(|network| network.is_some())
+}
+
+impl Network {
+    /// Checks the signature of a round.
+    pub(super) fn check(&self, round: &Round, signature: &[u8], proof: &Proof) -> Result<(), String> {
+        let (key, scheme) = match (self, &proof.chain) {
+            (Network::Known(_), Some(_)) => {
+                return Err(format!("has a `chain`, and the key of {} is known: leave it out", round.source));
+            }
+            (Network::Known(known), None) => (known.public_key, known.scheme),
+            (Network::Hash(_), None) => {
+                return Err(format!(
+                    "has no `chain`, and the key of {} is not known here: add what the network serves under /info",
+                    round.source
+                ));
+            }
+            (Network::Hash(hash), Some(chain)) => {
+                if chain.computed_hash() != Some(*hash) || chain.hash != *hash {
+                    return Err(format!(
+                        "its `chain` is not the one of {}, because it has another hash: take it from the network's /info again",
+                        round.source
+                    ));
+                }
+                (chain.public_key.as_str(), chain.scheme.as_str())
+            }
+        };
+        let key = hex(key).ok_or_else(|| not_hex("public_key"))?;
+        let previous = match &proof.previous_signature {
+            Some(text) => Some(hex(text).ok_or_else(|| not_hex("previous_signature"))?),
+            None => None,
+        };
+        match verifies(scheme, &key, round.round, previous.as_deref(), signature)? {
+            true => Ok(()),
+            false => Err(format!(
+                "its `signature` is not the one of round {} of {}: take the round from the network again",
+                round.round, round.source
+            )),
+        }
+    }
+}
+
+/// The domains of the hashes to the curve.
+const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
+const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
+
+/// The sizes of points in the compressed form, the only one in which a point has one encoding: another would have another
+/// hash, and so another value.
+const G1_BYTES: usize = 48;
+const G2_BYTES: usize = 96;
+
+/// Tests a signature of a round.
+///
+/// # Errors
+/// The question makes no sense: the scheme is not known, the previous signature is missing or too much, the key is none.
+fn verifies(
+    scheme: &str,
+    key: &[u8],
+    round: u64,
+    previous: Option<&[u8]>,
+    signature: &[u8],
+) -> Result<bool, String> {
+    let no_key = || format!("has a `public_key` that is none of the scheme {scheme}");
+    let number = round.to_be_bytes();
+    let message = match (scheme, previous) {
+        ("pedersen-bls-chained", Some(previous)) => Sha256::new().chain_update(previous).chain_update(number),
+        ("pedersen-bls-chained", None) => {
+            return Err("has no `previous_signature`, which a round of a chained network is about".to_owned());
+        }
+        ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", None) => Sha256::new().chain_update(number),
+        ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", Some(_)) => {
+            return Err("has a `previous_signature`, and its network is not chained: leave it out".to_owned());
+        }
+        _ => {
+            return Err(format!(
+                "is of the scheme {scheme}, which is not checked here: take a network of pedersen-bls-chained, \
+                 pedersen-bls-unchained or bls-unchained-g1-rfc9380"
+            ));
+        }
+    };
+    let message = message.finalize();
+    let verdict = if scheme == "bls-unchained-g1-rfc9380" {
+        if key.len() != G2_BYTES {
+            return Err(no_key());
+        }
+        let key = min_sig::PublicKey::key_validate(key).map_err(|_| no_key())?;
+        if signature.len() != G1_BYTES {
+            return Ok(false);
+        }
+        let signature = min_sig::Signature::sig_validate(signature, true);
+        signature.map(|signature| signature.verify(false, &message, ON_G1, &[], &key, false))
+    } else {
+        if key.len() != G1_BYTES {
+            return Err(no_key());
+        }
+        let key = min_pk::PublicKey::key_validate(key).map_err(|_| no_key())?;
+        if signature.len() != G2_BYTES {
+            return Ok(false);
+        }
+        let signature = min_pk::Signature::sig_validate(signature, true);
+        signature.map(|signature| signature.verify(false, &message, ON_G2, &[], &key, false))
+    };
+    Ok(verdict == Ok(BLST_ERROR::BLST_SUCCESS))
+}
+
+#[cfg(test)]
+mod tests;

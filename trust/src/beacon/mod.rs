@@ -1,0 +1,134 @@
+//! Public randomness: a value that a source publishes in a round, as a file and as an entry of a log.
+
+mod drand;
+
+pub use drand::{Chain, Metadata, check_source};
+
+use crate::error::TrustError;
+use crate::log::{Entry, Round};
+use engine::Digest;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+
+/// The greatest size of such a file, in bytes.
+pub const MAX_BEACON: u64 = 1 << 14;
+
+/// The shape of the file, for messages.
+const SHAPE: &str = "write the answer of the source with its name: \
+    { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
+
+/// A value of a source of randomness, with what shows that it is one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drawn {
+    /// The source and the number of the round.
+    pub round: Round,
+    /// The 32 bytes.
+    pub value: Digest,
+    /// The signature that the value is the hash of; drand rounds have one.
+    pub proof: Option<Proof>,
+}
+
+/// The signature of a round, as its source publishes it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Proof {
+    /// The signature, in hexadecimal digits.
+    pub signature: String,
+    /// The signature of the round before, which those of chained networks are about.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub previous_signature: Option<String>,
+    /// The network, if its key is not known here by name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain: Option<Chain>,
+}
+
+/// The file of a value.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DrawnFile {
+    source: String,
+    round: u64,
+    /// drand calls it `randomness`.
+    #[serde(alias = "randomness")]
+    value: Digest,
+    signature: Option<String>,
+    previous_signature: Option<String>,
+    chain: Option<Chain>,
+}
+
+impl Drawn {
+    /// Reads a file and checks it, as [`Drawn::check`] does.
+    ///
+    /// # Errors
+    /// It is none, or its value is not that of the round.
+    pub fn parse(bytes: &[u8], place: &str) -> Result<Drawn, TrustError> {
+        let wrong = |fault: String| TrustError::document(place, fault);
+        let file: DrawnFile = serde_json::from_slice(bytes)
+            .map_err(|error| wrong(format!("is no value of a beacon: {error}; {SHAPE}")))?;
+        let DrawnFile { source, round, value, signature, previous_signature, chain } = file;
+        if signature.is_none() && (previous_signature.is_some() || chain.is_some()) {
+            return Err(wrong(format!("has no `signature`, which the rest would be for; {SHAPE}")));
+        }
+        let proof = signature.map(|signature| Proof { signature, previous_signature, chain });
+        let drawn = Drawn { round: Round { source, round }, value, proof };
+        drawn.check().map_err(wrong)?;
+        Ok(drawn)
+    }
+
+    /// Checks the value: a round of drand has to have the signature of its network, and the value has to be its SHA-256.
+    /// Of other sources, a signature is not checked, except that the value is its SHA-256.
+    ///
+    /// # Errors
+    /// The fault, and the next move.
+    pub fn check(&self) -> Result<(), String> {
+        let round = &self.round;
+        let network = drand::named(&round.source)?;
+        let Some(proof) = &self.proof else {
+            return match network {
+                None => Ok(()),
+                Some(_) => Err(format!(
+                    "has no `signature` of round {} of {}, which shows that the value is the network's: \
+                     take the whole answer of the network, such as that of /public/{}",
+                    round.round, round.source, round.round
+                )),
+            };
+        };
+        let signature = hex(&proof.signature).ok_or_else(|| not_hex("signature"))?;
+        let value: [u8; 32] = Sha256::digest(&signature).into();
+        if Digest::from_bytes(value) != self.value {
+            return Err("its `value` is not the SHA-256 of its `signature`: take both from the source again"
+                .to_owned());
+        }
+        match network {
+            Some(network) => network.check(round, &signature, proof),
+            None if proof.chain.is_some() || proof.previous_signature.is_some() => Err(format!(
+                "has `chain` or `previous_signature`, which only drand networks have, and its source is `{}`",
+                round.source
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// The entry of a log.
+    pub fn entry(self) -> Entry {
+        let Drawn { round, value, proof } = self;
+        Entry::Beacon { round, value, proof }
+    }
+}
+
+fn not_hex(field: &str) -> String {
+    format!("its `{field}` is not hexadecimal digits in lower case: take it from the source again")
+}
+
+fn hex(text: &str) -> Option<Vec<u8>> {
+    let digits = text.bytes().map(|byte| match byte {
+        b'0'..=b'9' => Some(byte - b'0'),
+        b'a'..=b'f' => Some(byte - b'a' + 10),
+        _ => None,
+    });
+    let digits: Vec<u8> = digits.collect::<Option<_>>()?;
+    digits.len().is_multiple_of(2).then(|| digits.chunks(2).map(|pair| 16 * pair[0] + pair[1]).collect())
+}
+
+#[cfg(test)]
+mod tests;
