@@ -46,7 +46,7 @@ struct Compared {
 /// The judges of both ways.
 struct Judges {
     in_full: Panel,
-    quick: Panel,
+    brief: Panel,
     thorough: Panel,
     skill: Panel,
 }
@@ -73,12 +73,11 @@ impl Judges {
     fn of(criteria: &Criteria) -> anyhow::Result<Judges> {
         let ask: Vec<String> = criteria.ask.iter().filter(|name| *name != "skill").cloned().collect();
         let alone = Criteria { ask, ..criteria.clone() };
-        let quick = Criteria { budget: FIRST_SEARCH.min(criteria.budget), ..alone.clone() };
         let skill = Criteria { ask: vec!["skill".to_owned()], ..criteria.clone() };
         let panel = |criteria| Panel::new(criteria).context("the criteria of generated games");
         Ok(Judges {
             in_full: panel(criteria)?,
-            quick: panel(&quick)?,
+            brief: Panel::brief(&alone, FIRST_SEARCH)?,
             thorough: panel(&alone)?,
             skill: Panel::sequential(&skill)?,
         })
@@ -92,7 +91,7 @@ impl Judges {
         let level = game.level(&course.level(slot, seed.child("layout", 0)).ok()?.text).ok()?;
         let seed = seed.child("judges", 0);
         let in_full = Answer::of(&self.in_full.screen(&game, &level, seed));
-        let mut report = self.quick.screen(&game, &level, seed);
+        let mut report = self.brief.screen(&game, &level, seed);
         let mut calls = 0;
         let is_searched_twice = report.first_obstacle().is_some_and(is_unsolved);
         if is_searched_twice {

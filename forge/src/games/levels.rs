@@ -353,11 +353,8 @@ impl Levels<'_> {
         // Most candidates that can be won are won soon, and a vain search costs many times as much: all get a short one first.
         let ask: Vec<String> =
             self.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
-        let panel = |budget| {
-            let criteria = Criteria { ask: ask.clone(), budget, ..self.criteria.clone() };
-            Panel::new(&criteria).expect("the criteria were checked")
-        };
-        let quick = panel(self.criteria.budget.min(FIRST_SEARCH));
+        let alone = Criteria { ask, ..self.criteria.clone() };
+        let brief = Panel::brief(&alone, FIRST_SEARCH).expect("the criteria were checked");
         let mut unsolved = Vec::new();
         let mut misfits = 0;
         for candidate in 0..self.tries {
@@ -383,7 +380,7 @@ impl Levels<'_> {
                     None => continue,
                 }
             }
-            match self.in_company(&quick, game, level, place, (number, others), tally) {
+            match self.in_company(&brief, game, level, place, (number, others), tally) {
                 Judged::Passed(found) => return Some(FoundLevel { asks, ..*found }),
                 Judged::Unsolved(level) => unsolved.push((level, asks, place)),
                 Judged::Misfit => misfits += 1,
@@ -398,7 +395,7 @@ impl Levels<'_> {
         }
         // The more levels a game has, the more would be lost with it.
         let patience = SECOND_SEARCHES * (others.len() + 1);
-        let thorough = panel(self.criteria.budget);
+        let thorough = Panel::new(&alone).expect("the criteria were checked");
         unsolved.into_iter().take(patience).find_map(|(level, asks, place)| {
             match self.in_company(&thorough, game, level, place, (number, others), tally) {
                 Judged::Passed(found) => Some(FoundLevel { asks, ..*found }),
