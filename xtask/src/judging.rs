@@ -135,7 +135,7 @@ fn print(compared: &[Compared]) {
     }
     let all = compared.len() as u64;
     let columns = ["in full", "sequential", "candidates"];
-    let note = "`accepted`, or the criterion that says no first.";
+    let note = "Accepted, or the criterion that says no first.";
     let mut table = Table::new("judging", "Verdicts", note, &columns);
     for ([in_full, sequential], count) in &kinds {
         table.push(vec![TableCell::text(*in_full), TableCell::text(*sequential), TableCell::Count(*count)]);
