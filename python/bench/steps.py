@@ -1,7 +1,10 @@
 """Steps per second of a vector environment beside the native batch, game by game, in one run.
 
-Both play level 0 with uniform actions on one thread. The native rate is that of `cargo xtask bench --batch`, 4,096 states that are
-stepped one tick at a time, without observations; the environment also writes 4,096 boards of planes and their rewards and flags.
+All play level 0 with uniform actions on one thread; rates are steps per second of CPU time, the best of several turns that alternate.
+
+- batch: `cargo xtask bench --batch`, 4,096 states that are stepped one tick at a time, without observations;
+- loop: the same states in the process of the environments, stepped in one loop, without observations, rewards, flags or limits;
+- environments: 4,096 boards of planes, rewards and flags, written into one array, which is returned itself or as a copy.
 
 Example: python python/bench/steps.py --games corpora hailglass heath-fire
 """
@@ -25,9 +28,9 @@ ROOT = Path(__file__).parents[2]
 COUNT = 4096
 
 
-def rate(game: ia.Game, copy: bool, seconds: float) -> float:
-    """Steps per second of an environment, the best of three runs."""
-    envs = gymnasium.make_vec(
+def rates(game: ia.Game, turns: int) -> list[float]:
+    """The rates of the loop, of environments, and of environments with copies."""
+    make = lambda copy: gymnasium.make_vec(
         infinite_arcade.gymnasium.ENV_ID,
         num_envs=COUNT,
         game=game,
@@ -36,17 +39,26 @@ def rate(game: ia.Game, copy: bool, seconds: float) -> float:
         copy=copy,
         autoreset_mode=gymnasium.vector.AutoresetMode.SAME_STEP,
     )
-    envs.reset(seed=0)
+    shown, copied, loop = make(False), make(True), make(False)
     draws = np.random.default_rng(0)
-    actions = [draws.integers(envs.single_action_space.n, size=COUNT) for _ in range(16)]
-    best = 0.0
-    for _ in range(3):
-        started, rounds = time.perf_counter(), 0
-        while time.perf_counter() - started < seconds:
-            for chosen in actions:
-                envs.step(chosen)
-            rounds += len(actions)
-        best = max(best, rounds * COUNT / (time.perf_counter() - started))
+    actions = [draws.integers(shown.single_action_space.n, size=COUNT) for _ in range(16)]
+    flat = np.concatenate(actions)
+
+    def play(envs: gymnasium.vector.VectorEnv) -> None:
+        for chosen in actions:
+            envs.step(chosen)
+
+    players = [lambda: loop._lanes.native.step_blindly(flat, len(actions)), lambda: play(shown), lambda: play(copied)]
+    best = [0.0] * len(players)
+    for envs in (shown, copied, loop):
+        envs.reset(seed=0)
+    for turn in range(turns + 1):
+        for at, player in enumerate(players):
+            started = time.process_time()
+            player()
+            # The first turn lets buffers grow.
+            if turn:
+                best[at] = max(best[at], len(flat) / (time.process_time() - started))
     return best
 
 
@@ -61,21 +73,19 @@ def native(games: Path, name: str) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--games", type=Path, default=ROOT / "corpora", help="folder of game folders")
-    parser.add_argument("--seconds", type=float, default=1.0, help="seconds of a run")
+    parser.add_argument("--turns", type=int, default=40, help="turns of 16 steps")
     parser.add_argument("names", nargs="*", help="the games; all of the folder if none is named")
     arguments = parser.parse_args()
     names = arguments.names or sorted(path.name for path in arguments.games.iterdir() if path.is_dir())
-    print("| game | native batch | environments | ratio | with copies | ratio |\n|---|---|---|---|---|---|")
+    print("| game | batch | loop | environments | of batch | of loop | with copies | of batch |")
+    print("|---|---|---|---|---|---|---|---|")
     for name in names:
         game = ia.load(arguments.games / name, as_reference=True)
-        before = native(arguments.games, name)
-        shown, copied = (rate(game, copy, arguments.seconds) for copy in (False, True))
-        base = max(before, native(arguments.games, name))
-        print(
-            f"| {name} | {base / 1e6:.2f} M/s | {shown / 1e6:.2f} M/s | {shown / base:.2f} "
-            f"| {copied / 1e6:.2f} M/s | {copied / base:.2f} |",
-            flush=True,
-        )
+        loop, shown, copied = rates(game, arguments.turns)
+        batch = native(arguments.games, name)
+        million = [f"{rate / 1e6:.2f} M/s" for rate in (batch, loop, shown, copied)]
+        shares = [f"{share:.2f}" for share in (shown / batch, shown / loop, copied / batch)]
+        print(f"| {name} | {' | '.join(million[:3])} | {' | '.join(shares[:2])} | {million[3]} | {shares[2]} |", flush=True)
 
 
 if __name__ == "__main__":

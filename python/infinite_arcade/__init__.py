@@ -11,7 +11,7 @@ The environments are in :mod:`infinite_arcade.gymnasium`, the evaluation tasks i
 """
 
 from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, VgdlError, __version__
-from .games import CorpusGame, Game, Level, State, corpus, load, seed_child, seed_from_text
+from .games import CorpusGame, Episode, Game, Level, State, corpus, load, seed_child, seed_from_text
 from .judging import generate_games, generate_levels, validate
 from .planning import PLANNERS, Planner, play
 from .snapshots import Release, SnapshotGame, open_snapshot, verify
@@ -23,6 +23,7 @@ __all__ = [
     "SEMANTICS",
     "ArcadeError",
     "CorpusGame",
+    "Episode",
     "Game",
     "Level",
     "LogError",

@@ -58,6 +58,9 @@ class Level:
     text: str
     def describe(self) -> list[str]: ...
     def start(self, seed: str) -> State: ...
+    def gif(
+        self, seed: str, actions: list[str], cell: int, delay: int, caption: bool
+    ) -> bytes: ...
 
 class State:
     game: Game

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._native import seed_child, seed_from_text
 
-__all__ = ["CorpusGame", "Game", "Level", "State", "corpus", "load", "seed_child", "seed_from_text"]
+__all__ = ["CorpusGame", "Episode", "Game", "Level", "State", "corpus", "load", "seed_child", "seed_from_text"]
 
 #: The largest board picture that a notebook shows, in pixels of its longer side.
 _NOTEBOOK_PIXELS = 480
@@ -201,6 +201,33 @@ class Level:
         return repr(self._native)
 
 
+@dataclass(frozen=True)
+class Episode:
+    """The actions of an episode: with its level and its seed, all that is needed to play it again. A notebook shows it moving."""
+
+    level: Level
+    seed: str
+    actions: tuple[str, ...]
+
+    def replay(self) -> State:
+        """The last state."""
+        state = self.level.start(self.seed)
+        state.play(self.actions)
+        return state
+
+    def gif(self, cell: int = 16, *, delay: int = 12, caption: bool = True) -> bytes:
+        """The episode as an animated GIF, the same bytes on every machine: a frame a tick, ``delay`` hundredths of a second each.
+
+        Raises:
+            ValueError: there is no action of such a name, or the pictures would be too large.
+        """
+        return self.level._native.gif(self.seed, list(self.actions), cell, delay, caption)
+
+    def _repr_html_(self) -> str:
+        cell = max(8, min(24, _NOTEBOOK_PIXELS // max(*self.level.size, 1)))
+        return picture_html(self.gif(cell), f"{self.level!r}, {len(self.actions)} actions", kind="gif")
+
+
 class Game:
     """A compiled game with the levels that come with it."""
 
@@ -369,10 +396,10 @@ def _level_files(folder: Path) -> list[Path]:
     return [file for _, file in sorted((int(number), file) for number, file in numbered if number.isdigit())]
 
 
-def picture_html(png: bytes, title: str) -> str:
+def picture_html(picture: bytes, title: str, *, kind: str = "png") -> str:
     """An image element with the picture in it."""
-    data = base64.b64encode(png).decode("ascii")
-    return f'<img alt="{_escaped(title)}" title="{_escaped(title)}" src="data:image/png;base64,{data}">'
+    data = base64.b64encode(picture).decode("ascii")
+    return f'<img alt="{_escaped(title)}" title="{_escaped(title)}" src="data:image/{kind};base64,{data}">'
 
 
 def _escaped(text: str) -> str:

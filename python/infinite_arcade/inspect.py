@@ -368,7 +368,7 @@ def _logs(series: _native.Series) -> list[dict[str, Any]]:
             series.fail("the sample was cancelled")
             series.next_request()
         return series.results()
-    except (ArcadeError, ValueError):
+    except (ArcadeError, RuntimeError, ValueError):
         return []
 
 

@@ -2,12 +2,13 @@
 
 use crate::errors::{described, failed, invalid, malformed};
 use crate::input::Named;
+use crate::picture;
 use crate::state::State;
 use engine::describe::{self, Guide};
 use engine::{Action, Analysis, Outcome, Seed};
 use evaluation::is_of_use;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use render::{Looks, Symbols};
 use serde_json::json;
 use std::sync::Arc;
@@ -223,6 +224,26 @@ impl Level {
     fn start(&self, seed: &str) -> State {
         let state = self.game.0.game.start(&self.level, seed_of(seed));
         State::new(self.game.clone(), state)
+    }
+
+    /// An episode as an animated GIF.
+    fn gif<'py>(
+        &self,
+        py: Python<'py>,
+        seed: &str,
+        actions: Vec<String>,
+        cell: u32,
+        delay: u16,
+        caption: bool,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let actions = actions.iter().map(|name| action_named(name)).collect::<PyResult<Vec<_>>>()?;
+        let rules = &*self.game.0;
+        let style = render::Style { cell, caption, legend: false };
+        let state = rules.game.start(&self.level, seed_of(seed));
+        let drawn = py.detach(|| {
+            picture::animation((&rules.game, &rules.looks), state, &actions, &style, delay).map_err(invalid)
+        });
+        Ok(PyBytes::new(py, &drawn?))
     }
 
     fn __repr__(&self) -> String {

@@ -1,7 +1,7 @@
 //! Pictures of boards as pixels.
 
-use engine::State;
-use render::{Image, Looks, Painter, RenderError, Style};
+use engine::{Action, Game, State};
+use render::{Animation, Image, Looks, Painter, Picture, RenderError, Style};
 use std::cell::RefCell;
 
 thread_local! {
@@ -13,4 +13,30 @@ thread_local! {
 pub(crate) fn pixels(looks: &Looks, state: &State, cell: u32) -> Result<Image, RenderError> {
     let picture = render::picture(looks, state, &Style::bare(cell))?;
     PAINTER.with_borrow_mut(|painter| painter.paint(&picture))
+}
+
+/// The most pictures from which the palette of an animation is made.
+const SPECIMENS: usize = 32;
+
+/// Draws an episode as an animated GIF, a frame a tick of `delay` hundredths of a second, from the state given on.
+pub(crate) fn animation(
+    (game, looks): (&Game, &Looks),
+    mut state: State,
+    actions: &[Action],
+    style: &Style,
+    delay: u16,
+) -> Result<Vec<u8>, RenderError> {
+    let mut pictures: Vec<Picture> = vec![render::picture(looks, &state, style)?];
+    for &action in actions {
+        if state.is_over() {
+            break;
+        }
+        game.step(&mut state, action);
+        pictures.push(render::picture(looks, &state, style)?);
+    }
+    let step = pictures.len().div_ceil(SPECIMENS);
+    let specimens: Vec<Picture> = pictures.iter().step_by(step).cloned().collect();
+    let mut animation = Animation::new(&specimens, delay)?;
+    pictures.iter().try_for_each(|picture| animation.add(picture))?;
+    animation.finish()
 }

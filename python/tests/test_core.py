@@ -95,6 +95,15 @@ def test_boards_are_pictures(nut: ia.Game) -> None:
         state.rgb(1)
 
 
+def test_episodes_are_animations(nut: ia.Game) -> None:
+    episode = ia.Episode(nut.levels[0], "seed", ("right", "right"))
+    assert episode.replay().outcome == "won"
+    assert episode.gif().startswith(b"GIF89a") and episode.gif() == episode.gif()
+    assert "data:image/gif;base64," in episode._repr_html_()
+    with pytest.raises(ValueError, match="jump"):
+        ia.Episode(nut.levels[0], "seed", ("jump",)).gif()
+
+
 def test_planners_plan_alike_from_alike_seeds(nut: ia.Game) -> None:
     def won(name: str) -> list[str]:
         state, actions = ia.play(nut.levels[1], ia.Planner(name, seed="p"), seed="s")

@@ -181,10 +181,10 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
-/// The ticks per second of one thread at stepping a batch of [`LARGE_BATCH`] states, the best of three runs.
+/// The ticks per second of CPU time of one thread at stepping a batch of [`LARGE_BATCH`] states, the best of three runs.
 fn batch_rate(subject: &Subject) -> f64 {
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("threads can be started");
-    (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1))).fold(0.0, f64::max)
+    (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1)[1])).fold(0.0, f64::max)
 }
 
 /// The speedup of two threads over one at stepping a batch by `ticks` at a time: the best of three runs each, in
@@ -196,14 +196,14 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let mut best = [0.0f64; 2];
     for _ in 0..3 {
         for (pool, best) in pools.iter().zip(&mut best) {
-            *best = best.max(pool.install(|| batch_speed(subject, BATCH, ticks)));
+            *best = best.max(pool.install(|| batch_speed(subject, BATCH, ticks)[0]));
         }
     }
     best[1] / best[0]
 }
 
-/// The ticks per second of wall-clock time, including new episodes.
-fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> f64 {
+/// The ticks per second of wall-clock time, and of CPU time of the calling thread, including new episodes.
+fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
     let seed = Seed::from_text(&subject.name);
     let mut batch = Batch::fork(&subject.game, &subject.start, size, seed);
     let mut sampler = seed.sampler();
@@ -218,11 +218,11 @@ fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> f64 {
     };
     // Lets buffers grow and threads start.
     round(64 / ticks);
-    let clock = now();
+    let (clock, own) = (now(), ThreadTime::now());
     let mut rounds = 0;
     while clock.elapsed() < Duration::from_millis(300) {
         round(1);
         rounds += 1;
     }
-    (rounds * size * ticks) as f64 / clock.elapsed().as_secs_f64()
+    [clock.elapsed(), own.elapsed()].map(|time| (rounds * size * ticks) as f64 / time.as_secs_f64())
 }

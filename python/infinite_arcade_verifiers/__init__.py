@@ -1,0 +1,183 @@
+"""A taskset for verifiers: ``infinite-arcade-verifiers``.
+
+A task is a level. The suite plays the episode and is the user of the conversation: its prompts (contextual mode), reader of answers and
+log are those of ``arcade evaluate``. The reward ``win`` is 1 for a win, by a replay of the log; score and steps are metrics.
+
+It is a package beside ``infinite_arcade`` because verifiers finds tasksets by the name of a top-level module.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import verifiers.v1 as vf
+
+from infinite_arcade import LogError, _native, corpus, load, open_snapshot
+from infinite_arcade.games import Game
+
+__all__ = ["ArcadeConfig", "ArcadeData", "ArcadeEnv", "ArcadeEnvConfig", "ArcadeTask", "ArcadeTaskset"]
+
+#: Conversations are never cut: what is trained on is what was shown.
+_PROMPTS = json.dumps({"mode": "contextual", "history_tokens": 1 << 40})
+
+
+class ArcadeConfig(vf.TasksetConfig):
+    """What is played."""
+
+    source: str = "corpus"
+    """A release's folder, a game's file or folder, the name of a corpus game, or ``corpus``."""
+    games: list[str] | None = None
+    """Only these games, by id."""
+    levels: list[int] | None = None
+    """Only these levels, by number."""
+    runs: int = 1
+    """Episodes on each level."""
+    seed: str = "evaluate"
+    """The text that the games' chance is derived from."""
+    max_steps: int = 200
+    """The most actions of an episode."""
+    commit: str = "1"
+    """The actions that the player commits to at each look."""
+    reasks: int = 1
+    """How often an answer without a usable action is asked for again."""
+
+
+class ArcadeData(vf.TaskData):
+    """A level."""
+
+    info: dict[str, Any]
+    """The texts of the game and the level, and the settings of the episode."""
+
+
+class ArcadeTask(vf.Task[ArcadeData, vf.State, vf.TaskConfig]):
+    """A level to play."""
+
+
+class ArcadeEnvConfig(vf.EnvConfig):
+    """The seat of the player."""
+
+    player: vf.AgentConfig = vf.AgentConfig()
+
+
+class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
+    """The suite as the user of the conversation."""
+
+    async def run(self, task: vf.Task, agents: vf.Agents) -> None:
+        info = task.data.info
+        series = _series(info)
+        request = await asyncio.to_thread(series.next_request)
+        async with agents.player.interaction(task) as interaction:
+            segment = await interaction.turn()
+            while request is not None and not segment.terminated:
+                series.answer(segment.last_reply)
+                before, request = len(request), await asyncio.to_thread(series.next_request)
+                if request is None:
+                    break
+                if len(request) != before + 2:
+                    raise ValueError("the conversation was cut")
+                segment = await interaction.turn(request[-1][1])
+        if request is not None:
+            series.fail("the player has stopped")
+            await asyncio.to_thread(series.next_request)
+        trace = interaction.trace
+        [episode] = series.results()
+        played = replayed(info, episode["log"])
+        trace.info["infinite_arcade_log"] = episode["log"]
+        trace.record_reward("win", float(played["outcome"] == "won"), 1.0)
+        trace.record_metric("score", float(played["score"]))
+        trace.record_metric("steps", float(played["steps"]))
+
+
+class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
+    """The levels of a release, a game or the corpus."""
+
+    def load(self) -> Iterator[ArcadeTask]:
+        config = self.config
+        for game in _games(config.source):
+            if config.games is not None and game.id not in config.games:
+                continue
+            for level in game.levels:
+                if config.levels is not None and level.number not in config.levels:
+                    continue
+                for run in range(config.runs):
+                    info = {
+                        "game": game.id,
+                        "source": game.source,
+                        "level": level.number,
+                        "level_text": level.text,
+                        "optimal_ticks": level.optimal_ticks,
+                        "run": run,
+                        "seed": config.seed,
+                        "max_steps": config.max_steps,
+                        "commit": config.commit,
+                        "reasks": config.reasks,
+                    }
+                    request = _series(info).next_request()
+                    if request is None:
+                        continue
+                    [(_, system, _), (_, shown, _)] = request
+                    data = ArcadeData(
+                        id=f"{level.digest}-{run}",
+                        name=f"{game.id} {level.number} {run}",
+                        prompt=shown,
+                        system_prompt=system,
+                        info=info,
+                    )
+                    yield ArcadeTask(data, config.task)
+
+
+def replayed(info: dict[str, Any], log: str) -> dict[str, Any]:
+    """The results of a log, played again on the level of a task.
+
+    Raises:
+        LogError: the log differs from its replay, or is of another episode.
+    """
+    found: dict[str, Any] = json.loads(
+        _native.replay_log(
+            _native.Game(info["source"]),
+            info["game"],
+            _texts(info),
+            log,
+            level=info["level"],
+            run=info["run"],
+            seed=info["seed"],
+            max_steps=info["max_steps"],
+            commit=info["commit"],
+        )
+    )
+    if not found["ended"] and found["outcome"] != "ongoing":
+        raise LogError("the log of an episode that is over has no end")
+    return found
+
+
+def _texts(info: dict[str, Any]) -> list[tuple[int, str, int | None]]:
+    return [(info["level"], info["level_text"], info["optimal_ticks"])]
+
+
+def _series(info: dict[str, Any]) -> _native.Series:
+    return _native.Series(
+        _native.Game(info["source"]),
+        info["game"],
+        _texts(info),
+        run=info["run"],
+        seed=info["seed"],
+        max_steps=info["max_steps"],
+        commit=info["commit"],
+        prompts=_PROMPTS,
+        reasks=info["reasks"],
+    )
+
+
+def _games(source: str) -> Iterator[Game]:
+    if source == "corpus":
+        yield from (found.compile() for found in corpus().values())
+        return
+    try:
+        release = open_snapshot(source)
+    except _native.ArcadeError:
+        yield load(source)
+        return
+    yield from (found.compile() for found in release.games())
