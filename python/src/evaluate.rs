@@ -31,7 +31,7 @@ type LevelText = (usize, String, Option<usize>);
 /// A message: role, text, and the picture beside it, PNG.
 type Message<'py> = (&'static str, String, Option<Bound<'py, PyBytes>>);
 
-/// What is played: a game's levels in one series, or one level alone.
+/// The subject of an episode: a game's levels in one series, or one level alone.
 #[derive(Clone)]
 struct Order {
     subject: Arc<Subject>,

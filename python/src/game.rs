@@ -215,7 +215,7 @@ impl Level {
         self.level.to_string()
     }
 
-    /// What is proved of the level, a sentence each.
+    /// The proved facts about the level, a sentence each.
     fn describe(&self) -> Vec<String> {
         let analysis = &self.game.0.analysis;
         describe::level(analysis, &self.level, &analysis.reach(&self.level))

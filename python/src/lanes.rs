@@ -37,7 +37,7 @@ enum Sight {
     Rgb(u32),
 }
 
-/// What all lanes share.
+/// The parts that all lanes share.
 struct Setting {
     game: Game,
     roots: Vec<engine::State>,
@@ -67,7 +67,7 @@ struct Lane {
     drawn: Drawn,
 }
 
-/// What a step tells of a lane.
+/// The results of a step of a lane.
 struct Told<'a> {
     observation: &'a mut [u8],
     reward: &'a mut f64,

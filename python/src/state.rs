@@ -115,7 +115,7 @@ impl State {
         State::new(self.game.clone(), self.state.fork(seed_of(seed)))
     }
 
-    /// What players are shown, as a dictionary.
+    /// The observation of players, as a dictionary.
     fn observe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let seen = self.game.0.game.observe(&self.state);
         let shown = PyDict::new(py);
