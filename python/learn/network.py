@@ -1,7 +1,7 @@
 """The network of the learning agents: a perceptron on planes, trained by JAX and played by NumPy.
 
-JAX is used for its size: its wheel for processors is a tenth of PyTorch's, which brings the libraries of graphics cards. A perceptron
-rather than a convolution, because on two cores it sees ten times as many steps in the same time.
+JAX rather than PyTorch, whose wheel brings the libraries of graphics cards. A perceptron rather than a convolution, because a step of
+training costs less on two cores; the two were not compared.
 """
 
 from __future__ import annotations
