@@ -110,6 +110,8 @@ fn a_sealed_month_waits_for_its_beacon() {
         "sound; 4 entries",
     );
     check(&["--month", "2027-02"], 1, "the log has no release of 2027-02 or later");
+    check(&["--month", "2027-13"], 2, "it is no month: write a year and a month, such as 2027-03");
+    check(&["--proof", "proof", "--entry", "entry"], 2, "cannot be used with");
 
     // Proofs without the log.
     let prove = |more: &[&str], status: i32, words: &str| {

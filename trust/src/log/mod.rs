@@ -8,7 +8,7 @@ mod tiles;
 mod tree;
 
 pub use entry::{Entry, ResultRow, Revealed, Round};
-pub use history::{CommitmentOf, frozen, problems, unkept};
+pub use history::{CommitmentOf, frozen, is_month, problems, unkept};
 pub use note::{Checkpoint, MAX_CHECKPOINT, check_name, verifier_key};
 pub use proof::{Consistency, Inclusion};
 pub use tiles::{MAX_ENTRY, WIDTH};
