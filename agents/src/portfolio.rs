@@ -18,12 +18,15 @@ engine::with_defaults! {
     /// that, and in stochastic games from the start, planners play episodes in rounds of growing length: [`Width`]
     /// looks far ahead, [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
     /// risks. In a stochastic game, where that is asked for, a [`best_first`] search that foresees all chance of one episode
-    /// comes when the planners have spent half of their calls.
+    /// comes when the planners have spent half of their calls; a short one comes after two rounds.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
         /// Forward-model calls of all searches and plays together.
         pub budget: u64 = 3_000_000,
+        /// Stops when a part of the plan would exceed so many calls: the search is the same as far as it goes.
+        #[serde(skip)]
+        pub stop: Option<u64> = None,
         /// The share of it to spend on the shortest win.
         pub shortest: f64 = 0.1,
         /// The share of it to spend on any win by systematic search.
@@ -82,8 +85,9 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     let chance = seed.child("systematic", 0);
     let start = game.start(level, chance);
     let pushes = Pushes::of(analysis, level);
-    let share = |share: f64| SearchLimits {
-        calls: (config.budget as f64 * share.clamp(0.0, 1.0)) as u64,
+    let stop = config.stop.unwrap_or(u64::MAX);
+    let share = |share: f64, spent: u64| SearchLimits {
+        calls: ((config.budget as f64 * share.clamp(0.0, 1.0)) as u64).min(stop.saturating_sub(spent)),
         bytes: config.bytes,
     };
     let take = |solved: &mut Solved, searched: Searched| {
@@ -107,20 +111,24 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     let is_certain = analysis.is_deterministic_from(&start);
     if !start.is_over()
         && is_certain
-        && (take(&mut solved, a_star(analysis, &pushes, &start, share(config.shortest)))
-            || take(&mut solved, best_first(analysis, &pushes, &start, share(config.systematic))))
+        && (take(&mut solved, a_star(analysis, &pushes, &start, share(config.shortest, 0))) || {
+            let limits = share(config.systematic, solved.calls);
+            take(&mut solved, best_first(analysis, &pushes, &start, limits))
+        })
     {
         return solved;
     }
-    // Halfway, the search with foresight gets its share.
-    let mut foresight = if is_certain || start.is_over() { 0 } else { share(config.foresight).calls };
-    let budget = config.budget - foresight;
+    // The search with foresight looks in after two rounds, and gets its share halfway.
+    let mut foresight = if is_certain || start.is_over() { 0.0 } else { config.foresight };
+    let budget = config.budget - share(foresight, 0).calls.min(config.budget);
     let mut played = solved.calls;
     let mut round_calls = budget / FIRST_ROUND;
     for round in 0.. {
-        if foresight > 0 && (played >= budget / 2 || round == MAX_ROUNDS) {
-            foresight = 0;
-            let searched = best_first(analysis, &pushes, &start, share(config.foresight));
+        let is_due = played >= budget / 2 || round == MAX_ROUNDS;
+        if foresight > 0.0 && (is_due || round == EARLY_ROUNDS) {
+            let part = if is_due { foresight } else { foresight * EARLY_SHARE };
+            foresight = if is_due { 0.0 } else { foresight };
+            let searched = best_first(analysis, &pushes, &start, share(part, solved.calls));
             // By other chance the level may be won.
             if matches!(searched.answer, Answer::Impossible) {
                 solved.calls += searched.calls;
@@ -129,7 +137,8 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
             }
         }
         let left = budget.saturating_sub(played);
-        if left == 0 || round == MAX_ROUNDS {
+        let is_stopped = solved.calls.saturating_add(round_calls.min(left)) > stop;
+        if left == 0 || round == MAX_ROUNDS || is_stopped {
             break;
         }
         let plays = play_round(analysis, level, config, round_calls.min(left), seed.child("round", round));
@@ -148,6 +157,10 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     }
     solved
 }
+
+/// The rounds after which a search with foresight looks in, and the share of its calls that it may take then.
+const EARLY_ROUNDS: u64 = 2;
+const EARLY_SHARE: f64 = 0.125;
 
 /// The greatest number of rounds: plays of games that end at once cost next to nothing.
 const MAX_ROUNDS: u64 = 20;

@@ -25,6 +25,7 @@ mod lint;
 mod named;
 mod observe;
 mod pack;
+mod planes;
 mod play;
 mod recount;
 mod rules;
@@ -56,6 +57,7 @@ pub use limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SOURCE, MAX_SPRITES, M
 pub use lint::{SwappedRule, swapped_rule};
 pub use observe::{AvatarView, Category, Countdown, Event, MoverView, Observation, SpriteRecord};
 pub use pack::Packed;
+pub use planes::{Drawn, Planes};
 pub use rules::class::{ClassFamily, SpriteClass};
 pub use rules::effects::{EffectFamily, ParameterKind, effect_parameters};
 pub use rules::{Action, Limit, Outcome, SpriteType};

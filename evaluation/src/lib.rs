@@ -35,4 +35,4 @@ pub use player::{Agent, Choice, Contestant, Halt, Validity};
 pub use run::{Entrant, Evaluation, Settings};
 pub use subject::{LevelMark, Subject, SubjectFacts, SubjectLevel, Unreadable};
 pub use track::{SeriesPlace, Track};
-pub use turn::{Before, LevelEnd, Observed, Played, SeriesView, Turn};
+pub use turn::{Before, LevelEnd, Observed, Played, SeriesView, Turn, is_of_use};

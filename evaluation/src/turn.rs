@@ -142,7 +142,7 @@ pub(crate) fn choices(game: &Game, state: &State) -> Vec<Action> {
 }
 
 /// Returns `true` if an action can do something in a game: where nothing can be shot, the use key is no choice.
-pub(crate) fn is_of_use(analysis: &Analysis, action: Action) -> bool {
+pub fn is_of_use(analysis: &Analysis, action: Action) -> bool {
     let game = analysis.game();
     let by = |avatar: &Avatar| {
         game.actions_of(avatar.stype).contains(&action) && (action != Action::Use || avatar.has_use())

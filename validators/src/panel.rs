@@ -31,6 +31,15 @@ pub struct Panel {
     exploration: u64,
 }
 
+/// Ways to save work on candidates, of which there are many.
+#[derive(Clone, Copy, Default)]
+struct Haste {
+    /// Players of the ladder stop as soon as the answer is as good as sure.
+    sequential: bool,
+    /// Calls after which the search for a win stops.
+    stop: Option<u64>,
+}
+
 /// The stage of a criterion of levels: what it takes for granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
@@ -162,7 +171,27 @@ impl Panel {
     /// The first of their values that is out of its range; see [`Criteria::check`].
     pub fn new(criteria: &Criteria) -> Result<Panel, CriteriaError> {
         criteria.check()?;
-        Ok(Panel::with_allowance(criteria, None))
+        Ok(Panel::with_allowance(criteria, None, Haste::default()))
+    }
+
+    /// Like [`Panel::new`], but players stop as soon as the answer is as good as sure: for minting, where candidates are many and
+    /// those let in are judged again. See [`SkillPays::sequential`].
+    ///
+    /// # Errors
+    /// As [`Panel::new`].
+    pub fn sequential(criteria: &Criteria) -> Result<Panel, CriteriaError> {
+        criteria.check()?;
+        Ok(Panel::with_allowance(criteria, None, Haste { sequential: true, ..Haste::default() }))
+    }
+
+    /// Like [`Panel::new`], but the search for a win stops after about so many calls. As far as it goes, it is that of the other
+    /// panels: a win that it finds is the one that they find.
+    ///
+    /// # Errors
+    /// As [`Panel::new`].
+    pub fn brief(criteria: &Criteria, calls: u64) -> Result<Panel, CriteriaError> {
+        criteria.check()?;
+        Ok(Panel::with_allowance(criteria, None, Haste { stop: Some(calls), ..Haste::default() }))
     }
 
     /// Like [`Panel::new`], with a number of forward-model calls for each level, and for the game over all its
@@ -177,7 +206,7 @@ impl Panel {
     }
 
     /// The panel of criteria that were checked.
-    fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>) -> Panel {
+    fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>, haste: Haste) -> Panel {
         let bounded = allowance.map(|allowance| allowance.bounds(criteria));
         let c = bounded.as_ref().unwrap_or(criteria);
         let players = c.ladder_config().expect("the criteria were checked");
@@ -186,7 +215,7 @@ impl Panel {
             None => [usize::MAX; 2],
             Some(allowance) => [allowance.idle_play(), allowance.random_play()],
         };
-        let search = c.search();
+        let search = PortfolioConfig { stop: haste.stop, ..c.search() };
         let level: [(Stage, Box<dyn Validator + Send>); 8] = [
             (Stage::Start, Box::new(WellFormed)),
             (Stage::Start, Box::new(Readable)),
@@ -205,7 +234,13 @@ impl Panel {
             (Stage::Win, Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
             (
                 Stage::Ladder,
-                Box::new(SkillPays { players, wins: c.skill_wins, scores: c.skill_scores, play_calls }),
+                Box::new(SkillPays {
+                    players,
+                    wins: c.skill_wins,
+                    scores: c.skill_scores,
+                    play_calls,
+                    sequential: haste.sequential,
+                }),
             ),
         ];
         let rules: [(Subject, Box<dyn GameValidator + Send>); 3] = [
@@ -233,7 +268,8 @@ impl Panel {
             None => self.run(game, level, None, seed, false),
             Some((criteria, calls)) => {
                 let allowance = Allowance::of(*calls, game, [level]);
-                Panel::with_allowance(criteria, Some(allowance)).run(game, level, None, seed, false)
+                Panel::with_allowance(criteria, Some(allowance), Haste::default())
+                    .run(game, level, None, seed, false)
             }
         }
     }
@@ -292,7 +328,7 @@ impl Panel {
         }
         if let Some((criteria, calls)) = &self.bound {
             let allowance = Allowance::of(*calls, game, levels);
-            let panel = Panel::with_allowance(criteria, Some(allowance));
+            let panel = Panel::with_allowance(criteria, Some(allowance), Haste::default());
             return panel.together(game, levels, reports, seed, screen);
         }
         let analysis = Analysis::of(game);

@@ -18,6 +18,11 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+/// The states of a batch whose speedup is measured.
+const BATCH: usize = 1024;
+/// The states of a batch whose rate is measured, as many as learners step together.
+const LARGE_BATCH: usize = 4096;
+
 /// Reports ticks per second, the time of a copy, and the ratio to the reference, for every game of a folder.
 ///
 /// Example: cargo xtask bench --games gvgai/games --reference gvgai/java-speed.csv --csv speed.csv
@@ -38,7 +43,8 @@ pub(crate) struct Args {
     /// Also forward-model calls per second of MCTS
     #[arg(long)]
     mcts: bool,
-    /// Also the speedup of two threads over one at stepping a batch: one tick at a time, and 32 ticks at a time
+    /// Also the rate of one thread at stepping a batch of 4096 states, one tick at a time, and the speedup of two threads over one
+    /// at stepping 1024: one tick at a time, and 32 ticks at a time
     #[arg(long)]
     batch: bool,
     /// Also instructions per tick, if valgrind is installed
@@ -67,7 +73,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let reference = args.reference.as_deref().map(figures).transpose()?.unwrap_or_default();
     let mut csv = String::from(
-        "game,ticks_per_s,ratio,clone_ns,state_bytes,instructions_per_tick,mcts_calls_per_s,batch_step,batch_play,digest\n",
+        "game,ticks_per_s,ratio,clone_ns,state_bytes,instructions_per_tick,mcts_calls_per_s,batch_ticks_per_s,batch_step,batch_play,digest\n",
     );
     println!("{}", csv.trim_end());
     let (mut grid, mut continuous) = (Vec::new(), Vec::new());
@@ -85,13 +91,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let [batch_step, batch_play] = [1, 32]
             .map(|ticks| if args.batch { format!("{:.2}", speedup(subject, ticks)) } else { String::new() });
         let row = format!(
-            "{},{speed:.0},{},{:.0},{},{},{},{batch_step},{batch_play},{:032x}",
+            "{},{speed:.0},{},{:.0},{},{},{},{},{batch_step},{batch_play},{:032x}",
             subject.name,
             ratio.map_or(String::new(), |ratio| format!("{ratio:.1}")),
             clone_time(&subject.start) * 1e9,
             subject.start.size_in_bytes(),
             shown(if args.instructions { count()?.map(|count| count as f64) } else { None }),
             shown(args.mcts.then(|| mcts_calls(subject))),
+            shown(args.batch.then(|| batch_rate(subject))),
             first_digest(subject)?,
         );
         println!("{row}");
@@ -174,6 +181,12 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
+/// The ticks per second of one thread at stepping a batch of [`LARGE_BATCH`] states, the best of three runs.
+fn batch_rate(subject: &Subject) -> f64 {
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("threads can be started");
+    (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1))).fold(0.0, f64::max)
+}
+
 /// The speedup of two threads over one at stepping a batch by `ticks` at a time: the best of three runs each, in
 /// alternation.
 fn speedup(subject: &Subject, ticks: usize) -> f64 {
@@ -183,21 +196,20 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let mut best = [0.0f64; 2];
     for _ in 0..3 {
         for (pool, best) in pools.iter().zip(&mut best) {
-            *best = best.max(pool.install(|| batch_speed(subject, ticks)));
+            *best = best.max(pool.install(|| batch_speed(subject, BATCH, ticks)));
         }
     }
     best[1] / best[0]
 }
 
 /// The ticks per second of wall-clock time, including new episodes.
-fn batch_speed(subject: &Subject, ticks: usize) -> f64 {
-    const BATCH_SIZE: usize = 1024;
+fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> f64 {
     let seed = Seed::from_text(&subject.name);
-    let mut batch = Batch::fork(&subject.game, &subject.start, BATCH_SIZE, seed);
+    let mut batch = Batch::fork(&subject.game, &subject.start, size, seed);
     let mut sampler = seed.sampler();
     let actions = subject.game.actions(&subject.start);
     let plans: Vec<Vec<Action>> =
-        (0..16).map(|_| (0..BATCH_SIZE * ticks).map(|_| *sampler.choose(actions)).collect()).collect();
+        (0..16).map(|_| (0..size * ticks).map(|_| *sampler.choose(actions)).collect()).collect();
     let mut round = |count: usize| {
         for plan in plans.iter().cycle().take(count) {
             batch.play(plan).expect("a plan for every lane");
@@ -212,5 +224,5 @@ fn batch_speed(subject: &Subject, ticks: usize) -> f64 {
         round(1);
         rounds += 1;
     }
-    (rounds * BATCH_SIZE * ticks) as f64 / clock.elapsed().as_secs_f64()
+    (rounds * size * ticks) as f64 / clock.elapsed().as_secs_f64()
 }

@@ -1,15 +1,14 @@
 //! Diagnostics for people and programs.
 
 mod excerpt;
+mod words;
 
 use crate::failure::Failure;
 use crate::input::Named;
-use engine::{Diagnostic, Severity, line_and_column};
-use excerpt::Excerpt;
-use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, Report};
+use engine::{Diagnostic, line_and_column};
 use serde::Serialize;
 use std::fmt;
-use std::io::IsTerminal;
+pub(crate) use words::{in_words, one_in_words};
 
 /// The problems of a file, as an error.
 #[derive(Debug)]
@@ -33,43 +32,6 @@ pub(crate) fn failure(source: &Named, problems: &[Diagnostic]) -> Failure {
     let text = in_words(source, problems);
     let summary = text.lines().next().unwrap_or_default().to_owned();
     Failure::Malformed(Problems { summary, placed: placed(source, problems), text }.into())
-}
-
-/// A summary line, then every problem with its position.
-pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
-    let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
-    let plural = if errors == 1 { "problem" } else { "problems" };
-    let mut text = format!("{} has {errors} {plural}\n", source.name);
-    for problem in problems {
-        text.push_str(&one_in_words(source, problem));
-    }
-    text.trim_end().to_owned()
-}
-
-/// One problem: code, message, file, line, column, the line with a caret, help.
-pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
-    let label = if problem.label.is_empty() { "here" } else { &problem.label };
-    let code = Excerpt::of(&source.name, &source.text, problem.span.start, problem.span.end);
-    let severity = match problem.severity {
-        Severity::Error => miette::Severity::Error,
-        Severity::Warning => miette::Severity::Warning,
-    };
-    let mut diagnostic = MietteDiagnostic::new(problem.message.clone())
-        .with_code(problem.code)
-        .with_severity(severity)
-        .with_label(LabeledSpan::new_with_span(Some(label.to_owned()), code.span()));
-    diagnostic.help.clone_from(&problem.help);
-    let theme = match std::io::stderr().is_terminal() {
-        true => GraphicalTheme::unicode(),
-        false => GraphicalTheme::unicode_nocolor(),
-    };
-    let report = Report::new(diagnostic).with_source_code(code);
-    let mut text = String::new();
-    let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(1).with_width(100);
-    match handler.render_report(&mut text, report.as_ref()) {
-        Ok(()) => text,
-        Err(_) => format!("{}: {}\n", problem.code, problem.message),
-    }
 }
 
 #[derive(Debug, Serialize)]

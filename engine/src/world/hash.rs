@@ -167,6 +167,12 @@ impl World {
         }
     }
 
+    /// The slots of the sprites that have changed since [`World::settle_hash`]; sprites in flight are not noted as they move.
+    #[inline(always)]
+    pub(crate) fn dirty(&self) -> &[super::Slot] {
+        &self.dirty
+    }
+
     /// The same hash, computed from scratch. Cost: O(sprites).
     pub(crate) fn state_hash_from_scratch(&self) -> StateHash {
         let types = || (0..self.groups.len() as u16).map(SpriteType);

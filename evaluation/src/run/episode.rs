@@ -65,7 +65,10 @@ impl Task<'_> {
     }
 
     /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
-    pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
+    ///
+    /// # Errors
+    /// The first difference, in words.
+    pub fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, commit, track, series, .. } = start else {
             return Ok(());
         };

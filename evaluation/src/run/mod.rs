@@ -12,6 +12,7 @@ pub(crate) use episode::{available, graded};
 
 pub use episode::{PlayResult, Task, play};
 pub use evaluation::{Evaluation, Progress, Tally, tasks};
+pub use series::play_together;
 pub use settings::{
     Adaptive, Entrant, FORMAT, LevelEntry, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, Settings, SubjectEntry,
 };

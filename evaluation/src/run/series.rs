@@ -60,3 +60,19 @@ pub(crate) fn play_series(
     }
     Ok(results)
 }
+
+/// Plays the episodes of one series, or a single episode, with one player, as an evaluation does. `open` returns the log of an episode;
+/// `played` receives each episode with its log. Returns the results of those that were begun.
+///
+/// # Errors
+/// A log is of another episode, or cannot be written.
+pub fn play_together(
+    tasks: &[Task<'_>],
+    contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,
+    open: impl Fn(&Task<'_>) -> Result<Journal, EvaluationError>,
+    played: &impl Fn(&Task<'_>, &PlayResult, &Journal),
+) -> Result<Vec<PlayResult>, EvaluationError> {
+    let series = Series { tasks, watch: &|_| None, is_stopped: &|| false };
+    let results = play_series(&series, contestant, open, played)?;
+    Ok(results.into_iter().map(|(_, result)| result).collect())
+}

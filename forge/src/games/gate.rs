@@ -54,6 +54,20 @@ impl<'a> GameGate<'a> {
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
+        let mut spent = Tally::default();
+        let made = self.judged(genome, number, seed, objection, &mut spent);
+        tally.add(&if made.is_some() { spent } else { spent.of_lost() });
+        made
+    }
+
+    fn judged(
+        &self,
+        genome: &KernelGenome,
+        number: u32,
+        seed: Seed,
+        objection: &dyn Fn(&Candidate) -> Option<&'static str>,
+        tally: &mut Tally,
+    ) -> Option<MadeGame> {
         let generator = self.order.method.name();
         let build = |genome: &KernelGenome| {
             let KernelGame { game, course } = genome.build().ok()?;
@@ -110,11 +124,18 @@ impl<'a> GameGate<'a> {
         let seed = levels.seed;
         let together =
             levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
-        if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {
+        let mut spent = Tally::default();
+        let holds = levels.hold(&candidate.game, &found, seed.child("second judges", 0), &mut spent);
+        tally.judge(SECOND_JUDGES, holds, spent.calls);
+        if !holds {
             tally.game_rejected(SECOND_JUDGES);
             return None;
         }
-        if !levels.hold_again(&candidate.game, &found, (seed.child("further judges", 0), FURTHER), tally) {
+        let mut spent = Tally::default();
+        let dice = (seed.child("further judges", 0), FURTHER);
+        let holds = levels.hold_again(&candidate.game, &found, dice, &mut spent);
+        tally.judge(FURTHER_JUDGES, holds, spent.calls);
+        if !holds {
             tally.game_rejected(FURTHER_JUDGES);
             return None;
         }

@@ -115,6 +115,13 @@ impl Levels<'_> {
     /// All levels that meet the criteria, with what was found of them together; None as soon as one cannot be had, or if the
     /// game does not meet a criterion on all of them together.
     pub fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
+        let mut spent = Tally::default();
+        let found = self.found(game, &mut spent);
+        tally.add(&if found.is_some() { spent } else { spent.of_lost() });
+        found
+    }
+
+    fn found(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
         let levels = self.each(game, tally)?;
         let together = self.together(game, &levels, self.seed.child("judges of the game", 0), tally)?;
         Some(self.told(game, levels, together, tally))
@@ -134,7 +141,9 @@ impl Levels<'_> {
             Some(mcts_rate(game, &found.level, witness, self.criteria, seed))
         };
         let mcts: Vec<Rate> = levels.iter().filter_map(rate).collect();
-        tally.calls(mcts.iter().map(|rate| rate.calls).sum());
+        for rate in &mcts {
+            tally.judge("rate of mcts", true, rate.calls);
+        }
         FoundLevels { levels, mcts, together }
     }
 
@@ -194,7 +203,7 @@ impl Levels<'_> {
             levels.iter().map(|(_, found)| (found.level.clone(), found.report.clone())).unzip();
         let seed = self.seed.child("outline", 0);
         let together = panel.screen_together(game, &boards, &reports, seed);
-        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        tally.judgements(&together);
         let obstacle = together.iter().find(|judgement| !judgement.finding.verdict.is_pass());
         obstacle.map(|judgement| judgement.criterion)
     }
@@ -225,7 +234,7 @@ impl Levels<'_> {
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
         let together = self.panel.screen_together(game, &boards, &reports, seed);
-        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        tally.judgements(&together);
         match together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
             Some(obstacle) => {
                 tally.game_rejected(obstacle.criterion);
@@ -247,7 +256,7 @@ impl Levels<'_> {
         for (number, found) in (0..).zip(levels) {
             let Some(witness) = found.report.witness.clone() else { return false };
             let report = panel.screen_won(game, &found.level, witness, seed.child("level", number));
-            tally.calls(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum());
+            tally.judgements(&report.judgements);
             if !report.passes() {
                 return false;
             }
@@ -255,7 +264,7 @@ impl Levels<'_> {
             reports.push(report);
         }
         let together = panel.screen_together(game, &boards, &reports, seed.child("game", 0));
-        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        tally.judgements(&together);
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
@@ -275,7 +284,7 @@ impl Levels<'_> {
         let reports: Vec<Report> = levels.iter().map(report).collect();
         (0..times).all(|number| {
             let together = panel.screen_together(game, &boards, &reports, seed.child("judges", number));
-            tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+            tally.judgements(&together);
             together.iter().all(|judgement| judgement.finding.verdict.is_pass())
         })
     }
@@ -292,7 +301,8 @@ impl Levels<'_> {
             Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
         let win = is_won.then_some(witness);
         let (place, seed) = ((found.difficulty, found.candidate), found.seed);
-        let mut again = self.judged(&panel, game, level, (place, win), seed, tally)?;
+        let judged = self.judged(&panel, game, level, (place, win), seed, tally);
+        let Judged::Passed(mut again) = judged else { return None };
         let carried = found.report.judgements.iter().filter(|judgement| is_carried(judgement.criterion));
         for mut judgement in carried.cloned() {
             for episode in &mut judgement.finding.episodes {
@@ -308,7 +318,7 @@ impl Levels<'_> {
         };
         again.report.judgements.sort_by_key(place_of);
         again.asks.clone_from(&found.asks);
-        Some(again)
+        Some(*again)
     }
 
     /// A level for a place, beside those of other places.
@@ -340,57 +350,160 @@ impl Levels<'_> {
                 return None;
             }
         };
-        let mut left = self.tries;
+        // Most candidates that can be won are won soon, and a vain search costs many times as much: all get a short one first.
+        let ask: Vec<String> =
+            self.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
+        let alone = Criteria { ask, ..self.criteria.clone() };
+        let brief = Panel::brief(&alone, FIRST_SEARCH).expect("the criteria were checked");
+        let mut unsolved = Vec::new();
+        let mut misfits = 0;
         for candidate in 0..self.tries {
-            if left == 0 {
-                break;
-            }
-            left -= 1;
             let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
             let (level, asks, known) = match generator.generate(game, seed.child("layout", 0)) {
                 Ok((level, ..)) if taken.contains(&level.digest()) => {
-                    tally.level(0, Some("the same level twice"));
+                    tally.no_level("the same level twice");
                     continue;
                 }
                 Ok(generated) => generated,
                 Err(_) => {
-                    tally.level(0, Some("level generator"));
+                    tally.no_level("level generator");
                     continue;
                 }
             };
+            let place = ((difficulty, candidate), seed);
             if let (LevelSource::Puzzles(puzzles), Some(known)) = (self.source, known) {
-                match self.puzzle(puzzles, game, level, known, ((number, difficulty, candidate), seed), tally)
-                {
+                let mut spent = Tally::default();
+                let found = self.puzzle(puzzles, game, level, known, (number, place), &mut spent);
+                tally.add(&if found.is_some() { spent } else { spent.of_refused() });
+                match found {
                     Some(found) => return Some(found),
                     None => continue,
                 }
             }
-            let calls = tally.calls;
-            let Some(found) =
-                self.judged(self.panel, game, level, ((difficulty, candidate), None), seed, tally)
-            else {
-                // A search in vain for a win is dear: it counts as several candidates.
-                if tally.calls - calls > self.criteria.budget / 2 {
-                    left = left.saturating_sub(DEAR);
-                }
-                continue;
-            };
-            let in_order = |(place, other): &(u32, FoundLevel)| match *place < number {
-                true => found.asks_as_much_as(other),
-                false => other.asks_as_much_as(&found),
-            };
-            if !matches!(self.source, LevelSource::Course(_)) {
-                return Some(found);
+            match self.in_company(&brief, game, level, place, (number, others), tally) {
+                Judged::Passed(found) => return Some(FoundLevel { asks, ..*found }),
+                Judged::Unsolved(level) => unsolved.push((level, asks, place)),
+                Judged::Misfit => misfits += 1,
+                Judged::Failed => {}
             }
-            if !others.iter().all(in_order) {
-                tally.level_taken_back("less than an earlier level");
-            } else if self.is_tedious(game, &found, tally) {
-                tally.level_taken_back("no-dead-time");
-            } else {
-                return Some(FoundLevel { asks, ..found });
+            if misfits == MISFITS {
+                return None;
             }
         }
-        None
+        if self.criteria.budget <= FIRST_SEARCH {
+            return None;
+        }
+        // The more levels a game has, the more would be lost with it.
+        let patience = SECOND_SEARCHES * (others.len() + 1);
+        let thorough = Panel::new(&alone).expect("the criteria were checked");
+        unsolved.into_iter().take(patience).find_map(|(level, asks, place)| {
+            match self.in_company(&thorough, game, level, place, (number, others), tally) {
+                Judged::Passed(found) => Some(FoundLevel { asks, ..*found }),
+                Judged::Unsolved(_) | Judged::Misfit | Judged::Failed => None,
+            }
+        })
+    }
+
+    /// Judges a level alone, then beside the others of its course, then the skill that pays on it: the cheapest question first.
+    fn in_company(
+        &self,
+        panel: &Panel,
+        game: &Game,
+        level: Level,
+        (place, seed): ((f64, u32), Seed),
+        (number, others): (u32, &[(u32, FoundLevel)]),
+        tally: &mut Tally,
+    ) -> Judged {
+        let spent = &mut Tally::default();
+        let mut judged = self.judged(panel, game, level, (place, None), seed, spent);
+        if let Judged::Passed(found) = &mut judged {
+            let others = (number, others);
+            let objection = self
+                .objection_to_place(game, found, others, spent)
+                .or_else(|| self.objection_to_skill(game, found, spent));
+            if let Some(objection) = objection {
+                spent.level_taken_back(objection);
+                judged = Judged::Failed;
+            } else if let Some(objection) = self.objection_to_course(game, found, others, spent) {
+                spent.level_taken_back(objection);
+                judged = Judged::Misfit;
+            }
+        }
+        let spent = std::mem::take(spent);
+        tally.add(&if matches!(judged, Judged::Passed(_)) { spent } else { spent.of_refused() });
+        judged
+    }
+
+    /// Lets the ladder play, as far as skill is asked for, and adds what is found to the report.
+    fn objection_to_skill(
+        &self,
+        game: &Game,
+        found: &mut FoundLevel,
+        tally: &mut Tally,
+    ) -> Option<&'static str> {
+        if !self.criteria.includes("skill") {
+            return None;
+        }
+        let criteria = Criteria { ask: vec!["skill".to_owned()], ..self.criteria.clone() };
+        // What follows from the plays of all levels together needs all plays.
+        let panel = match self.criteria.includes("skill-overall") {
+            true => Panel::new(&criteria),
+            false => Panel::sequential(&criteria),
+        };
+        let panel = panel.expect("the criteria were checked");
+        let (witness, seed) = (found.report.witness.clone()?, found.seed.child("judges", 0));
+        let report = panel.screen_won(game, &found.level, witness, seed);
+        tally.judgements(&report.judgements);
+        let is_met = report.passes();
+        found.report.judgements.extend(report.judgements);
+        (!is_met).then_some("skill")
+    }
+
+    /// Asks the cheap gates about all levels of a course when the last one is found: another candidate may mend what a game would be
+    /// refused for.
+    fn objection_to_course(
+        &self,
+        game: &Game,
+        found: &FoundLevel,
+        (number, others): (u32, &[(u32, FoundLevel)]),
+        tally: &mut Tally,
+    ) -> Option<&'static str> {
+        let is_last = others.len() + 1 == self.count as usize;
+        if !is_last || !matches!(self.source, LevelSource::Course(_)) {
+            return None;
+        }
+        let panel = self.panel_of(CHEAP_GATES, self.criteria.gates.clone());
+        let mut levels: Vec<(u32, &FoundLevel)> =
+            others.iter().map(|(place, found)| (*place, found)).chain([(number, found)]).collect();
+        levels.sort_by_key(|(place, _)| *place);
+        let (boards, reports): (Vec<Level>, Vec<Report>) =
+            levels.iter().map(|(_, found)| (found.level.clone(), found.report.clone())).unzip();
+        let together = panel.screen_together(game, &boards, &reports, found.seed.child("course", 0));
+        tally.judgements(&together);
+        let obstacle = together.iter().find(|judgement| !judgement.finding.verdict.is_pass());
+        obstacle.map(|judgement| judgement.criterion)
+    }
+
+    /// Returns the reason why a level does not fit its place in a course: its win is much shorter than that of an earlier level, or
+    /// has dead time.
+    fn objection_to_place(
+        &self,
+        game: &Game,
+        found: &FoundLevel,
+        (number, others): (u32, &[(u32, FoundLevel)]),
+        tally: &mut Tally,
+    ) -> Option<&'static str> {
+        if !matches!(self.source, LevelSource::Course(_)) {
+            return None;
+        }
+        let in_order = |(place, other): &(u32, FoundLevel)| match *place < number {
+            true => found.asks_as_much_as(other),
+            false => other.asks_as_much_as(found),
+        };
+        if !others.iter().all(in_order) {
+            return Some("less than an earlier level");
+        }
+        self.is_tedious(game, found, tally).then_some("no-dead-time")
     }
 
     /// A puzzle of the tier of its place: won, judged, and measured; the search for its shortest win is that of `winnable`. Cost: a proof of the shortest win within the share of the
@@ -401,19 +514,19 @@ impl Levels<'_> {
         game: &Game,
         level: Level,
         known: Vec<Action>,
-        ((number, difficulty, candidate), seed): ((u32, f64, u32), Seed),
+        (number, (place, seed)): (u32, ((f64, u32), Seed)),
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
         let analysis = Analysis::of(game);
         let of_win = seed.child("judges", 0).child("winnable", 0).child("systematic", 0);
         let calls = (self.criteria.budget as f64 * self.criteria.shortest) as u64;
         let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win)?;
-        tally.calls(calls);
+        tally.judge("winnable", true, calls);
         let ask = self.criteria.ask.iter().filter(|name| *name != "winnable").cloned().collect();
         let panel =
             Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
-        let place = ((difficulty, candidate), Some(win.clone()));
-        let mut found = self.judged(&panel, game, level, place, seed, tally)?;
+        let judged = self.judged(&panel, game, level, (place, Some(win.clone())), seed, tally);
+        let Judged::Passed(mut found) = judged else { return None };
         let demand = Demand::of(&analysis, &found.level, &win, shortest, seed.child("demand", 0))?;
         let optimal = shortest.then_some(win.actions.len());
         let verdict = Verdict::Pass { witness: Some(win) };
@@ -423,7 +536,7 @@ impl Levels<'_> {
             tally.level_taken_back("tier");
             return None;
         }
-        Some(FoundLevel { demand: Some(demand), ..found })
+        Some(FoundLevel { demand: Some(demand), ..*found })
     }
 
     /// Tests whether the win of a level has dead time: the gate looks at each level alone.
@@ -432,7 +545,7 @@ impl Levels<'_> {
         let (board, report) = (&found.level, &found.report);
         let seed = found.seed.child("dead time", 0);
         let judged = panel.screen_together(game, slice::from_ref(board), slice::from_ref(report), seed);
-        tally.calls(judged.iter().map(|judgement| judgement.finding.calls()).sum());
+        tally.judgements(&judged);
         judged.iter().any(|judgement| !judgement.finding.verdict.is_pass())
     }
 
@@ -445,15 +558,24 @@ impl Levels<'_> {
         ((difficulty, candidate), win): ((f64, u32), Option<Episode>),
         seed: Seed,
         tally: &mut Tally,
-    ) -> Option<FoundLevel> {
+    ) -> Judged {
         let seed_of_judges = seed.child("judges", 0);
         let report = match win {
             Some(win) => panel.screen_won(game, &level, win, seed_of_judges),
             None => panel.screen(game, &level, seed_of_judges),
         };
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
-        tally.level(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum(), obstacle);
-        (obstacle.is_none() && report.witness.is_some()).then_some(FoundLevel {
+        tally.level(&report.judgements, obstacle);
+        let is_unsolved = report.first_obstacle().is_some_and(|judgement| {
+            judgement.criterion == "winnable" && matches!(judgement.finding.verdict, Verdict::Unknown { .. })
+        });
+        if is_unsolved {
+            return Judged::Unsolved(level);
+        }
+        if obstacle.is_some() || report.witness.is_none() {
+            return Judged::Failed;
+        }
+        Judged::Passed(Box::new(FoundLevel {
             level,
             report,
             generator: self.source.name(),
@@ -462,9 +584,31 @@ impl Levels<'_> {
             candidate,
             seed,
             demand: None,
-        })
+        }))
     }
 }
+
+/// The judges' answer on a level.
+enum Judged {
+    /// It meets all criteria.
+    Passed(Box<FoundLevel>),
+    /// It misses one.
+    Failed,
+    /// It meets all, and all levels together do not.
+    Misfit,
+    /// No win was found within the budget: with a larger one it may pass.
+    Unsolved(Level),
+}
+
+/// The calls of the first search for a win of a candidate.
+pub const FIRST_SEARCH: u64 = 150_000;
+
+/// The number of candidates of the first place whose win is searched for with the whole budget, if none is accepted before; each
+/// later place has as many more.
+const SECOND_SEARCHES: usize = 2;
+
+/// Candidates of the last place beside which the others fail a gate, after which the game is given up.
+const MISFITS: usize = 3;
 
 /// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
 const LATER_SHARE: f64 = 0.6;
@@ -472,8 +616,8 @@ const LATER_SHARE: f64 = 0.6;
 /// The levels of a course that are found first: two to begin with and the exam.
 const OUTLINE: usize = 3;
 
-/// Further candidates that a level costs whose win was searched for in vain.
-const DEAR: u32 = 1;
+/// The gates that cost little.
+const CHEAP_GATES: &[&str] = &["progression", "drama", "no-dead-time", "not-instant"];
 
 /// The criteria whose answer does not depend on dice once there is a witness.
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];

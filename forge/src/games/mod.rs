@@ -21,7 +21,7 @@ pub mod report;
 pub use candidate::{Candidate, MadeGame, Step, marked, slug};
 pub use cast::Cast;
 pub use kept::{Kept, KeptGame};
-pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
+pub use levels::{FIRST_SEARCH, FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{GameSet, GamesError, Progress, Shortfall, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{Locks, PuzzleLevels};

@@ -17,6 +17,7 @@ mod limits;
 mod novelty;
 mod pages;
 mod pictures;
+mod planes;
 mod portfolio;
 mod public_games;
 mod robustness;

@@ -10,8 +10,8 @@ use super::{folder_of, get, manifest, manifests, report};
 
 const TABLE: &str = "docs/decisions/0002-dependencies.md";
 
-/// The folder with a workspace of its own.
-const FUZZ: &str = "fuzz";
+/// The folders with a workspace of their own.
+const APART: [&str; 2] = ["fuzz", "python"];
 
 #[test]
 fn every_dependency_has_its_reason() {
@@ -82,8 +82,8 @@ fn declared() -> BTreeMap<String, String> {
         }
     }
     let members = manifests();
-    let fuzz = Path::new(FUZZ);
-    let others = tests::workspace_root().join(fuzz).is_dir().then(|| manifest(FUZZ, None));
+    let is_there = |folder: &&str| tests::workspace_root().join(Path::new(folder)).is_dir();
+    let others: Vec<_> = APART.into_iter().filter(is_there).map(|folder| manifest(folder, None)).collect();
     for member in members.iter().chain(&others) {
         for dependency in &member.dependencies {
             if folder_of(&members, &dependency.package).is_none() {

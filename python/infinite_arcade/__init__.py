@@ -1,0 +1,45 @@
+"""Games in VGDL, from Python: the engine, planners, judges, generators and snapshots of Infinite Arcade.
+
+>>> import infinite_arcade as ia
+>>> game = ia.load("hailglass")
+>>> state = game.levels[0].start("a seed")
+>>> state.step("right")
+'ongoing'
+
+The environments are in :mod:`infinite_arcade.gymnasium`, the evaluation tasks in :mod:`infinite_arcade.inspect`, tables in
+:mod:`infinite_arcade.tables`. None of them is imported here, so that the package needs NumPy only.
+"""
+
+from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, VgdlError, __version__
+from .games import CorpusGame, Game, Level, State, corpus, load, seed_child, seed_from_text
+from .judging import generate_games, generate_levels, validate
+from .planning import PLANNERS, Planner, play
+from .snapshots import Release, SnapshotGame, open_snapshot, verify
+
+__all__ = [
+    "ACTIONS",
+    "GENERATION",
+    "PLANNERS",
+    "SEMANTICS",
+    "ArcadeError",
+    "CorpusGame",
+    "Game",
+    "Level",
+    "LogError",
+    "Planner",
+    "Release",
+    "SnapshotGame",
+    "State",
+    "VgdlError",
+    "__version__",
+    "corpus",
+    "generate_games",
+    "generate_levels",
+    "load",
+    "open_snapshot",
+    "play",
+    "seed_child",
+    "seed_from_text",
+    "validate",
+    "verify",
+]

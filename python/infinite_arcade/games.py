@@ -1,0 +1,379 @@
+"""Games, levels and states."""
+
+from __future__ import annotations
+
+import base64
+import json
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._native import seed_child, seed_from_text
+
+__all__ = ["CorpusGame", "Game", "Level", "State", "corpus", "load", "seed_child", "seed_from_text"]
+
+#: The largest board picture that a notebook shows, in pixels of its longer side.
+_NOTEBOOK_PIXELS = 480
+
+
+class State:
+    """The state of an episode.
+
+    A state is a value: :meth:`copy` is independent of the original, and the same actions lead both to the same hashes.
+    """
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _native.State) -> None:
+        self._native = native
+
+    @property
+    def ticks(self) -> int:
+        """The number of ticks played."""
+        return self._native.ticks
+
+    @property
+    def score(self) -> float:
+        """The score."""
+        return self._native.score
+
+    @property
+    def outcome(self) -> str:
+        """``ongoing``, ``won``, ``lost``, ``ended`` (over without a winner) or ``stopped`` (by a limit)."""
+        return self._native.outcome
+
+    @property
+    def stopped_by(self) -> str | None:
+        """The limit that stopped the episode, in words."""
+        return self._native.stopped_by
+
+    @property
+    def is_over(self) -> bool:
+        """True once the episode is over."""
+        return self._native.is_over
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Columns and rows of the board."""
+        return self._native.size
+
+    @property
+    def actions(self) -> list[str]:
+        """The available actions besides ``nil``, sorted; ``nil`` alone without an avatar."""
+        return self._native.actions
+
+    def step(self, action: str) -> str:
+        """Plays one tick and returns the outcome. An action that the avatar does not have counts as ``nil``.
+
+        Raises:
+            ValueError: there is no action of that name; see :data:`infinite_arcade.ACTIONS`.
+        """
+        return self._native.step(action)
+
+    def play(self, actions: Sequence[str]) -> list[str]:
+        """Plays actions, one a tick, until the episode is over, and returns the state hash after each tick.
+
+        Raises:
+            ValueError: there is no action of such a name; then nothing is played.
+        """
+        return self._native.play(list(actions))
+
+    def state_hash(self) -> str:
+        """The hash of everything that can influence the future: 128 bits, as hexadecimal digits."""
+        return self._native.state_hash()
+
+    def copy(self) -> State:
+        """A copy with the same future."""
+        return State(self._native.copy())
+
+    __copy__ = copy
+
+    def fork(self, seed: str) -> State:
+        """A copy with another random future, as planners use it."""
+        return State(self._native.fork(seed))
+
+    def observe(self) -> dict[str, Any]:
+        """What players are shown: ``ticks``, ``score``, ``outcome``, ``columns``, ``rows``, ``cells`` (``[rows][columns]``, the
+        names of the visible sprites of each cell in drawing order), ``resources`` (name and amount) and ``avatar`` (name, column,
+        row, facing, health; None once it is gone).
+        """
+        return self._native.observe()
+
+    def planes(self) -> NDArray[np.uint8]:
+        """The board as ``[types][rows][columns]``, uint8: 1 where a sprite of the type is. The types are :attr:`Game.types`."""
+        columns, rows = self.size
+        return self._native.planes().reshape(-1, rows, columns)
+
+    def text(self) -> str:
+        """The board in lines of characters; :attr:`Game.symbols` tells what they mean."""
+        return self._native.text()
+
+    def full_text(self) -> str:
+        """The board, then tick, score, holdings and a legend."""
+        return self._native.full_text()
+
+    def rgb(self, cell: int = 16) -> NDArray[np.uint8]:
+        """The board as a picture, ``[rows × cell][columns × cell][3]``, uint8.
+
+        Raises:
+            ValueError: a cell is smaller than 4 or larger than 256 pixels, or the picture would be too large.
+        """
+        height, width, flat = self._native.rgb(cell)
+        return flat.reshape(height, width, 3)
+
+    def png(self, cell: int = 24, *, caption: bool = False, legend: bool = False) -> bytes:
+        """The board as a PNG file, the same bytes on every machine.
+
+        Raises:
+            ValueError: see :meth:`rgb`.
+        """
+        return self._native.png(cell, caption=caption, legend=legend)
+
+    def svg(self, cell: int = 24, *, caption: bool = False, legend: bool = False) -> str:
+        """The board as SVG.
+
+        Raises:
+            ValueError: see :meth:`rgb`.
+        """
+        return self._native.svg(cell, caption=caption, legend=legend)
+
+    def _repr_html_(self) -> str:
+        cell = max(8, min(32, _NOTEBOOK_PIXELS // max(*self.size, 1)))
+        return picture_html(self.png(cell, caption=True), f"{self!r}")
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+
+class Level:
+    """A level that fits one game."""
+
+    __slots__ = ("_native", "number", "optimal_ticks")
+
+    def __init__(self, native: _native.Level, number: int = 0, optimal_ticks: int | None = None) -> None:
+        self._native = native
+        #: Its number in the game.
+        self.number = number
+        #: The ticks of its shortest win, if that is proved.
+        self.optimal_ticks = optimal_ticks
+
+    @property
+    def name(self) -> str:
+        """Its name in messages."""
+        return self._native.name
+
+    @property
+    def digest(self) -> str:
+        """BLAKE3 of its canonical text, as hexadecimal digits."""
+        return self._native.digest
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Columns and rows."""
+        return self._native.columns, self._native.rows
+
+    @property
+    def text(self) -> str:
+        """The canonical text: rows of equal length, each with a newline."""
+        return self._native.text
+
+    def describe(self) -> list[str]:
+        """What is proved of the level, a sentence each."""
+        return self._native.describe()
+
+    def start(self, seed: str) -> State:
+        """The state before the first tick. ``seed`` is a text to derive the game's chance from; 64 hexadecimal digits are a seed
+        itself.
+        """
+        return State(self._native.start(seed))
+
+    def _repr_html_(self) -> str:
+        return self.start("preview")._repr_html_()
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+
+class Game:
+    """A compiled game with the levels that come with it."""
+
+    __slots__ = ("_native", "id", "levels", "title")
+
+    def __init__(
+        self,
+        source: str,
+        levels: Sequence[str] = (),
+        *,
+        name: str = "game.vgdl",
+        id: str | None = None,
+        title: str | None = None,
+        as_reference: bool = False,
+    ) -> None:
+        """Compiles a game and checks its levels.
+
+        Args:
+            source: the game as VGDL.
+            levels: the texts of its levels, by number.
+            name: its name in messages.
+            id: its name in logs and tables.
+            title: its title.
+            as_reference: overlook the faults that the reference engine overlooks.
+
+        Raises:
+            VgdlError: the game or a level has problems. The exception prints like the messages of ``arcade``.
+        """
+        self._native = _native.Game(source, name=name, as_reference=as_reference)
+        self.id = id or Path(name).stem
+        self.title = title or self.id
+        #: The levels, by number.
+        self.levels: list[Level] = []
+        for text in levels:
+            self.level(text)
+
+    def level(self, text: str, *, name: str | None = None, optimal_ticks: int | None = None) -> Level:
+        """Checks the text of a level, adds it to :attr:`levels` and returns it.
+
+        Raises:
+            VgdlError: the level has problems.
+        """
+        number = len(self.levels)
+        native = self._native.level(text, name=name or f"lvl{number}.txt")
+        level = Level(native, number, optimal_ticks)
+        self.levels.append(level)
+        return level
+
+    @property
+    def name(self) -> str:
+        """Its name in messages."""
+        return self._native.name
+
+    @property
+    def source(self) -> str:
+        """The text of the game."""
+        return self._native.source
+
+    @property
+    def digest(self) -> str:
+        """BLAKE3 of the canonical print without comments, as hexadecimal digits."""
+        return self._native.digest
+
+    @property
+    def actions(self) -> list[str]:
+        """The actions that can do something in this game, ``nil`` first: action ``i`` of the environments is ``actions[i]``."""
+        return self._native.actions
+
+    @property
+    def types(self) -> list[str]:
+        """The names of the sprite types that players can see, in the order of planes."""
+        return self._native.types
+
+    @property
+    def symbols(self) -> dict[str, str]:
+        """The character of each of these types on boards of symbols; ``.`` for floors."""
+        return dict(self._native.symbols)
+
+    @property
+    def time_limit(self) -> int:
+        """The most ticks of an episode."""
+        return self._native.time_limit
+
+    @property
+    def is_deterministic(self) -> bool:
+        """True if the game draws no random numbers."""
+        return self._native.is_deterministic
+
+    @property
+    def warnings(self) -> list[dict[str, Any]]:
+        """What is legal in the text but surely not intended: ``code``, ``message``, ``line``, ``column``, ``help`` each."""
+        return self._native.warnings
+
+    def describe(self) -> str:
+        """The rules in plain English."""
+        return self._native.describe()
+
+    def facts(self) -> dict[str, Any]:
+        """The taxonomy of the game, and what is proved of its rules."""
+        facts: dict[str, Any] = json.loads(self._native.facts())
+        return facts
+
+    def _level_texts(self) -> list[tuple[int, str, int | None]]:
+        return [(level.number, level.text, level.optimal_ticks) for level in self.levels]
+
+    def _repr_html_(self) -> str:
+        board = self.levels[0]._repr_html_() if self.levels else ""
+        return f"<h4>{_escaped(self.title)}</h4>{board}<pre>{_escaped(self.describe())}</pre>"
+
+    def __repr__(self) -> str:
+        return f"<Game {self.id} {self.digest[:8]}, {len(self.levels)} levels>"
+
+
+@dataclass(frozen=True)
+class CorpusGame:
+    """A hand-written game of the corpus."""
+
+    name: str
+    source: str = field(repr=False)
+    levels: tuple[str, ...] = field(repr=False)
+    card: dict[str, Any] = field(repr=False)
+
+    def compile(self) -> Game:
+        """The compiled game."""
+        title = str(self.card.get("title", self.name))
+        return Game(self.source, self.levels, name=f"{self.name}/game.vgdl", id=self.name, title=title)
+
+
+@cache
+def corpus() -> dict[str, CorpusGame]:
+    """The games of the corpus, by name. The package carries them."""
+    return {
+        name: CorpusGame(name, source, tuple(levels), tomllib.loads(card))
+        for name, source, levels, card in _native.corpus()
+    }
+
+
+def load(game: str | Path, *, as_reference: bool = False) -> Game:
+    """Loads a game: a ``.vgdl`` or ``.txt`` file, a folder with ``game.vgdl`` or ``game.txt`` and ``lvl0.txt`` …, or the name of a
+    corpus game. Levels beside a file are loaded with it if the file is called ``game``.
+
+    Raises:
+        FileNotFoundError: there is no such file, folder or corpus game.
+        VgdlError: the game or one of its levels has problems.
+    """
+    path = Path(game)
+    if path.is_dir():
+        found = [path / name for name in ("game.vgdl", "game.txt") if (path / name).is_file()]
+        if not found:
+            raise FileNotFoundError(f"{path}: no game.vgdl or game.txt in this folder")
+        path = found[0]
+    elif not path.exists():
+        if str(game) in corpus():
+            return corpus()[str(game)].compile()
+        raise FileNotFoundError(f"{game}: there is no such file, folder or corpus game")
+    beside = _level_files(path.parent) if path.stem == "game" else []
+    id = path.parent.resolve().name if path.stem == "game" else path.stem
+    loaded = Game(path.read_text("utf-8"), name=str(path), id=id, as_reference=as_reference)
+    for file in beside:
+        loaded.level(file.read_text("utf-8"), name=str(file))
+    return loaded
+
+
+def _level_files(folder: Path) -> list[Path]:
+    numbered = [(file.stem.removeprefix("lvl"), file) for file in folder.glob("lvl*.txt")]
+    return [file for _, file in sorted((int(number), file) for number, file in numbered if number.isdigit())]
+
+
+def picture_html(png: bytes, title: str) -> str:
+    """An image element with the picture in it."""
+    data = base64.b64encode(png).decode("ascii")
+    return f'<img alt="{_escaped(title)}" title="{_escaped(title)}" src="data:image/png;base64,{data}">'
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")

@@ -1,0 +1,472 @@
+"""Environments for Gymnasium: ``InfiniteArcade/Game-v0``, alone and in vectors.
+
+>>> import gymnasium, infinite_arcade.gymnasium
+>>> env = gymnasium.make("InfiniteArcade/Game-v0", game="hailglass", level=0)
+>>> envs = gymnasium.make_vec("InfiniteArcade/Game-v0", num_envs=4096, game="hailglass")
+
+Importing this module registers the id; ``gymnasium.make("infinite_arcade.gymnasium:InfiniteArcade/Game-v0", …)`` imports it too.
+
+Observations are one of
+
+- ``planes``: ``[types][rows][columns]``, uint8, 1 where a sprite of the type is; the types are ``env.unwrapped.planes``;
+- ``symbols``: ``[rows][columns]``, uint8, the character of the uppermost sprite (ASCII); ``env.unwrapped.game.symbols`` explains them;
+- ``rgb``: ``[rows × cell][columns × cell][3]``, uint8, drawn by the renderer of the suite.
+
+Levels of different sizes lie at the top left of the largest. Action ``i`` is ``game.actions[i]``; an action that is not available in
+a state does nothing. The reward is the change of the score, or ±1 at the end with ``reward="outcome"``.
+
+Seeds. ``reset(seed=s)`` derives the seed of the game's chance from ``s`` by hashing; each further ``reset()`` is the next episode of
+``s``. ``reset(seed=[…])`` of a vector gives each environment its own, and the environment plays what a single one plays; a single
+number gives environment ``i`` the seed ``child("lane", i)`` of it. ``info["seed"]`` is the seed of the episode: with it, the level and
+the actions, ``Level.start`` plays the same episode again. ``reset(options={"seed": "<64 hexadecimal digits>"})`` plays that episode.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, SupportsFloat
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from gymnasium.utils import seeding
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from . import _native
+from .games import Game, Level, State, load
+
+__all__ = ["GameEnv", "GameVectorEnv", "register"]
+
+ENV_ID = "InfiniteArcade/Game-v0"
+
+#: The modes of vectors, by their names in the extension.
+_MODES = {
+    AutoresetMode.NEXT_STEP: "next-step",
+    AutoresetMode.SAME_STEP: "same-step",
+    AutoresetMode.DISABLED: "disabled",
+}
+
+Board = NDArray[np.uint8]
+
+
+class _Lanes:
+    """Lanes with the buffers that they write to."""
+
+    def __init__(
+        self,
+        game: str | Path | Game,
+        level: int | Sequence[int] | None,
+        count: int,
+        *,
+        observation: str,
+        cell: int,
+        max_steps: int | None,
+        reward: str,
+        mode: AutoresetMode,
+        threads: int,
+    ) -> None:
+        if reward not in ("score", "outcome"):
+            raise ValueError(f"there is no reward `{reward}`; there are score, outcome")
+        self.game = game if isinstance(game, Game) else load(game)
+        self.levels = _chosen(self.game, level)
+        self.by_outcome = reward == "outcome"
+        self.native = _native.Lanes(
+            [level._native for level in self.levels],
+            count,
+            observation=observation,
+            cell=cell,
+            max_steps=self.game.time_limit if max_steps is None else max_steps,
+            autoreset=_MODES[mode],
+            threads=threads,
+        )
+        self.shape = tuple(self.native.shape)
+        self.observations: Board = np.zeros((count, *self.shape), np.uint8)
+        self.flat = self.observations.reshape(-1)
+        self.rewards = np.zeros(count, np.float64)
+        self.terminated = np.zeros(count, np.bool_)
+        self.truncated = np.zeros(count, np.bool_)
+        same_step = mode == AutoresetMode.SAME_STEP
+        self.last: Board | None = np.zeros_like(self.observations) if same_step else None
+        self.flat_last = None if self.last is None else self.last.reshape(-1)
+
+    def space(self, observation: str) -> gymnasium.Space[Board]:
+        high = 1 if observation == "planes" else 255
+        space: gymnasium.Space[Any] = spaces.Box(0, high, self.shape, np.uint8)
+        return space
+
+    def step(self, actions: NDArray[np.int64]) -> int:
+        return self.native.step(
+            actions, self.flat, self.rewards, self.terminated, self.truncated, self.flat_last
+        )
+
+    def outcome_rewards(self, outcomes: Sequence[str]) -> NDArray[np.float64]:
+        values = {"won": 1.0, "lost": -1.0}
+        ended = (values.get(outcome, 0.0) for outcome in outcomes)
+        return np.where(self.terminated, np.fromiter(ended, np.float64, len(outcomes)), 0.0)
+
+
+class GameEnv(gymnasium.Env[Board, np.int64]):
+    """A game as an environment.
+
+    ``info`` has ``seed``, ``level``, ``score``, ``outcome`` and, after a reset, nothing else.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20}
+
+    def __init__(
+        self,
+        game: str | Path | Game,
+        level: int | Sequence[int] | None = 0,
+        *,
+        observation: str = "planes",
+        cell: int = 8,
+        max_steps: int | None = None,
+        reward: str = "score",
+        render_mode: str | None = None,
+    ) -> None:
+        """Creates it.
+
+        Args:
+            game: a game, or what :func:`infinite_arcade.load` takes.
+            level: the level; or several, or None for all, of which :meth:`reset` with ``options={"level": i}`` chooses the ``i``-th.
+            observation: ``planes``, ``symbols`` or ``rgb``.
+            cell: pixels of a cell in pictures.
+            max_steps: the steps after which an episode is truncated; by default the limit of the game.
+            reward: ``score`` or ``outcome``.
+            render_mode: ``rgb_array`` or ``ansi``.
+
+        Raises:
+            VgdlError: the game has problems.
+            ValueError: an argument has no meaning.
+        """
+        self._lanes = _Lanes(
+            game,
+            level,
+            1,
+            observation=observation,
+            cell=cell,
+            max_steps=max_steps,
+            reward=reward,
+            mode=AutoresetMode.DISABLED,
+            threads=1,
+        )
+        self.game = self._lanes.game
+        self.observation_space = self._lanes.space(observation)
+        self.action_space = spaces.Discrete(len(self.game.actions))
+        self.render_mode = render_mode
+        self._cell = cell
+        self._is_seeded = False
+        self._has_started = False
+
+    @property
+    def planes(self) -> list[str]:
+        """The names of the planes."""
+        return self._lanes.native.planes
+
+    @property
+    def state(self) -> State:
+        """A copy of the current state, with the game's true future: for tests and planners, not for agents."""
+        return State(self._lanes.native.state(0))
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Board, dict[str, Any]]:
+        """Starts an episode. ``options``: ``level``, an index into the levels of the environment; ``seed``, the seed of the episode
+        itself.
+        """
+        super().reset(seed=seed)
+        options = options or {}
+        native = self._lanes.native
+        if "level" in options:
+            native.choose(0, int(options["level"]))
+        if seed is not None or not self._is_seeded:
+            native.seed(0, _text_of(seed if seed is not None else self.np_random_seed), False)
+            self._is_seeded = True
+        exact = "seed" in options
+        if exact:
+            native.seed(0, str(options["seed"]), True)
+        native.reset(np.ones(1, np.bool_), self._lanes.flat, exact)
+        self._lanes.terminated[0] = self._lanes.truncated[0] = False
+        self._has_started = True
+        return self._observation(), self._info()
+
+    def step(self, action: np.int64 | int) -> tuple[Board, SupportsFloat, bool, bool, dict[str, Any]]:
+        """Plays one tick.
+
+        Raises:
+            gymnasium.error.ResetNeeded: the episode is over, or none was started.
+        """
+        lanes = self._lanes
+        if not self._has_started or lanes.terminated[0] or lanes.truncated[0]:
+            self._refuse()
+        lanes.step(np.array([action], np.int64))
+        reward = float(lanes.rewards[0])
+        if lanes.by_outcome:
+            reward = float(lanes.outcome_rewards(lanes.native.outcomes)[0])
+        terminated, truncated = bool(lanes.terminated[0]), bool(lanes.truncated[0])
+        return self._observation(), reward, terminated, truncated, self._info()
+
+    def render(self) -> Any:
+        """The board as pixels, or as text."""
+        match self.render_mode:
+            case "rgb_array":
+                return self.state.rgb(self._cell)
+            case "ansi":
+                return self.state.full_text()
+            case _:
+                return None
+
+    def _refuse(self) -> None:
+        raise gymnasium.error.ResetNeeded("the episode is over, or none was started: call reset()")
+
+    def _observation(self) -> Board:
+        copy: Board = self._lanes.observations[0].copy()
+        return copy
+
+    def _info(self) -> dict[str, Any]:
+        native = self._lanes.native
+        level = self._lanes.levels[native.levels[0]].number
+        return {
+            "seed": native.seeds[0],
+            "level": level,
+            "score": native.scores[0],
+            "outcome": native.outcomes[0],
+        }
+
+
+class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
+    """Many episodes of a game, stepped together outside the interpreter's lock.
+
+    Environment ``i`` plays level ``i % len(levels)``. Observations, rewards and flags are written into arrays that are made once; with
+    ``copy=False`` these arrays are returned themselves, read-only, and hold until the next step.
+
+    ``info`` is empty, but for ``final_obs`` and ``final_info`` in same-step mode; :attr:`seeds`, :attr:`outcomes`, :attr:`scores` and
+    :attr:`hashes` tell of the current states.
+    """
+
+    metadata: dict[str, Any]
+
+    def __init__(
+        self,
+        game: str | Path | Game,
+        level: int | Sequence[int] | None = None,
+        *,
+        num_envs: int = 1,
+        observation: str = "planes",
+        cell: int = 8,
+        max_steps: int | None = None,
+        max_episode_steps: int | None = None,
+        reward: str = "score",
+        autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+        threads: int = 0,
+        copy: bool = True,
+        render_mode: str | None = None,
+    ) -> None:
+        """Creates it.
+
+        Args:
+            game: a game, or what :func:`infinite_arcade.load` takes.
+            level: the level; several; or None for all.
+            num_envs: the number of environments.
+            observation: ``planes``, ``symbols`` or ``rgb``.
+            cell: pixels of a cell in pictures.
+            max_steps: the steps after which an episode is truncated; by default the limit of the game.
+            max_episode_steps: the same, as :func:`gymnasium.make_vec` calls it.
+            reward: ``score`` or ``outcome``.
+            autoreset_mode: when an episode that is over is followed by the next.
+            threads: the number of threads; 0 for all cores. Changes no result.
+            copy: return copies of observations.
+            render_mode: ``rgb_array`` or ``ansi``.
+
+        Raises:
+            VgdlError: the game has problems.
+            ValueError: an argument has no meaning.
+        """
+        mode = AutoresetMode(autoreset_mode)
+        self.metadata = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20, "autoreset_mode": mode}
+        self.render_mode = render_mode
+        self.num_envs = num_envs
+        self._lanes = _Lanes(
+            game,
+            level,
+            num_envs,
+            observation=observation,
+            cell=cell,
+            max_steps=max_episode_steps if max_steps is None else max_steps,
+            reward=reward,
+            mode=mode,
+            threads=threads,
+        )
+        self.game = self._lanes.game
+        self.single_observation_space = self._lanes.space(observation)
+        self.single_action_space = spaces.Discrete(len(self.game.actions))
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self._mode, self._copy, self._cell = mode, copy, cell
+        self._shown = self._lanes.observations.view()
+        self._shown.flags.writeable = False
+        self._is_seeded = self._has_started = False
+
+    @property
+    def planes(self) -> list[str]:
+        """The names of the planes."""
+        return self._lanes.native.planes
+
+    @property
+    def seeds(self) -> list[str]:
+        """The seeds of the current episodes."""
+        return self._lanes.native.seeds
+
+    @property
+    def levels(self) -> list[int]:
+        """The numbers of the levels that are played."""
+        return [self._lanes.levels[at].number for at in self._lanes.native.levels]
+
+    @property
+    def hashes(self) -> list[str]:
+        """The hashes of the current states."""
+        return self._lanes.native.hashes
+
+    @property
+    def outcomes(self) -> list[str]:
+        """The outcomes of the current states."""
+        return self._lanes.native.outcomes
+
+    @property
+    def scores(self) -> list[float]:
+        """The scores of the current states."""
+        return self._lanes.native.scores
+
+    def state(self, index: int) -> State:
+        """A copy of the current state of an environment, with the game's true future."""
+        return State(self._lanes.native.state(index))
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Board, dict[str, Any]]:
+        """Starts an episode in every environment, or in those of ``options["reset_mask"]``. ``options["seed"]``: the seeds of the
+        episodes themselves, one for each environment.
+
+        Raises:
+            ValueError: the mask or the seeds are not one for each environment.
+        """
+        options = options or {}
+        native, lanes = self._lanes.native, self._lanes
+        mask = np.ones(self.num_envs, np.bool_)
+        if "reset_mask" in options:
+            mask = np.asarray(options["reset_mask"])
+            if mask.shape != (self.num_envs,) or mask.dtype != np.bool_ or not mask.any():
+                raise ValueError(f"`reset_mask` has to be {self.num_envs} booleans, one of them True")
+        super().reset(seed=seed if isinstance(seed, int) else None)
+        if seed is None and not self._is_seeded:
+            if self._np_random is None:
+                self._np_random, self._np_random_seed = seeding.np_random()
+            seed = self.np_random_seed
+        if isinstance(seed, (int, np.integer)):
+            native.seed_all(_text_of(int(seed)))
+        elif seed is not None:
+            if len(seed) != self.num_envs:
+                raise ValueError(f"{len(seed)} seeds are given for {self.num_envs} environments")
+            for at, own in enumerate(seed):
+                if own is not None:
+                    native.seed(at, _text_of(own), False)
+                elif not self._is_seeded:
+                    native.seed(at, _text_of(seeding.np_random()[1]), False)
+        self._is_seeded = self._has_started = True
+        exact = "seed" in options
+        if exact:
+            if len(options["seed"]) != self.num_envs:
+                raise ValueError(f"{len(options['seed'])} seeds are given for {self.num_envs} environments")
+            for at, own in enumerate(options["seed"]):
+                if mask[at]:
+                    native.seed(at, str(own), True)
+        native.reset(mask, lanes.flat, exact)
+        lanes.terminated[mask] = lanes.truncated[mask] = False
+        return self._observations(), {}
+
+    def step(
+        self, actions: NDArray[np.int64]
+    ) -> tuple[Board, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """Plays one tick in every environment.
+
+        Raises:
+            gymnasium.error.ResetNeeded: nothing was started, or an episode is over and nothing resets it (disabled mode).
+            ValueError: the actions are not one for each environment.
+        """
+        lanes = self._lanes
+        if not self._has_started:
+            raise gymnasium.error.ResetNeeded("no episode was started: call reset()")
+        if self._mode == AutoresetMode.DISABLED and (lanes.terminated.any() or lanes.truncated.any()):
+            raise gymnasium.error.ResetNeeded("episodes are over: call reset() with their `reset_mask`")
+        ended = lanes.step(np.ascontiguousarray(actions, np.int64))
+        info: dict[str, Any] = {}
+        if ended and lanes.last is not None:
+            info = self._final(lanes.last)
+        rewards = lanes.rewards.copy()
+        if lanes.by_outcome:
+            rewards = self._outcome_rewards(info)
+        return self._observations(), rewards, lanes.terminated.copy(), lanes.truncated.copy(), info
+
+    def render(self) -> tuple[Any, ...] | None:
+        """The boards as pixels, or as text."""
+        match self.render_mode:
+            case "rgb_array":
+                return tuple(self.state(at).rgb(self._cell) for at in range(self.num_envs))
+            case "ansi":
+                return tuple(self.state(at).full_text() for at in range(self.num_envs))
+            case _:
+                return None
+
+    def _observations(self) -> Board:
+        return self._lanes.observations.copy() if self._copy else self._shown
+
+    def _final(self, last: Board) -> dict[str, Any]:
+        over = self._lanes.terminated | self._lanes.truncated
+        boards = np.full(self.num_envs, None, dtype=object)
+        scores = np.zeros(self.num_envs)
+        outcomes = np.full(self.num_envs, None, dtype=object)
+        for at in np.flatnonzero(over):
+            boards[at] = last[at].copy()
+            scores[at], outcomes[at] = self._lanes.native.last(int(at))
+        final = {"score": scores, "_score": over, "outcome": outcomes, "_outcome": over}
+        return {"final_obs": boards, "_final_obs": over, "final_info": final, "_final_info": over}
+
+    def _outcome_rewards(self, info: dict[str, Any]) -> NDArray[np.float64]:
+        outcomes: Sequence[str] = self._lanes.native.outcomes
+        if "final_info" in info:
+            outcomes = list(info["final_info"]["outcome"])
+        return self._lanes.outcome_rewards(outcomes)
+
+
+def _text_of(seed: int | None) -> str:
+    """The text that a seed is derived from."""
+    return str(seed)
+
+
+def _chosen(game: Game, level: int | Sequence[int] | None) -> list[Level]:
+    numbers = range(len(game.levels)) if level is None else [level] if isinstance(level, int) else level
+    chosen = [found for number in numbers for found in game.levels if found.number == number]
+    if not chosen or len(chosen) != len(list(numbers)):
+        there = [found.number for found in game.levels]
+        raise ValueError(f"{game.id} has the levels {there}, not {list(numbers)}")
+    return chosen
+
+
+def register() -> None:
+    """Registers ``InfiniteArcade/Game-v0``, once."""
+    if ENV_ID not in gymnasium.registry:
+        gymnasium.register(
+            ENV_ID,
+            entry_point="infinite_arcade.gymnasium:GameEnv",
+            vector_entry_point="infinite_arcade.gymnasium:GameVectorEnv",
+            disable_env_checker=False,
+        )
+
+
+register()

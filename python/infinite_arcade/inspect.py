@@ -1,0 +1,405 @@
+"""Evaluation tasks for Inspect AI: ``infinite_arcade/starter``, ``infinite_arcade/snapshot``, ``infinite_arcade/corpus``.
+
+A sample is a level, and its id is the digest of the level; on the track ``discover`` it is a series of levels, and its id that of the
+last one. An epoch is a run. The suite itself plays: its prompts, its reader of answers and its log are those of
+``arcade evaluate``, and Inspect has the requests answered, with its limits, retries and caches. Episodes of the same ``seed``, level
+and run have the same chance as there, so that results of both doors can be paired.
+
+The log of each episode is kept in the sample's store. The scorers play it again, compare every state hash, score and outcome, and
+refuse a log that differs from the replay or is of another episode. With ``journal=DIR``, logs are written there as the episode goes on, and
+an evaluation that is retried continues them: no answer is asked for twice.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from base64 import b64encode
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import anyio.to_thread
+from inspect_ai import Task, task
+from inspect_ai.dataset import MemoryDataset, Sample
+from inspect_ai.model import (
+    ChatMessage,
+    ChatMessageAssistant,
+    ChatMessageSystem,
+    ChatMessageUser,
+    Content,
+    ContentImage,
+    ContentText,
+    GenerateConfig,
+    ModelAPI,
+    ModelOutput,
+    ModelUsage,
+    get_model,
+    modelapi,
+)
+from inspect_ai.scorer import Score, Scorer, Target, mean, scorer, stderr
+from inspect_ai.solver import Generate, Solver, TaskState, solver
+from inspect_ai.tool import ToolChoice, ToolInfo
+from inspect_ai.util import LimitExceededError
+
+from . import _native
+from ._native import ArcadeError, LogError, __version__
+from .games import Game, corpus as corpus_games, load
+from .snapshots import open_snapshot
+
+__all__ = ["corpus", "game", "play", "points", "samples", "scripted", "snapshot", "starter", "win"]
+
+#: The name under which the logs of a sample are stored.
+LOGS = "infinite_arcade_logs"
+
+#: The reasons of an answer's end, by their names in logs.
+_FINISHES = {
+    "stop": "stop",
+    "max_tokens": "length",
+    "model_length": "length",
+    "content_filter": "refusal",
+}
+
+
+@task
+def snapshot(
+    path: str,
+    games: str | list[str] | None = None,
+    levels: int | list[int] | None = None,
+    track: str | None = None,
+    commit: int | str = 1,
+    mode: str | None = None,
+    max_steps: int = 1000,
+    seed: str = "evaluate",
+    reasks: int = 1,
+    journal: str | None = None,
+) -> Task:
+    """The levels of a release's folder.
+
+    Args:
+        path: the folder; its digests are checked first.
+        games: only these games, by id.
+        levels: only these levels, by number.
+        track: ``told``, ``masked``, ``discover`` or ``vision`` (``arcade docs tracks``).
+        commit: the actions that the player commits to at each look; ``all`` for the whole episode.
+        mode: ``zero-shot`` or ``contextual``.
+        max_steps: the most actions of an episode.
+        seed: the text that the games' chance is derived from, the same for every player.
+        reasks: how often an answer without a usable action is asked for again.
+        journal: a folder for the logs of episodes, which retries continue.
+    """
+    release = open_snapshot(path)
+    found = (found.compile() for found in release.games())
+    options = _options(track, commit, mode, max_steps, seed, reasks)
+    return _task(
+        found, games, levels, options, journal, {"snapshot": release.root, "release": release.name}
+    )
+
+
+@task
+def starter(path: str = "releases/starter", **options: Any) -> Task:
+    """The release ``starter``, which ``arcade release`` mints into ``releases/starter``; see :func:`snapshot`."""
+    if not Path(path).is_dir():
+        raise ArcadeError(f"{path}: there is no such release; `arcade release` mints it, or name its folder with -T path=DIR")
+    return snapshot(path, **options)
+
+
+@task
+def corpus(
+    games: str | list[str] | None = None,
+    levels: int | list[int] | None = None,
+    track: str | None = None,
+    commit: int | str = 1,
+    mode: str | None = None,
+    max_steps: int = 1000,
+    seed: str = "evaluate",
+    reasks: int = 1,
+    journal: str | None = None,
+) -> Task:
+    """The hand-written games of the corpus, which the package carries; see :func:`snapshot`."""
+    wanted = _listed(games)
+    found = (entry.compile() for name, entry in corpus_games().items() if wanted is None or name in wanted)
+    options = _options(track, commit, mode, max_steps, seed, reasks)
+    return _task(found, games, levels, options, journal, {})
+
+
+@task
+def game(
+    path: str,
+    levels: int | list[int] | None = None,
+    track: str | None = None,
+    commit: int | str = 1,
+    mode: str | None = None,
+    max_steps: int = 1000,
+    seed: str = "evaluate",
+    reasks: int = 1,
+    journal: str | None = None,
+) -> Task:
+    """A game of yours: a file or folder, or the name of a corpus game; see :func:`snapshot`."""
+    options = _options(track, commit, mode, max_steps, seed, reasks)
+    return _task([load(path)], None, levels, options, journal, {})
+
+
+def samples(
+    games: Iterable[Game],
+    *,
+    games_wanted: Sequence[str] | None = None,
+    levels_wanted: Sequence[int] | None = None,
+    options: dict[str, Any] | None = None,
+) -> Iterator[Sample]:
+    """The samples of games. Each holds the texts of its game and levels, so that its log can be replayed without the release."""
+    options = options or _options(None, 1, None, 1000, "evaluate", 1)
+    ids = set[str]()
+    for own in games:
+        if games_wanted is not None and own.id not in games_wanted:
+            continue
+        levels = [level for level in own.levels if levels_wanted is None or level.number in levels_wanted]
+        texts = [(level.number, level.text, level.optimal_ticks) for level in levels]
+        by_number = {level.number: level for level in levels}
+        for group, numbers in enumerate(_native.Series.plan(own._native, own.id, texts, track=options["track"])):
+            digest = by_number[numbers[-1]].digest
+            id = digest if digest not in ids else f"{digest}-{own.id}"
+            ids.add(id)
+            shown = ", ".join(map(str, numbers))
+            yield Sample(
+                id=id,
+                input=f"Play {own.title} ({own.id}), level {shown}.",
+                target="win",
+                metadata={
+                    "game": own.id,
+                    "title": own.title,
+                    "game_digest": own.digest,
+                    "source": own.source,
+                    "as_reference": own._native.as_reference,
+                    "level_texts": texts,
+                    "level_digests": [by_number[number].digest for number in numbers],
+                    "levels": numbers,
+                    "group": group,
+                    **options,
+                },
+            )
+
+
+@solver
+def play(journal: str | None = None) -> Solver:
+    """Plays the episodes of a sample with the model: prompts, answers and logs are those of the suite."""
+
+    async def solve(state: TaskState, generate: Generate) -> TaskState:
+        options, model = state.metadata, get_model()
+        own = _game_of(options)
+        folder = None if journal is None else Path(journal)
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True)
+        series = _native.Series(
+            own,
+            options["game"],
+            _texts_of(options),
+            group=options["group"],
+            run=state.epoch - 1,
+            seed=options["seed"],
+            max_steps=options["max_steps"],
+            commit=options["commit"],
+            track=options["track"],
+            prompts=options["prompts"],
+            reasks=options["reasks"],
+            folder=folder,
+        )
+        try:
+            while (request := await anyio.to_thread.run_sync(series.next_request)) is not None:
+                state.messages = [_message(*message) for message in request]
+                try:
+                    output = await model.generate(state.messages)
+                except LimitExceededError as error:
+                    series.fail(str(error), kind="budget")
+                    raise
+                except BaseException as error:
+                    series.fail(f"{type(error).__name__}: {error}")
+                    raise
+                state.output = output
+                if output.choices:
+                    state.messages.append(output.message)
+                _answer(series, output)
+        finally:
+            state.store.set(LOGS, _logs(series))
+        halted = [log["halted"] for log in state.store.get(LOGS) if log["halted"]]
+        if halted:
+            raise ArcadeError(f"an episode was aborted: {halted[0]}")
+        state.completed = True
+        return state
+
+    return solve
+
+
+@scorer(metrics=[mean(), stderr(cluster="game")])
+def win() -> Scorer:
+    """The share of levels won, by a replay of the logs; levels for practice do not count. Errors are clustered by game."""
+
+    async def score(state: TaskState, target: Target) -> Score:
+        played = _replayed(state)
+        counted = [one for one in played if not one["practice"]]
+        if not counted or any(not one["ended"] for one in counted):
+            return Score.unscored(reason="episode_open", explanation="the episode was not played to its end")
+        won = sum(one["outcome"] == "won" for one in counted)
+        return Score(
+            value=won / len(counted),
+            answer=", ".join(one["outcome"] for one in counted),
+            explanation="; ".join(
+                f"level {one['level']}: {one['outcome']} after {one['steps']} steps with score {one['score']}" for one in counted
+            ),
+            metadata={"episodes": played},
+        )
+
+    return score
+
+
+@scorer(metrics=[mean(), stderr(cluster="game")])
+def points() -> Scorer:
+    """The mean score of the games, by a replay of the logs."""
+
+    async def score(state: TaskState, target: Target) -> Score:
+        counted = [one for one in _replayed(state) if not one["practice"]]
+        if not counted or any(not one["ended"] for one in counted):
+            return Score.unscored(reason="episode_open", explanation="the episode was not played to its end")
+        return Score(value=sum(float(one["score"]) for one in counted) / len(counted))
+
+    return score
+
+
+@modelapi(name="scripted")
+def scripted() -> type[ModelAPI]:
+    """A model without a network, for tests: ``scripted/left-up`` answers with one of these actions, by the digest of the prompt."""
+    return _Scripted
+
+
+class _Scripted(ModelAPI):
+    async def generate(
+        self, input: list[ChatMessage], tools: list[ToolInfo], tool_choice: ToolChoice, config: GenerateConfig
+    ) -> ModelOutput:
+        actions = self.model_name.split("-")
+        digest = hashlib.blake2b(input[-1].text.encode(), digest_size=8).digest()
+        answer = f"ACTION: {actions[int.from_bytes(digest) % len(actions)]}"
+        output = ModelOutput.from_content(self.model_name, answer)
+        words = sum(len(message.text.split()) for message in input)
+        output.usage = ModelUsage(input_tokens=words, output_tokens=2, total_tokens=words + 2)
+        return output
+
+
+def _task(
+    games: Iterable[Game],
+    games_wanted: str | list[str] | None,
+    levels_wanted: int | list[int] | None,
+    options: dict[str, Any],
+    journal: str | None,
+    facts: dict[str, Any],
+) -> Task:
+    levels = [levels_wanted] if isinstance(levels_wanted, int) else levels_wanted
+    found = list(samples(games, games_wanted=_listed(games_wanted), levels_wanted=levels, options=options))
+    if not found:
+        raise ValueError("there is no such game or level to play")
+    return Task(
+        dataset=MemoryDataset(found, name="infinite-arcade"),
+        solver=play(journal),
+        scorer=[win(), points()],
+        version=__version__,
+        metadata={"semantics": _native.SEMANTICS, "suite": __version__, **facts, **options},
+    )
+
+
+def _options(
+    track: str | None, commit: int | str, mode: str | None, max_steps: int, seed: str, reasks: int
+) -> dict[str, Any]:
+    if mode not in (None, "zero-shot", "contextual"):
+        raise ValueError(f"there is no mode `{mode}`; there are zero-shot, contextual")
+    if mode is not None and track is not None:
+        raise ValueError("`mode` contradicts `track`, which sets it; leave out one of the two")
+    prompts = None if mode is None else json.dumps({"mode": mode})
+    return {
+        "track": track,
+        "commit": str(commit),
+        "prompts": prompts,
+        "max_steps": max_steps,
+        "seed": seed,
+        "reasks": reasks,
+    }
+
+
+def _listed(names: str | list[str] | None) -> list[str] | None:
+    return names.split(",") if isinstance(names, str) else names
+
+
+def _game_of(options: dict[str, Any]) -> _native.Game:
+    return _native.Game(options["source"], name=options["game"], as_reference=options["as_reference"])
+
+
+def _texts_of(options: dict[str, Any]) -> list[tuple[int, str, int | None]]:
+    return [(number, text, optimal) for number, text, optimal in options["level_texts"]]
+
+
+def _message(role: str, text: str, image: bytes | None) -> ChatMessage:
+    match role:
+        case "system":
+            return ChatMessageSystem(content=text)
+        case "assistant":
+            return ChatMessageAssistant(content=text)
+        case _ if image is not None:
+            url = "data:image/png;base64," + b64encode(image).decode("ascii")
+            content: list[Content] = [ContentText(text=text), ContentImage(image=url)]
+            return ChatMessageUser(content=content)
+        case _:
+            return ChatMessageUser(content=text)
+
+
+def _answer(series: _native.Series, output: ModelOutput) -> None:
+    usage = output.usage
+    series.answer(
+        output.completion,
+        finish=_FINISHES.get(output.stop_reason, "other") if output.choices else "other",
+        input_tokens=usage.input_tokens if usage else None,
+        output_tokens=usage.output_tokens if usage else None,
+        served_by=output.model or None,
+        latency_ms=(output.time or 0.0) * 1000,
+    )
+
+
+def _logs(series: _native.Series) -> list[dict[str, Any]]:
+    """The logs of a series that is over, or has been aborted."""
+    try:
+        if series.next_request() is not None:
+            series.fail("the sample was cancelled")
+            series.next_request()
+        return series.results()
+    except (ArcadeError, ValueError):
+        return []
+
+
+def _replayed(state: TaskState) -> list[dict[str, Any]]:
+    """The results of the logs of a sample, each replayed on its game.
+
+    Raises:
+        LogError: a log differs from its replay, or is of another episode.
+    """
+    options, replayed = state.metadata, list[dict[str, Any]]()
+    own = _game_of(options)
+    logs: list[dict[str, Any]] = state.store.get(LOGS, [])
+    levels = [log["level"] for log in logs]
+    if levels != options["levels"][: len(levels)]:
+        raise LogError(f"the logs are of the levels {levels}, not of {options['levels']}")
+    for log in logs:
+        found: dict[str, Any] = json.loads(
+            _native.replay_log(
+                own,
+                options["game"],
+                _texts_of(options),
+                log["log"],
+                level=log["level"],
+                run=state.epoch - 1,
+                seed=options["seed"],
+                max_steps=options["max_steps"],
+                commit=options["commit"],
+                track=options["track"],
+            )
+        )
+        metrics = json.loads(_native.metrics_of_log(own, options["game"], _texts_of(options), log["log"]))
+        practice = bool(log["practice"])
+        replayed.append({"level": log["level"], "practice": practice, **found, "metrics": metrics})
+    return replayed

@@ -1,0 +1,95 @@
+"""Judging levels, and making levels and games."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from . import _native
+from .games import Game, Level
+
+__all__ = ["generate_games", "generate_levels", "validate"]
+
+
+def validate(level: Level, *, budget: int = 1_000_000, seed: str = "validate") -> dict[str, Any]:
+    """Judges a level by the criteria of a release, as ``arcade validate`` does.
+
+    Args:
+        level: the level.
+        budget: the forward-model calls that the criteria share.
+        seed: the text that the judges' chance is derived from.
+
+    Returns:
+        ``passes``; ``judgements``, each with ``criterion``, ``verdict`` and evidence; ``witness``, the winning episode, or None.
+    """
+    return _object(_native.validate(level._native, budget=budget, seed=seed))
+
+
+def generate_levels(
+    game: Game,
+    *,
+    method: str = "search",
+    count: int = 1,
+    seed: str = "levels",
+    difficulty: str | None = None,
+    size: tuple[int, int] | None = None,
+    min_solution: int | None = None,
+    sprites: Mapping[str, int] | None = None,
+) -> list[dict[str, Any]]:
+    """Makes levels that resemble those of the game; the same arguments give the same levels.
+
+    Args:
+        game: the game, with its levels as examples.
+        method: ``constructive``, ``search`` or ``evolutionary``.
+        count: the number of levels.
+        seed: the text that their chance is derived from.
+        difficulty: the label that each level has to get, such as ``hard``.
+        size: columns and rows.
+        min_solution: the ticks that the shortest win found takes at least.
+        sprites: the number of sprites of some types.
+
+    Returns:
+        Each level that could be made: ``text``, ``digest``, ``witness``, ``difficulty``, ``report``.
+
+    Raises:
+        ArcadeError: the game is none for the generator, or no level was accepted.
+        ValueError: there is no such method, difficulty or sprite type.
+    """
+    ranges = None if size is None else ((size[0], size[0]), (size[1], size[1]))
+    made = _native.generate_levels(
+        game._native,
+        [level._native for level in game.levels],
+        method=method,
+        count=count,
+        seed=seed,
+        difficulty=difficulty,
+        size=ranges,
+        min_solution=min_solution,
+        sprites=list((sprites or {}).items()),
+    )
+    levels: list[dict[str, Any]] = _object(made)["levels"]
+    return levels
+
+
+def generate_games(
+    *, method: str = "constructive", count: int = 1, levels: int = 5, seed: str = "games"
+) -> list[dict[str, Any]]:
+    """Makes games with levels, each won by a planner.
+
+    Returns:
+        Each game that could be made: ``source``, ``levels``, ``card``, ``witnesses``.
+
+    Raises:
+        ArcadeError: no game was accepted.
+        ValueError: there is no such method.
+    """
+    made: list[dict[str, Any]] = _object(
+        _native.generate_games(method=method, count=count, levels=levels, seed=seed)
+    )["games"]
+    return made
+
+
+def _object(text: str) -> dict[str, Any]:
+    value: dict[str, Any] = json.loads(text)
+    return value

@@ -1,0 +1,194 @@
+"""Minting and evaluating on a Ray cluster, with the same bytes as on one machine.
+
+Work is divided as the command line divides it: a release by ``--shard K/N`` and ``arcade merge``, an evaluation by its games. A node
+runs the command line and returns the files that it wrote; a task of a node that dies is given to another. No result depends on which
+node did what.
+
+``arcade`` has to be on the path of every node, in the same version, or be named.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import ray
+
+from ._native import ArcadeError
+from .games import Game, load
+
+__all__ = ["ActionLog", "End", "evaluate", "mint", "replay"]
+
+#: The files of a folder, by path.
+Files = dict[str, bytes]
+
+#: Logs of a task, at least.
+_LOGS_OF_A_TASK = 50
+
+
+@dataclass(frozen=True)
+class ActionLog:
+    """The actions of an episode. ``game`` is what :func:`infinite_arcade.load` takes, on every node; ``seed`` that of the episode."""
+
+    game: str
+    level: int
+    seed: str
+    actions: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class End:
+    """The end of an episode."""
+
+    hash: str
+    score: float
+    outcome: str
+
+
+def replay(logs: Sequence[ActionLog]) -> list[End]:
+    """Plays logs on the cluster, and returns their ends in the same order.
+
+    Raises:
+        FileNotFoundError: a node does not have a game.
+    """
+    _start()
+    parts = [list(logs[at : at + _LOGS_OF_A_TASK]) for at in range(0, len(logs), _LOGS_OF_A_TASK)]
+    task = ray.remote(_replay)
+    return [end for part in ray.get([task.remote(part) for part in parts]) for end in part]
+
+
+def mint(
+    recipe: str | Path, out: str | Path, *, shards: int, arcade: str = "arcade", jobs: int | None = None
+) -> None:
+    """Mints a release into ``out``, an absent folder: each of ``shards`` shards is a task.
+
+    Args:
+        recipe: the name of an embedded recipe, or a file here.
+        out: the release's folder.
+        shards: the number of shards.
+        arcade: the command line, on every node.
+        jobs: the threads of a task, for which it reserves as many cores; by default one.
+
+    Raises:
+        ArcadeError: the command line refuses, here or on a node; the message is its own.
+    """
+    _start()
+    path = Path(recipe)
+    source = (path.name, path.read_bytes()) if path.is_file() else (str(recipe), None)
+    task = ray.remote(num_cpus=jobs or 1, max_retries=-1)(_mint)
+    pending = [task.remote(source, number, shards, arcade, jobs or 1) for number in range(1, shards + 1)]
+    with tempfile.TemporaryDirectory() as folder:
+        places = []
+        for number, files in enumerate(ray.get(pending), 1):
+            places.append(Path(folder) / f"shard{number}")
+            _write(files, places[-1])
+        _run([arcade, "merge", *map(str, places), "--out", str(out), "-q"])
+
+
+def evaluate(
+    subject: str | Path,
+    out: str | Path,
+    *,
+    games: Sequence[str],
+    arguments: Sequence[str],
+    arcade: str = "arcade",
+    jobs: int | None = None,
+) -> None:
+    """Evaluates a player on games, each of which is a task, and writes the results folder that ``arcade evaluate`` writes; only the
+    times in the logs differ. The folder is checked by a resumption here, which replays every episode.
+
+    Args:
+        subject: a release's folder, on every node; or ``corpus``.
+        out: the results folder, absent.
+        games: the ids of the games, in the order of the subject.
+        arguments: further flags of ``arcade evaluate``: ``["--player", "mcts:100", "--runs", "5"]``.
+        arcade: the command line, on every node.
+        jobs: the concurrent episodes of a task, for which it reserves as many cores; by default one.
+
+    Raises:
+        ArcadeError: the command line refuses, here or on a node; the message is its own.
+    """
+    _start()
+    task = ray.remote(num_cpus=jobs or 1, max_retries=-1)(_evaluate)
+    pending = [task.remote(str(subject), game, list(arguments), arcade, jobs or 1) for game in games]
+    whole: dict[str, Any] | None = None
+    files: Files = {}
+    for part in ray.get(pending):
+        settings = json.loads(part.pop("evaluation.json"))
+        if whole is None:
+            whole = settings
+        else:
+            whole["games"] += settings["games"]
+        files |= part
+    if whole is None:
+        raise ArcadeError("there is no game to evaluate on")
+    files["evaluation.json"] = (json.dumps(whole, indent=2, ensure_ascii=False) + "\n").encode()
+    folder = Path(out)
+    if folder.exists() and any(folder.iterdir()):
+        raise ArcadeError(f"{folder}: the folder is not empty")
+    _write(files, folder)
+    flags = ["--games", ",".join(games), *arguments, "--out", str(out), "--resume", "-q"]
+    _run([arcade, "evaluate", str(subject), *flags])
+
+
+def _start() -> None:
+    if not ray.is_initialized():
+        ray.init(log_to_driver=False)
+
+
+def _replay(logs: list[ActionLog]) -> list[End]:
+    games, ends = dict[str, Game](), []
+    for log in logs:
+        if log.game not in games:
+            games[log.game] = load(log.game)
+        [level] = [level for level in games[log.game].levels if level.number == log.level]
+        state = level.start(log.seed)
+        state.play(log.actions)
+        ends.append(End(state.state_hash(), state.score, state.outcome))
+    return ends
+
+
+def _mint(source: tuple[str, bytes | None], number: int, shards: int, arcade: str, jobs: int) -> Files:
+    name, text = source
+    with tempfile.TemporaryDirectory() as folder:
+        if text is not None:
+            path = Path(folder) / name
+            path.write_bytes(text)
+            name = str(path)
+        out = Path(folder) / "shard"
+        _run([arcade, "release", name, "--shard", f"{number}/{shards}", "--jobs", str(jobs), "--out", str(out), "-q"])
+        return _read(out)
+
+
+def _evaluate(subject: str, game: str, arguments: list[str], arcade: str, jobs: int) -> Files:
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "results"
+        flags = ["--games", game, *arguments, "--jobs", str(jobs), "--out", str(out), "-q"]
+        _run([arcade, "evaluate", subject, *flags])
+        return _read(out)
+
+
+def _run(command: list[str]) -> None:
+    if shutil.which(command[0]) is None:
+        raise ArcadeError(f"`{command[0]}` is not on the path; install the command line, or name it with `arcade=`")
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise ArcadeError(f"`{' '.join(command)}` fails with status {done.returncode}: {done.stderr.strip()}")
+
+
+def _read(folder: Path) -> Files:
+    files = (path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != ".lock")
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def _write(files: Files, folder: Path) -> None:
+    for name, data in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)

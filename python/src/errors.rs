@@ -1,0 +1,73 @@
+//! Exceptions.
+
+use crate::diagnostics::in_words;
+use crate::input::Named;
+use engine::{Diagnostic, Severity, line_and_column};
+use pyo3::create_exception;
+use pyo3::exceptions::{PyException, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::fmt::Display;
+
+create_exception!(
+    infinite_arcade,
+    ArcadeError,
+    PyException,
+    "The suite cannot do what was asked: the message says why."
+);
+create_exception!(
+    infinite_arcade,
+    LogError,
+    ArcadeError,
+    "A log is damaged, was changed, or is of another episode."
+);
+create_exception!(
+    infinite_arcade,
+    VgdlError,
+    PyValueError,
+    "A game or level does not compile. It prints like the messages of `arcade`; `diagnostics` has the problems as dictionaries."
+);
+
+/// Returns an [`ArcadeError`] with the message of an error.
+pub(crate) fn failed(error: impl Display) -> PyErr {
+    ArcadeError::new_err(error.to_string())
+}
+
+/// Returns a [`LogError`] with the message of an error.
+pub(crate) fn bad_log(error: impl Display) -> PyErr {
+    LogError::new_err(error.to_string())
+}
+
+/// Returns a `ValueError`.
+pub(crate) fn invalid(message: impl Display) -> PyErr {
+    PyValueError::new_err(message.to_string())
+}
+
+/// Returns the problems of a text as a [`VgdlError`].
+pub(crate) fn malformed(py: Python<'_>, source: &Named, problems: &[Diagnostic]) -> PyErr {
+    let error = VgdlError::new_err(in_words(source, problems));
+    let listed = problems.iter().map(|problem| described(py, source, problem)).collect::<PyResult<Vec<_>>>();
+    let listed = listed.and_then(|listed| error.value(py).setattr("diagnostics", listed));
+    listed.err().unwrap_or(error)
+}
+
+/// Returns a problem as a dictionary.
+pub(crate) fn described<'py>(
+    py: Python<'py>,
+    source: &Named,
+    problem: &Diagnostic,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (line, column) = line_and_column(&source.text, problem.span.start);
+    let entry = PyDict::new(py);
+    entry.set_item("file", &source.name)?;
+    entry.set_item("line", line)?;
+    entry.set_item("column", column)?;
+    entry.set_item("code", problem.code)?;
+    entry.set_item("severity", if problem.severity == Severity::Error { "error" } else { "warning" })?;
+    entry.set_item("message", &problem.message)?;
+    entry.set_item("label", &problem.label)?;
+    entry.set_item("help", &problem.help)?;
+    entry.set_item("start", problem.span.start)?;
+    entry.set_item("end", problem.span.end)?;
+    Ok(entry)
+}

@@ -1,0 +1,134 @@
+//! Judging and making levels and games, and checking snapshots. Results are JSON, as the command line prints it.
+
+use crate::corpus::corpus;
+use crate::errors::{failed, invalid};
+use crate::game::{Game, Level};
+use engine::{Digest, Seed, SpriteType};
+use forge::games::{GameOrder, MadeGame, make_games};
+use forge::levels::{LevelOrder, Method, make_levels};
+use generators::levels::{Examples, LevelConfig};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use snapshots::{Bounds, check_integrity, verify_within};
+use std::path::PathBuf;
+use std::sync::Arc;
+use validators::{Criteria, GameForm, Panel};
+
+/// A board's columns and rows, each a range of lengths.
+type Size = ((usize, usize), (usize, usize));
+
+/// Judges a level by the criteria of a release, as `arcade validate` does, and returns the report.
+#[pyfunction]
+#[pyo3(signature = (level, *, budget, seed))]
+pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -> PyResult<String> {
+    let (game, level) = (&level.game.0.game, &level.level);
+    py.detach(|| {
+        let criteria = Criteria { budget, ..Criteria::full() };
+        let panel = Panel::bounded(&criteria, budget).map_err(invalid)?;
+        let report = panel.judge(game, level, Seed::from_text(seed).child(&level.digest().to_string(), 0));
+        let witness = report.witness.clone();
+        let mut document = serde_json::to_value(&report).map_err(failed)?;
+        document["passes"] = Value::Bool(report.passes());
+        document["witness"] = json!(witness);
+        serde_json::to_string(&document).map_err(failed)
+    })
+}
+
+/// Makes levels for a game, as `arcade generate levels` does. Returns the levels with their witnesses, and the cost.
+#[pyfunction]
+#[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
+#[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
+pub(crate) fn generate_levels(
+    py: Python<'_>,
+    game: &Game,
+    examples: Vec<Bound<'_, Level>>,
+    method: &str,
+    count: u32,
+    seed: &str,
+    difficulty: Option<&str>,
+    size: Option<Size>,
+    min_solution: Option<usize>,
+    sprites: Vec<(String, usize)>,
+) -> PyResult<String> {
+    let examples: Vec<engine::Level> = examples.iter().map(|level| level.get().level.clone()).collect();
+    let game = &game.0.game;
+    let method: Method = method.parse().map_err(invalid)?;
+    let difficulty = difficulty.map(str::parse).transpose().map_err(invalid)?;
+    let stype = |name: &String| -> PyResult<SpriteType> {
+        let found = game.sprite_type(name);
+        found.ok_or_else(|| invalid(format_args!("the game has no sprite type `{name}`")))
+    };
+    py.detach(|| {
+        let config = Examples::of(game, &examples)
+            .map_or_else(LevelConfig::default, |examples| LevelConfig::like(Arc::new(examples)));
+        let config = match size {
+            Some((columns, rows)) => LevelConfig { columns, rows, ..config },
+            None => config,
+        };
+        let counts = sprites.iter().map(|(name, count)| Ok((stype(name)?, *count)));
+        let counts = counts.collect::<PyResult<Vec<_>>>()?;
+        let order = LevelOrder {
+            difficulty,
+            min_solution,
+            ..LevelOrder::new(method, count, LevelConfig { counts, ..config })
+        };
+        let seed = Seed::from_text(seed).child(method.name(), 0);
+        let set = make_levels(game, &order, seed, &()).map_err(failed)?;
+        let level = |made: &forge::levels::MadeLevel| {
+            let witness = made.report.as_ref().and_then(|report| report.witness.as_ref());
+            json!({
+                "number": made.number,
+                "text": made.level.to_string(),
+                "digest": made.level.digest(),
+                "witness": witness,
+                "difficulty": made.ladder.as_ref().map(|ladder| ladder.difficulty),
+                "report": made.report,
+            })
+        };
+        let levels: Vec<Value> = set.levels.iter().map(level).collect();
+        let document = json!({ "game": game.digest(), "levels": levels, "cost": set.cost });
+        serde_json::to_string(&document).map_err(failed)
+    })
+}
+
+/// Makes games, as `arcade generate games` does.
+#[pyfunction]
+#[pyo3(signature = (*, method, count, levels, seed))]
+pub(crate) fn generate_games(
+    py: Python<'_>,
+    method: &str,
+    count: u32,
+    levels: u32,
+    seed: &str,
+) -> PyResult<String> {
+    let method: Method = method.parse().map_err(invalid)?;
+    py.detach(|| {
+        let order = GameOrder::new(method, count).with_levels(levels);
+        let known = corpus().into_iter().map(|(_, source, ..)| engine::Game::from_source(&source));
+        let known: Vec<GameForm> = known.flatten().map(|game| GameForm::of(&game)).collect();
+        let seed = Seed::from_text(seed).child(method.name(), 0);
+        let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
+        let set = make_games(&order, &known, &canary, seed, &()).map_err(failed)?;
+        let game = |made: &MadeGame| {
+            let levels: Vec<String> = made.levels.iter().map(|found| found.level.to_string()).collect();
+            json!({ "source": made.text, "levels": levels, "card": made.card, "witnesses": made.witnesses })
+        };
+        let games: Vec<Value> = set.games.iter().map(game).collect();
+        serde_json::to_string(&json!({ "games": games })).map_err(failed)
+    })
+}
+
+/// Verifies a release's folder or archive, as `arcade verify` does: digests, games, levels, and every witness.
+#[pyfunction]
+pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    let verification = py.detach(|| verify_within(&path, &Bounds::RELEASE)).map_err(failed)?;
+    serde_json::to_string(&verification).map_err(failed)
+}
+
+/// Checks the digests of a release's folder, and returns its manifest and the problems.
+#[pyfunction]
+pub(crate) fn integrity(py: Python<'_>, path: PathBuf) -> PyResult<(String, Vec<String>)> {
+    let integrity = py.detach(|| check_integrity(&path)).map_err(failed)?;
+    let manifest = serde_json::to_string(&integrity.manifest).map_err(failed)?;
+    Ok((manifest, integrity.problems.iter().map(ToString::to_string).collect()))
+}

@@ -1,0 +1,231 @@
+//! Games and levels.
+
+use crate::errors::{described, failed, invalid, malformed};
+use crate::input::Named;
+use crate::state::State;
+use engine::describe::{self, Guide};
+use engine::{Action, Analysis, Outcome, Seed};
+use evaluation::is_of_use;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use render::{Looks, Symbols};
+use serde_json::json;
+use std::sync::Arc;
+
+/// A game and what is derived from its rules once.
+pub(crate) struct Rules {
+    pub(crate) name: String,
+    pub(crate) source: String,
+    pub(crate) as_reference: bool,
+    pub(crate) game: engine::Game,
+    pub(crate) analysis: Analysis,
+    pub(crate) looks: Looks,
+    pub(crate) symbols: Symbols,
+    /// The actions that can do something, doing nothing first.
+    pub(crate) actions: Vec<Action>,
+}
+
+/// A compiled game.
+#[pyclass(frozen, module = "infinite_arcade")]
+#[derive(Clone)]
+pub(crate) struct Game(pub(crate) Arc<Rules>);
+
+/// A level that fits one game.
+#[pyclass(frozen, module = "infinite_arcade")]
+pub(crate) struct Level {
+    pub(crate) game: Game,
+    pub(crate) name: String,
+    pub(crate) level: engine::Level,
+}
+
+/// Reads an action by its name.
+pub(crate) fn action_named(name: &str) -> PyResult<Action> {
+    let found = Action::ALL.into_iter().find(|action| action.name() == name);
+    found.ok_or_else(|| {
+        let names = Action::ALL.map(|action| action.name()).join(", ");
+        invalid(format_args!("there is no action `{name}`; there are {names}"))
+    })
+}
+
+/// Reads a seed: 64 hexadecimal digits are a seed itself, any other text is what a seed is derived from.
+pub(crate) fn seed_of(text: &str) -> Seed {
+    text.parse().unwrap_or_else(|_| Seed::from_text(text))
+}
+
+/// Returns the name of an outcome.
+pub(crate) fn outcome_name(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Ongoing => "ongoing",
+        Outcome::Won => "won",
+        Outcome::Lost => "lost",
+        Outcome::Ended => "ended",
+        Outcome::Stopped(_) => "stopped",
+    }
+}
+
+/// Returns the seed of a text as 64 hexadecimal digits.
+#[pyfunction]
+pub(crate) fn seed_from_text(text: &str) -> String {
+    Seed::from_text(text).to_string()
+}
+
+/// Returns the seed of part `index` of the thing that a seed is for.
+#[pyfunction]
+pub(crate) fn seed_child(seed: &str, purpose: &str, index: u64) -> String {
+    seed_of(seed).child(purpose, index).to_string()
+}
+
+#[pymethods]
+impl Game {
+    #[new]
+    #[pyo3(signature = (source, *, name = "game.vgdl", as_reference = false))]
+    fn new(py: Python<'_>, source: String, name: &str, as_reference: bool) -> PyResult<Game> {
+        let load =
+            if as_reference { engine::Game::from_source_as_reference } else { engine::Game::from_source };
+        let named = Named { name: name.to_owned(), text: source };
+        let game = load(&named.text).map_err(|problems| malformed(py, &named, &problems.0))?;
+        let analysis = Analysis::of(&game);
+        let looks = Looks::of(&analysis);
+        let symbols = Symbols::of(&analysis, &looks);
+        let actions = Action::ALL.into_iter().filter(|&action| is_of_use(&analysis, action)).collect();
+        let Named { name, text: source } = named;
+        Ok(Game(Arc::new(Rules { name, source, as_reference, game, analysis, looks, symbols, actions })))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn source(&self) -> &str {
+        &self.0.source
+    }
+
+    #[getter]
+    fn as_reference(&self) -> bool {
+        self.0.as_reference
+    }
+
+    #[getter]
+    fn digest(&self) -> String {
+        self.0.game.digest().to_string()
+    }
+
+    #[getter]
+    fn actions(&self) -> Vec<&'static str> {
+        self.0.actions.iter().map(|action| action.name()).collect()
+    }
+
+    #[getter]
+    fn time_limit(&self) -> u64 {
+        self.0.game.time_limit()
+    }
+
+    #[getter]
+    fn is_deterministic(&self) -> bool {
+        self.0.game.is_deterministic()
+    }
+
+    /// The names of the sprite types that players can see, in the order of planes.
+    #[getter]
+    fn types(&self) -> Vec<&str> {
+        self.0.looks.shown().map(|stype| self.0.game.name(stype)).collect()
+    }
+
+    /// The character of each of those types on boards of symbols.
+    #[getter]
+    fn symbols(&self) -> Vec<(String, char)> {
+        let rules = &self.0;
+        rules
+            .looks
+            .shown()
+            .map(|stype| (rules.game.name(stype).to_owned(), rules.symbols.symbol(stype)))
+            .collect()
+    }
+
+    #[getter]
+    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let named = Named { name: self.0.name.clone(), text: self.0.source.clone() };
+        self.0.game.warnings().iter().map(|warning| described(py, &named, warning)).collect()
+    }
+
+    #[pyo3(signature = (text, *, name = "level"))]
+    fn level(&self, py: Python<'_>, text: String, name: &str) -> PyResult<Level> {
+        let named = Named { name: name.to_owned(), text };
+        let level = self.0.game.level(&named.text).map_err(|problems| malformed(py, &named, &problems.0))?;
+        Ok(Level { game: self.clone(), name: named.name, level })
+    }
+
+    /// The rules in plain English.
+    fn describe(&self) -> String {
+        Guide::from_analysis(&self.0.analysis).to_string()
+    }
+
+    /// The kind of game and what is proved of its rules, as JSON.
+    fn facts(&self) -> PyResult<String> {
+        let analysis = &self.0.analysis;
+        let facts = json!({
+            "digest": self.0.game.digest(),
+            "taxonomy": analysis.taxonomy(),
+            "kind": Guide::from_analysis(analysis).kind,
+            "can_win": analysis.can_win(),
+            "can_lose": analysis.can_lose(),
+            "time_limit": self.0.game.time_limit(),
+            "deterministic": self.0.game.is_deterministic(),
+        });
+        serde_json::to_string(&facts).map_err(failed)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Game {} {}>", self.0.name, &self.0.game.digest().to_string()[..8])
+    }
+}
+
+#[pymethods]
+impl Level {
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    #[getter]
+    fn game(&self) -> Game {
+        self.game.clone()
+    }
+
+    #[getter]
+    fn digest(&self) -> String {
+        self.level.digest().to_string()
+    }
+
+    #[getter]
+    fn columns(&self) -> usize {
+        self.level.columns()
+    }
+
+    #[getter]
+    fn rows(&self) -> usize {
+        self.level.rows()
+    }
+
+    #[getter]
+    fn text(&self) -> String {
+        self.level.to_string()
+    }
+
+    /// What is proved of the level, a sentence each.
+    fn describe(&self) -> Vec<String> {
+        let analysis = &self.game.0.analysis;
+        describe::level(analysis, &self.level, &analysis.reach(&self.level))
+    }
+
+    fn start(&self, seed: &str) -> State {
+        let state = self.game.0.game.start(&self.level, seed_of(seed));
+        State::new(self.game.clone(), state)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Level {} of {}>", self.name, self.game.0.name)
+    }
+}

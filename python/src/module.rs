@@ -1,0 +1,34 @@
+//! The names that the extension exports.
+
+use pyo3::prelude::*;
+
+/// The extension module.
+#[pymodule]
+mod _native {
+    use super::*;
+    #[pymodule_export]
+    use crate::corpus::corpus;
+    #[pymodule_export]
+    use crate::errors::{ArcadeError, LogError, VgdlError};
+    #[pymodule_export]
+    use crate::evaluate::{Series, metrics_of_log, prompt_digest, read_log, replay_log};
+    #[pymodule_export]
+    use crate::forging::{generate_games, generate_levels, integrity, validate, verify};
+    #[pymodule_export]
+    use crate::game::{Game, Level, seed_child, seed_from_text};
+    #[pymodule_export]
+    use crate::lanes::Lanes;
+    #[pymodule_export]
+    use crate::planner::{Planner, planner_names};
+    #[pymodule_export]
+    use crate::state::State;
+
+    /// Adds the constants.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("SEMANTICS", engine::SEMANTICS)?;
+        module.add("GENERATION", generators::GENERATION)?;
+        module.add("ACTIONS", engine::Action::ALL.map(|action| action.name()).to_vec())
+    }
+}

@@ -1,0 +1,190 @@
+//! States: stepping, hashing and looking at them.
+
+use crate::errors::{failed, invalid};
+use crate::game::{Game, action_named, outcome_name, seed_of};
+use crate::picture;
+use engine::{Outcome, Planes};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+/// The state of an episode.
+#[pyclass(module = "infinite_arcade")]
+pub(crate) struct State {
+    pub(crate) game: Game,
+    pub(crate) state: engine::State,
+}
+
+impl State {
+    pub(crate) fn new(game: Game, state: engine::State) -> State {
+        State { game, state }
+    }
+}
+
+#[pymethods]
+impl State {
+    #[getter]
+    fn game(&self) -> Game {
+        self.game.clone()
+    }
+
+    /// The number of ticks played.
+    #[getter]
+    fn ticks(&self) -> i32 {
+        self.state.tick() + 1
+    }
+
+    #[getter]
+    fn score(&self) -> f64 {
+        self.state.score()
+    }
+
+    #[getter]
+    fn outcome(&self) -> &'static str {
+        outcome_name(self.state.outcome())
+    }
+
+    /// The limit that stopped the episode.
+    #[getter]
+    fn stopped_by(&self) -> Option<String> {
+        match self.state.outcome() {
+            Outcome::Stopped(limit) => Some(limit.to_string()),
+            _ => None,
+        }
+    }
+
+    #[getter]
+    fn is_over(&self) -> bool {
+        self.state.is_over()
+    }
+
+    /// Columns and rows of the board.
+    #[getter]
+    fn size(&self) -> (i32, i32) {
+        self.state.size()
+    }
+
+    #[getter]
+    fn actions(&self) -> Vec<&'static str> {
+        self.game.0.game.actions(&self.state).iter().map(|action| action.name()).collect()
+    }
+
+    /// Plays one tick and returns the outcome.
+    fn step(&mut self, action: &str) -> PyResult<&'static str> {
+        let action = action_named(action)?;
+        let outcome = self.game.0.game.step(&mut self.state, action);
+        self.state.settle_hash();
+        Ok(outcome_name(outcome))
+    }
+
+    /// Plays actions, one a tick, and returns the state hash after each. Stops at the end of the episode.
+    fn play(&mut self, py: Python<'_>, actions: Vec<String>) -> PyResult<Vec<String>> {
+        let actions = actions.iter().map(|name| action_named(name)).collect::<PyResult<Vec<_>>>()?;
+        let State { game, state } = self;
+        Ok(py.detach(|| {
+            let mut hashes = Vec::with_capacity(actions.len());
+            for action in actions {
+                if state.is_over() {
+                    break;
+                }
+                game.0.game.step(state, action);
+                state.settle_hash();
+                hashes.push(state.state_hash().to_string());
+            }
+            hashes
+        }))
+    }
+
+    fn state_hash(&self) -> String {
+        self.state.state_hash().to_string()
+    }
+
+    fn copy(&self) -> State {
+        State::new(self.game.clone(), self.state.clone())
+    }
+
+    fn __copy__(&self) -> State {
+        self.copy()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> State {
+        self.copy()
+    }
+
+    fn fork(&self, seed: &str) -> State {
+        State::new(self.game.clone(), self.state.fork(seed_of(seed)))
+    }
+
+    /// What players are shown, as a dictionary.
+    fn observe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let seen = self.game.0.game.observe(&self.state);
+        let shown = PyDict::new(py);
+        shown.set_item("ticks", seen.ticks)?;
+        shown.set_item("score", seen.score)?;
+        shown.set_item("outcome", outcome_name(seen.outcome))?;
+        shown.set_item("columns", seen.columns)?;
+        shown.set_item("rows", seen.rows)?;
+        shown.set_item(
+            "cells",
+            seen.cells.chunks(seen.columns.max(1)).map(<[_]>::to_vec).collect::<Vec<_>>(),
+        )?;
+        shown.set_item("resources", seen.resources.into_iter().collect::<Vec<_>>())?;
+        let avatar = seen.avatar.map(|avatar| {
+            (avatar.name, avatar.column, avatar.row, (avatar.facing.x, avatar.facing.y), avatar.health)
+        });
+        shown.set_item("avatar", avatar)?;
+        Ok(shown)
+    }
+
+    /// The planes of the board as flat bytes, see `Lanes`.
+    fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
+        let rules = &self.game.0;
+        let (columns, rows) = self.state.size();
+        let planes = Planes::new(&rules.game, rules.looks.shown(), columns as usize, rows as usize);
+        let mut board = vec![0; planes.size()];
+        planes.draw(&mut self.state.clone(), &mut engine::Drawn::default(), &mut board);
+        PyArray1::from_vec(py, board)
+    }
+
+    /// The board in lines of characters.
+    fn text(&self) -> String {
+        render::rows(&self.game.0.looks, &self.game.0.symbols, &self.state)
+    }
+
+    /// The board, tick, score, holdings and legend as text.
+    fn full_text(&self) -> String {
+        render::text(&self.game.0.looks, &self.game.0.symbols, &self.state)
+    }
+
+    /// A picture as pixels: height, width and the flat bytes.
+    fn rgb<'py>(&self, py: Python<'py>, cell: u32) -> PyResult<(u32, u32, Bound<'py, PyArray1<u8>>)> {
+        let image = picture::pixels(&self.game.0.looks, &self.state, cell).map_err(invalid)?;
+        let bytes = image.pixels.iter().flat_map(|colour| colour.0).collect();
+        let array = PyArray1::from_vec(py, bytes);
+        Ok((image.height, image.width, array))
+    }
+
+    #[pyo3(signature = (cell, *, caption = false, legend = false))]
+    fn png<'py>(
+        &self,
+        py: Python<'py>,
+        cell: u32,
+        caption: bool,
+        legend: bool,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let style = render::Style { cell, caption, legend };
+        let drawn = render::picture(&self.game.0.looks, &self.state, &style).map_err(invalid)?;
+        Ok(PyBytes::new(py, &render::png(&drawn).map_err(failed)?))
+    }
+
+    #[pyo3(signature = (cell, *, caption = false, legend = false))]
+    fn svg(&self, cell: u32, caption: bool, legend: bool) -> PyResult<String> {
+        let style = render::Style { cell, caption, legend };
+        Ok(render::svg(&render::picture(&self.game.0.looks, &self.state, &style).map_err(invalid)?))
+    }
+
+    fn __repr__(&self) -> String {
+        let (ticks, score) = (self.ticks(), self.score());
+        format!("<State of {} after {ticks} ticks, score {score}, {}>", self.game.0.name, self.outcome())
+    }
+}

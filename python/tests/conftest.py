@@ -1,0 +1,46 @@
+"""Games for the tests."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import infinite_arcade as ia
+
+ROOT = Path(__file__).parents[2]
+
+#: A corridor: the squirrel is one or two steps from the nut, and loses after 20 ticks.
+NUT = """BasicGame
+    SpriteSet
+        nut > Immovable
+        squirrel > MovingAvatar
+    LevelMapping
+        n > nut
+        S > squirrel
+    InteractionSet
+        nut squirrel > killSprite scoreChange=1
+        squirrel EOS > stepBack
+    TerminationSet
+        SpriteCounter stype=nut win=True
+        Timeout limit=20 win=False
+"""
+
+
+@pytest.fixture
+def nut() -> ia.Game:
+    return ia.Game(NUT, ["S n", "S  n"], id="nut")
+
+
+@pytest.fixture(scope="session")
+def arcade() -> Path:
+    """The command line, if it has been built."""
+    found = [ROOT / "target" / profile / "arcade" for profile in ("release", "debug")]
+    built = [path for path in found if path.is_file()]
+    if not built:
+        pytest.skip("arcade has not been built: cargo build --release")
+    version = subprocess.run([built[0], "--version"], capture_output=True, text=True, check=True)
+    if ia.__version__ not in version.stdout:
+        pytest.skip(f"{built[0]} is of another version")
+    return built[0]

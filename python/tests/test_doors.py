@@ -1,0 +1,12 @@
+"""The same logs through every interface; ``python -m infinite_arcade.doors`` compares a thousand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from infinite_arcade.doors import compare
+
+
+def test_one_score_through_every_door(arcade: Path, tmp_path: Path) -> None:
+    counts = compare(arcade, ["hailglass", "heath-fire"], "sample", max_steps=12, folder=tmp_path)
+    assert counts == dict.fromkeys(["command line", "gymnasium", "vector", "inspect", "cmd"], 10)

@@ -1,0 +1,208 @@
+"""Environments."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+import infinite_arcade as ia
+import infinite_arcade.gymnasium as arcade
+
+ID = arcade.ENV_ID
+
+
+@pytest.mark.filterwarnings("ignore:.*render.*")
+@pytest.mark.parametrize("observation", ["planes", "symbols", "rgb"])
+@pytest.mark.parametrize("game", ["hailglass", "night-mail-sled", "heath-fire"])
+def test_the_checker_passes(game: str, observation: str) -> None:
+    env = gymnasium.make(ID, game=game, level=0, observation=observation, render_mode="rgb_array")
+    check_env(env.unwrapped)
+    assert env.unwrapped.action_space.n == len(ia.load(game).actions)
+
+
+def rollout(env: gymnasium.Env[Any, Any], seed: int, steps: int = 60) -> list[Any]:
+    rng = np.random.default_rng(seed)
+    history: list[Any] = [env.reset(seed=seed)]
+    for _ in range(steps):
+        history.append(env.step(rng.integers(env.action_space.n)))
+        if history[-1][2] or history[-1][3]:
+            history.append(env.reset())
+    return history
+
+
+def same(one: Any, two: Any) -> bool:
+    if isinstance(one, np.ndarray):
+        return bool(np.array_equal(one, two))
+    if isinstance(one, (tuple, list)):
+        return len(one) == len(two) and all(map(same, one, two))
+    return bool(one == two)
+
+
+def test_the_same_seed_gives_the_same_bytes() -> None:
+    envs = [gymnasium.make(ID, game="heath-fire", level=1, max_steps=25) for _ in range(2)]
+    assert same(rollout(envs[0], 3), rollout(envs[1], 3))
+    assert not same(rollout(envs[0], 3), rollout(envs[1], 4))
+
+
+def test_no_seed_is_dropped() -> None:
+    env = gymnasium.make(ID, game="heath-fire", level=0)
+    seeds = [env.reset(seed=seed)[1]["seed"] for seed in range(300)]
+    seeds += [env.reset()[1]["seed"] for _ in range(300)]
+    assert len(set(seeds)) == 600
+    vector = gymnasium.make_vec(ID, num_envs=500, game="heath-fire")
+    vector.reset(seed=0)
+    one = set(vector.unwrapped.seeds)
+    vector.reset(seed=1)
+    two = set(vector.unwrapped.seeds)
+    assert len(one) == len(two) == 500 and not one & two and not one & set(seeds)
+    unseeded = [gymnasium.make(ID, game="heath-fire", level=0).reset()[1]["seed"] for _ in range(2)]
+    assert unseeded[0] != unseeded[1]
+
+
+def test_an_episode_can_be_played_again() -> None:
+    env = gymnasium.make(ID, game="heath-fire", level=2)
+    _, info = env.reset(seed=9)
+    actions = [1, 2, 3, 4, 0, 2, 2]
+    for action in actions:
+        env.step(action)
+    base = env.unwrapped
+    state = base.game.levels[2].start(info["seed"])
+    state.play([base.game.actions[action] for action in actions])
+    assert state.state_hash() == base.state.state_hash()
+    _, again = env.reset(options={"seed": info["seed"]})
+    assert again["seed"] == info["seed"]
+
+
+def test_episodes_that_are_over_need_a_reset(nut: ia.Game) -> None:
+    env = arcade.GameEnv(nut, 0)
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(0)
+    env.reset(seed=0)
+    right = nut.actions.index("right")
+    env.step(right)
+    _, reward, terminated, truncated, info = env.step(right)
+    assert (reward, terminated, truncated, info["outcome"]) == (1.0, True, False, "won")
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(right)
+
+
+def test_episodes_are_truncated(nut: ia.Game) -> None:
+    env = arcade.GameEnv(nut, 1, max_steps=2, reward="outcome")
+    env.reset(seed=0)
+    assert env.step(0)[2:4] == (False, False)
+    assert env.step(0)[1:4] == (0.0, False, True)
+
+
+@pytest.mark.parametrize("mode", list(AutoresetMode))
+@pytest.mark.parametrize(("name", "observation"), [("heath-fire", "planes"), ("hailglass", "symbols"), ("great-yawn", "rgb")])
+def test_vectors_play_what_single_environments_play(mode: AutoresetMode, name: str, observation: str) -> None:
+    """The vector equals Gymnasium's own vector of single environments, in every mode: the vector checks."""
+    count, game = 5, ia.load(name)
+    make = lambda: arcade.GameEnv(game, 0, observation=observation, max_steps=12)
+    single = SyncVectorEnv([make] * count, autoreset_mode=mode)
+    vector = gymnasium.make_vec(
+        ID, num_envs=count, game=game, level=0, observation=observation, max_steps=12, autoreset_mode=mode, threads=2
+    )
+    assert vector.metadata["autoreset_mode"] is mode
+    assert vector.observation_space == single.observation_space
+    assert vector.action_space == single.action_space
+    seeds = [7, 1, 4, 2**40, 0]
+    vector.action_space.seed(0)
+    one, two = single.reset(seed=seeds)[0], vector.reset(seed=seeds)[0]
+    assert np.array_equal(one, two) and vector.observation_space.contains(two)
+    for _ in range(40):
+        actions = vector.action_space.sample()
+        expected, got = single.step(actions), vector.step(actions)
+        for part in range(4):
+            assert np.array_equal(expected[part], got[part]), part
+        assert expected[1].dtype == got[1].dtype and expected[0].dtype == got[0].dtype
+        assert vector.observation_space.contains(got[0])
+        over = got[2] | got[3]
+        if mode == AutoresetMode.SAME_STEP:
+            assert ("final_obs" in expected[4]) == ("final_obs" in got[4])
+            for at in np.flatnonzero(over):
+                assert np.array_equal(expected[4]["final_obs"][at], got[4]["final_obs"][at])
+                assert expected[4]["final_info"]["score"][at] == got[4]["final_info"]["score"][at]
+                assert expected[4]["final_info"]["outcome"][at] == got[4]["final_info"]["outcome"][at]
+        if mode == AutoresetMode.DISABLED and over.any():
+            with pytest.raises(gymnasium.error.ResetNeeded):
+                vector.step(actions)
+            masks = [over.copy(), over.copy()]
+            pair = [env.reset(options={"reset_mask": mask}) for env, mask in zip((single, vector), masks, strict=True)]
+            assert np.array_equal(pair[0][0], pair[1][0])
+
+
+@pytest.mark.parametrize("observation", ["planes", "symbols", "rgb"])
+def test_threads_change_nothing(observation: str) -> None:
+    def played(threads: int) -> list[Any]:
+        envs = arcade.GameVectorEnv("heath-fire", num_envs=200, observation=observation, threads=threads, cell=4)
+        rng = np.random.default_rng(5)
+        history: list[Any] = [envs.reset(seed=5)[0]]
+        for _ in range(15):
+            history.append(envs.step(rng.integers(envs.single_action_space.n, size=200))[:4])
+        return [*history, envs.hashes, envs.seeds]
+
+    one = played(1)
+    assert same(one, played(2)) and same(one, played(3))
+
+
+@pytest.mark.parametrize("name", sorted(ia.corpus()))
+def test_boards_are_kept_up_to_date(name: str) -> None:
+    """Boards drawn over the last ones equal boards drawn anew, in lanes of all levels."""
+    envs = arcade.GameVectorEnv(name, num_envs=10, autoreset_mode=AutoresetMode.SAME_STEP, threads=1, copy=False)
+    rng = np.random.default_rng(1)
+    observations, _ = envs.reset(seed=1)
+    assert not observations.flags.writeable
+    for _ in range(120):
+        observations = envs.step(rng.integers(envs.single_action_space.n, size=10))[0]
+        at = int(rng.integers(10))
+        planes = envs.state(at).planes()
+        _, rows, columns = planes.shape
+        assert np.array_equal(observations[at, :, :rows, :columns], planes)
+        assert not observations[at, :, rows:].any() and not observations[at, :, :, columns:].any()
+
+
+def test_symbols_are_the_text() -> None:
+    env = arcade.GameEnv("hailglass", 0, observation="symbols")
+    board, _ = env.reset(seed=0)
+    lines = ["".join(map(chr, row)) for row in board]
+    assert "\n".join(lines) + "\n" == env.state.text()
+
+
+def test_pictures_are_those_of_the_renderer() -> None:
+    env = arcade.GameEnv("hailglass", 0, observation="rgb", cell=8)
+    board, _ = env.reset(seed=0)
+    assert np.array_equal(board, env.state.rgb(8))
+
+
+def test_a_vector_takes_episodes_of_their_own() -> None:
+    game = ia.load("heath-fire")
+    seeds = [ia.seed_from_text(f"episode {at}") for at in range(3)]
+    envs = arcade.GameVectorEnv(game, 0, num_envs=3)
+    envs.reset(seed=1, options={"seed": seeds})
+    assert envs.seeds == seeds
+    envs.step(np.array([1, 2, 3]))
+    for at, action in enumerate([1, 2, 3]):
+        state = game.levels[0].start(seeds[at])
+        state.step(game.actions[action])
+        assert envs.hashes[at] == state.state_hash()
+
+
+def test_wrong_arguments_are_refused(nut: ia.Game) -> None:
+    for wrong in ({"observation": "smell"}, {"reward": "fun"}, {"level": 7}, {"cell": 1, "observation": "rgb"}, {"max_steps": 0}):
+        with pytest.raises(ValueError):
+            arcade.GameEnv(nut, **wrong)
+    envs = arcade.GameVectorEnv(nut, num_envs=3)
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        envs.step(np.zeros(3, np.int64))
+    envs.reset(seed=0)
+    for actions in (np.zeros(2, np.int64), np.array([0, 0, 99])):
+        with pytest.raises(ValueError):
+            envs.step(actions)
+    with pytest.raises(ValueError, match="reset_mask"):
+        envs.reset(options={"reset_mask": np.zeros(3, np.bool_)})
