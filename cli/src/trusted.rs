@@ -212,6 +212,12 @@ impl From<TrustError> for Failure {
                     _ => malformed!("`{shown}` does not exist: check the path"),
                 }
             }
+            TrustError::Io { action, ref path, ref source } if source.kind() == ErrorKind::NotADirectory => {
+                malformed!(
+                    "cannot {action} `{}`: a file lies where its folder should be; name another folder",
+                    path.display()
+                )
+            }
             TrustError::Io { .. } => Failure::Environment(error.into()),
             _ => Failure::Malformed(error.into()),
         }

@@ -262,7 +262,8 @@ pub(crate) fn canonical<T: Serialize + for<'a> Deserialize<'a>>(
     place: &str,
 ) -> Result<T, TrustError> {
     let wrong = |fault: String| TrustError::document(place, fault);
-    let value: T = serde_json::from_slice(bytes).map_err(|error| wrong(error.to_string()))?;
+    let value: T =
+        serde_json::from_slice(bytes).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     let text = to_canonical_json(&value).map_err(|error| wrong(error.to_string()))?;
     match text.as_bytes() == bytes {
         true => Ok(value),

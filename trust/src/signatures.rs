@@ -34,15 +34,22 @@ impl Anchor {
     /// # Errors
     /// It is neither.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
+        const NEXT_STEP: &str = "give the NAME.pub of `arcade keygen`, or the keys-N.json of `arcade keys`";
         if bytes.starts_with(b"{") {
-            return Ok(Anchor::Set(Box::new(KeySet::parse(bytes, place)?)));
+            let set = KeySet::parse(bytes, place).map_err(|error| match error {
+                TrustError::Document { place, fault } => {
+                    TrustError::Document { place, fault: format!("{fault}; {NEXT_STEP}") }
+                }
+                other => other,
+            });
+            return Ok(Anchor::Set(Box::new(set?)));
         }
         let text = std::str::from_utf8(bytes).unwrap_or_default();
         match PublicKey::parse(text) {
             Ok(key) => Ok(Anchor::Key(key)),
             Err(_) => Err(TrustError::document(
                 place,
-                "is neither a public key of minisign (NAME.pub) nor a set of keys (keys-N.json)",
+                format!("is neither a public key of minisign nor a set of keys: {NEXT_STEP}"),
             )),
         }
     }

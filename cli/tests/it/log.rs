@@ -110,6 +110,8 @@ fn a_sealed_month_waits_for_its_beacon() {
         "sound; 4 entries",
     );
     check(&["--month", "2027-02"], 1, "the log has no release of 2027-02 or later");
+    check(&["--month", "2027-13"], 2, "it is no month: write a year and a month, such as 2027-03");
+    check(&["--proof", "proof", "--entry", "entry"], 2, "cannot be used with");
 
     // Proofs without the log.
     let prove = |more: &[&str], status: i32, words: &str| {
@@ -216,7 +218,10 @@ fn wrong_files_are_named() {
         };
         let shown = format!("`{file}`");
         let cases: [(&[&str], &str); 8] = [
-            (&["log", "check", "log", "--key", file], next("is neither a public key of minisign")),
+            (
+                &["log", "check", "log", "--key", file],
+                next("give the NAME.pub of `arcade keygen`, or the keys-N.json of"),
+            ),
             (
                 &["log", "check", "log", "--key", "log.pub", "--seen", file],
                 next("give a log's file `checkpoint`"),
@@ -234,7 +239,10 @@ fn wrong_files_are_named() {
                 next("give the file `NAME.key`"),
             ),
             (&["sign", "tiny", "--secret", file], next("give the file `NAME.key`")),
-            (&["verify", "tiny", "--key", file], next("is neither a public key of minisign")),
+            (
+                &["verify", "tiny", "--key", file],
+                next("give the NAME.pub of `arcade keygen`, or the keys-N.json of"),
+            ),
             (
                 &[
                     "log",
@@ -257,6 +265,19 @@ fn wrong_files_are_named() {
             says(folder, args, 2, &shown);
         }
     }
+    fs::write(folder.join("other.json"), "{}").unwrap();
+    let other = ["verify", "tiny", "--key", "other.json"];
+    says(
+        folder,
+        &other,
+        2,
+        "`other.json`: cannot be read: missing field `format` at line 1 column 2; give the",
+    );
+    let beside = ["sign", "tiny", "--secret", "log.key", "--out", "empty"];
+    says(folder, &beside, 2, "a file lies where its folder should be; name another folder");
+    let slip = ["log", "append", "lag", "--secret", "log.key", "--release", "tiny"];
+    says(folder, &slip, 2, "`lag` has no log, and a new log takes a name: --origin");
+    assert!(!folder.join("lag").exists());
     says(folder, &["keygen", "k", "--password-file", "binary"], 2, "write the password into a text file");
     says(folder, &["keygen", "k", "--password-file", "empty"], 2, "the password is empty");
     let at_file =
@@ -302,6 +323,14 @@ fn rows_are_replayed() {
     calibrated("tiny=other.json", 2, "the scale has no release with the root of `tiny`");
     calibrated("tiny=log.pub", 2, "give the scale.json that `arcade calibrate` wrote");
     calibrated("tiny=latin", 2, "is not UTF-8); give the scale.json that `arcade calibrate` wrote");
+
+    // A link could lead in a circle.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(".", folder.join("results/games/again")).unwrap();
+        says(folder, &check, 2, "`results/games/again` is a link, or no file: restore the results folder");
+        fs::remove_file(folder.join("results/games/again")).unwrap();
+    }
 
     // A log of an episode whose result was altered: its folder is no longer the one of the row, and it does not replay.
     let episodes = folder.join("results/episodes");

@@ -44,7 +44,7 @@ pub struct Proof {
 
 /// The file of a value.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object")]
 struct DrawnFile {
     source: String,
     round: u64,

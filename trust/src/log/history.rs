@@ -233,11 +233,23 @@ pub fn unkept(entries: &[Entry]) -> Vec<String> {
     committed.filter(|name| !is_minted(name)).cloned().collect()
 }
 
+/// Tests whether the name of a release is that of a month, such as `2027-03`.
+pub fn is_month(name: &str) -> bool {
+    let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    name.split_once('-').is_some_and(|(year, month)| {
+        year.len() == 4
+            && is_number(year)
+            && month.len() == 2
+            && ("01"..="12").contains(&month)
+            && is_number(month)
+    })
+}
+
 /// The fault of a log that a reader expects to have reached a month, such as `2027-03`: a frozen copy is told by its
-/// newest release.
+/// newest month. Releases of other names say nothing about the time.
 pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     let roots = entries.iter().filter_map(|entry| match entry {
-        Entry::Root { release, .. } => Some(release.as_str()),
+        Entry::Root { release, .. } => Some(release.as_str()).filter(|name| is_month(name)),
         _ => None,
     });
     match roots.max() {
@@ -245,6 +257,8 @@ pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
         Some(newest) => Some(format!(
             "the log has no release of {month} or later: its newest is {newest}, so it may be frozen; ask another source"
         )),
-        None => Some(format!("the log has no release, and {month} was expected")),
+        None => {
+            Some(format!("the log has no release of a month, and {month} was expected; ask another source"))
+        }
     }
 }

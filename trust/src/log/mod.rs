@@ -8,7 +8,7 @@ mod tiles;
 mod tree;
 
 pub use entry::{Entry, ResultRow, Revealed, Round};
-pub use history::{CommitmentOf, frozen, problems, unkept};
+pub use history::{CommitmentOf, frozen, is_month, problems, unkept};
 pub use note::{Checkpoint, MAX_CHECKPOINT, check_name, verifier_key};
 pub use proof::{Consistency, Inclusion};
 pub use tiles::{MAX_ENTRY, WIDTH};
@@ -46,7 +46,7 @@ impl Log {
         if !file.exists() {
             return Ok(None);
         }
-        let text = String::from_utf8_lossy(&read_bounded(&file, MAX_CHECKPOINT)?).into_owned();
+        let text = String::from_utf8_lossy(&read_own(&file, MAX_CHECKPOINT)?).into_owned();
         let checkpoint = Checkpoint::parse(&text, &file.display().to_string())?;
         if checkpoint.size > MAX_ENTRIES {
             let fault = format!("states {} entries; {MAX_ENTRIES} are read at most", checkpoint.size);
@@ -56,7 +56,7 @@ impl Log {
         for (path, width) in tiles::entry_files(checkpoint.size) {
             let place = folder.join(&path);
             let limit = width * (MAX_ENTRY as u64 + 2);
-            let bytes = read_bounded(&place, limit).map_err(|error| match place.exists() {
+            let bytes = read_own(&place, limit).map_err(|error| match place.exists() {
                 true => error,
                 false => TrustError::document(
                     place.display().to_string(),
@@ -84,7 +84,7 @@ impl Log {
             return faults;
         }
         for file in tiles::files(&self.entries, &self.leaves, 0) {
-            let found = read_bounded(&self.folder.join(&file.path), file.bytes.len() as u64);
+            let found = read_own(&self.folder.join(&file.path), file.bytes.len() as u64);
             if !found.is_ok_and(|found| found == file.bytes) {
                 faults.push(format!("{}: it is missing, or does not follow from the entries", file.path));
             }
@@ -171,9 +171,21 @@ pub fn append(
     rules: &dyn Fn(&[Entry]) -> Vec<String>,
     disk: &Disk,
 ) -> Result<Log, TrustError> {
+    let refuse = |reason: String| Err(TrustError::Refused(reason));
+    let unnamed = || {
+        refuse(format!(
+            "`{}` has no log, and a new log takes a name: --origin example.org/arcade",
+            folder.display()
+        ))
+    };
+    match origin {
+        Some(origin) => check_name(origin)?,
+        None if folder.join(CHECKPOINT_FILE).exists() => {}
+        // A slip of the pen leaves no folder behind.
+        None => return unnamed(),
+    }
     disk.create_folder(folder).map_err(TrustError::io("create", folder))?;
     let _lock = lock(folder)?;
-    let refuse = |reason: String| Err(TrustError::Refused(reason));
     let old = Log::open(folder)?;
     if let Some(fault) = old.as_ref().and_then(|log| log.faults(&secret.public()).into_iter().next()) {
         return refuse(format!("nothing was appended, because the log is not sound: {fault}"));
@@ -187,9 +199,8 @@ pub fn append(
         }
         (Some(log), _) => log.checkpoint.origin.clone(),
         (None, Some(origin)) => origin.to_owned(),
-        (None, None) => return refuse("a new log takes a name: --origin example.org/arcade".to_owned()),
+        (None, None) => return unnamed(),
     };
-    check_name(&origin)?;
     let (mut known, mut entries, mut leaves) = match old {
         Some(log) => (log.entries()?, log.entries, log.leaves),
         None => Default::default(),
@@ -213,6 +224,14 @@ pub fn append(
     let log = Log { folder: folder.to_path_buf(), checkpoint, entries, leaves };
     log.write_checkpoint(&log.checkpoint, disk)?;
     Ok(log)
+}
+
+/// Reads a file of a log. Others than regular files are not opened: a pipe could block for ever.
+fn read_own(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
+    if path.exists() && !path.is_file() {
+        return Err(TrustError::document(path.display().to_string(), "is no file: take the log's own"));
+    }
+    read_bounded(path, limit)
 }
 
 /// Keeps other processes from appending, until it is dropped.

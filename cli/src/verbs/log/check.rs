@@ -8,7 +8,7 @@ use crate::whole_file;
 use serde_json::json;
 use snapshots::Manifest;
 use std::path::{Path, PathBuf};
-use trust::log::{Consistency, Entry, Inclusion, Log, MAX_CHECKPOINT, MAX_ENTRY, frozen, unkept};
+use trust::log::{Consistency, Entry, Inclusion, Log, MAX_CHECKPOINT, MAX_ENTRY, frozen, is_month, unkept};
 use trust::{PublicKey, TrustError, read_bounded};
 
 /// Checks a log: its signature, its entries under its root, its files, and what the entries say together.
@@ -23,7 +23,7 @@ use trust::{PublicKey, TrustError, read_bounded};
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The log's folder; not with --proof and --growth
-    #[arg(value_name = "LOG", required_unless_present_any = ["proof", "growth"])]
+    #[arg(value_name = "LOG", required_unless_present_any = ["proof", "growth"], conflicts_with_all = ["proof", "growth"])]
     log: Option<PathBuf>,
     /// The public key of the log
     #[arg(long, value_name = "FILE")]
@@ -35,7 +35,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["proof", "growth"])]
     save: Option<PathBuf>,
     /// The month whose release must be there by now, such as 2027-03
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["proof", "growth"])]
+    #[arg(long, value_name = "MONTH", value_parser = month, conflicts_with_all = ["proof", "growth"])]
     month: Option<String>,
     /// Releases that have to be in the log, in folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
@@ -59,6 +59,14 @@ pub(crate) struct Args {
     /// Threads for replays; all cores if not given
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+}
+
+/// Reads the name of a month from the user.
+fn month(text: &str) -> Result<String, String> {
+    match is_month(text) {
+        true => Ok(text.to_owned()),
+        false => Err("it is no month: write a year and a month, such as 2027-03".to_owned()),
+    }
 }
 
 /// The greatest size of a proof, in bytes.

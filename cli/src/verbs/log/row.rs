@@ -78,13 +78,14 @@ fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
             if is_hidden {
                 continue;
             }
-            if path.is_dir() {
+            let kind = fs::symlink_metadata(&path).map_err(|error| Failure::read(&path, error))?.file_type();
+            if kind.is_dir() {
                 folders.push(path);
                 continue;
             }
-            // Reading a pipe could wait for ever.
-            if !path.is_file() {
-                bail!("`{}` is no file: restore the results folder", path.display());
+            // Reading a pipe could wait for ever, and a link could lead in a circle, or out of the folder.
+            if !kind.is_file() {
+                bail!("`{}` is a link, or no file: restore the results folder", path.display());
             }
             let bytes = fs::read(&path).map_err(|error| Failure::read(&path, error))?;
             let below = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().replace('\\', "/");

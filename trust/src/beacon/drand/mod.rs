@@ -146,6 +146,13 @@ impl Network {
                         round.source
                     ));
                 }
+                if let Some(known) = KNOWN.iter().find(|known| known.public_key == chain.public_key) {
+                    // Another start gives another hash, but the rounds are those of the key.
+                    return Err(format!(
+                        "its `chain` has the key of `{}`: name that as the source",
+                        known.name
+                    ));
+                }
                 (chain.public_key.as_str(), chain.scheme.as_str())
             }
         };

@@ -195,3 +195,21 @@ fn other_networks_are_named_by_their_chain_hash() {
         }
     }
 }
+
+/// The chain hash covers the start of a network too: with a made-up start, a key would have any number of names.
+#[test]
+fn a_known_key_has_one_name() {
+    let mut chain = Chain {
+        public_key: KNOWN[0].public_key.to_owned(),
+        period: 3,
+        genesis_time: 1_700_000_000,
+        hash: Digest::of(b""),
+        group_hash: Digest::of(b"group"),
+        scheme: KNOWN[0].scheme.to_owned(),
+        metadata: Metadata { beacon_id: "own".to_owned() },
+    };
+    chain.hash = chain.computed_hash().unwrap();
+    let source = format!("drand {}", chain.hash);
+    let file = answer(&source, 1000, QUICKNET_1000, json!({ "chain": chain }));
+    check(&file, Some("its `chain` has the key of `drand quicknet`: name that as the source"));
+}
