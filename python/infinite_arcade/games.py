@@ -7,6 +7,7 @@ import json
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._native import seed_child, seed_from_text
+from ._native import ArcadeError, seed_child, seed_from_text
 
 __all__ = ["CorpusGame", "Episode", "Game", "Level", "State", "corpus", "load", "seed_child", "seed_from_text"]
 
@@ -372,6 +373,7 @@ def load(game: str | Path, *, as_reference: bool = False) -> Game:
     Raises:
         FileNotFoundError: there is no such file, folder or corpus game.
         VgdlError: the game or one of its levels has problems.
+        ArcadeError: a file is not UTF-8.
     """
     path = Path(game)
     if path.is_dir():
@@ -382,13 +384,22 @@ def load(game: str | Path, *, as_reference: bool = False) -> Game:
     elif not path.exists():
         if str(game) in corpus():
             return corpus()[str(game)].compile()
-        raise FileNotFoundError(f"{game}: there is no such file, folder or corpus game")
+        near = get_close_matches(str(game), corpus(), n=1)
+        help = f"; did you mean the corpus game `{near[0]}`?" if near else ""
+        raise FileNotFoundError(f"{game}: there is no such file, folder or corpus game{help}")
     beside = _level_files(path.parent) if path.stem == "game" else []
     id = path.parent.resolve().name if path.stem == "game" else path.stem
-    loaded = Game(path.read_text("utf-8"), name=str(path), id=id, as_reference=as_reference)
+    loaded = Game(_text(path), name=str(path), id=id, as_reference=as_reference)
     for file in beside:
-        loaded.level(file.read_text("utf-8"), name=str(file))
+        loaded.level(_text(file), name=str(file))
     return loaded
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text("utf-8")
+    except UnicodeDecodeError as error:
+        raise ArcadeError(f"{path}: not a text file (byte {error.start} is not UTF-8); save it as UTF-8") from None
 
 
 def _level_files(folder: Path) -> list[Path]:

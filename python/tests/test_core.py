@@ -154,3 +154,12 @@ def test_snapshots_open_and_verify(arcade: Path, tmp_path: Path) -> None:
     with pytest.raises(ia.ArcadeError, match="lvl0.txt"):
         ia.open_snapshot(out)
     assert json.dumps(ia.verify(out)["problems"]) != "[]"
+
+
+def test_what_is_no_game_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="did you mean the corpus game `hailglass`"):
+        ia.load("hailglas")
+    file = tmp_path / "game.vgdl"
+    file.write_bytes(b"BasicGame\xff")
+    with pytest.raises(ia.ArcadeError, match=r"game\.vgdl: not a text file \(byte 9 is not UTF-8\); save it"):
+        ia.load(file)
