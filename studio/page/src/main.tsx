@@ -33,17 +33,11 @@ function Studio() {
 function Views({ route, workspace, onChanged }: { route: Route; workspace: Workspace; onChanged: () => void }) {
   const [view = workspace.judge && workspace.games.length === 0 ? 'judge' : workspace.kind === 'results' && workspace.games.length === 0 ? 'results' : 'browse', id = ''] = route;
   const ofGame = view === 'game' || view === 'play' || view === 'watch' || view === 'design';
+  if (ofGame) return <OfGame key={id} view={view} id={id} rest={route[2] ?? null} workspace={workspace} onChanged={onChanged} />;
   return (
     <>
-      <a class="skip" href="#main" onClick={(event) => { event.preventDefault(); document.querySelector<HTMLElement>('main')?.focus(); }}>Skip to the content</a>
-      {ofGame
-        ? <OfGame key={id} view={view} id={id} rest={route[2] ?? null} workspace={workspace} onChanged={onChanged} />
-        : (
-          <>
-            <Top view={view} workspace={workspace} game={null} />
-            <Plain view={view} rest={route[1] ?? null} workspace={workspace} />
-          </>
-        )}
+      <Top view={view} workspace={workspace} game={null} />
+      <Plain view={view} rest={route[1] ?? null} workspace={workspace} />
     </>
   );
 }
@@ -88,6 +82,7 @@ function Top({ view, workspace, game }: { view: string; workspace: Workspace; ga
   );
   return (
     <header class="top">
+      <button type="button" class="skip" onClick={toContent}>Skip to the content</button>
       <a class="mark" href="#/" aria-label="Infinite Arcade, all games">
         <svg viewBox="0 0 20 20" width="20" height="20" aria-hidden="true"><circle cx="10" cy="10" r="8" fill="none" stroke="currentColor" stroke-width="2.5" /><path d="M8 6.8v6.4l5-3.2z" fill="currentColor" /></svg>
         <span>Infinite Arcade</span>
@@ -110,6 +105,12 @@ function Top({ view, workspace, game }: { view: string; workspace: Workspace; ga
       </nav>
     </header>
   );
+}
+
+function toContent(): void {
+  const main = document.querySelector('main');
+  main?.setAttribute('tabindex', '-1');
+  main?.focus();
 }
 
 function Trouble({ text }: { text: string }) {

@@ -267,6 +267,7 @@ const server = createServer(async (request, response) => {
       return response.end(`${JSON.stringify({ stage: 'done' })}\n`);
     }
     if (parts[0] === 'games' && parts.length > 1) {
+      if (!dirs.has(parts[1])) return answer(404, { error: 'there is no such game here', help: null });
       const of = game(parts[1]);
       const files = [of.source, ...of.levels];
       if (parts.length === 2) return answer(200, of);

@@ -70,8 +70,8 @@ export const test = base.extend<Fixtures>({
       const errors: string[] = [];
       page.on('pageerror', (error) => errors.push(String(error)));
       page.on('console', (message) => {
-        // A conflict is an answer that a test asks for; the browser logs its status all the same.
-        if (message.type() === 'error' && !/status of (404|409)/.test(message.text())) errors.push(message.text());
+        // A refusal is an answer that a test asks for; the browser logs its status all the same.
+        if (message.type() === 'error' && !/status of (403|404|409)/.test(message.text())) errors.push(message.text());
       });
       page.on('request', (request) => {
         const { protocol, hostname } = new URL(request.url());

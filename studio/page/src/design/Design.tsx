@@ -276,6 +276,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
   return (
     <main class="design" data-pane={pane}>
       <div class="bar">
+        <h1 class="hidden">{`${game.title}, design`}</h1>
         <nav class="tabs" aria-label="Levels">
           {levels.map((one, index) => (
             <a href={`#/design/${segment(game.id)}/${index}`} aria-current={index === at ? 'page' : undefined} title={one.name} class={check.levels[index]?.problems.some((problem) => problem.severity === 'error') ? 'wrong' : ''}>

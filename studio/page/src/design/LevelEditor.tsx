@@ -275,7 +275,7 @@ export function LevelEditor(props: Props) {
       {asText ? (
         <textarea class="level-text" aria-label="Level as text" spellcheck={false} value={text} onInput={(event) => { strokes += 1; onChange(event.currentTarget.value, strokes); }} />
       ) : (
-        <div class="board paint" ref={box}>
+        <div class="board paint" ref={box} style={{ '--ratio': rows / columns }}>
           <canvas
             ref={canvas}
             tabIndex={0}

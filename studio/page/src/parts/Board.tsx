@@ -34,7 +34,7 @@ interface BoardProps {
 }
 
 /** A frame on a canvas, as large as its box allows. */
-export function Board({ tiles, frame, label, highlights, limit = 72 }: BoardProps) {
+export function Board({ tiles, frame, label, highlights, limit = 96 }: BoardProps) {
   const box = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
   const [size, setSize] = useState<[number, number]>([0, 0]);
@@ -78,7 +78,7 @@ export function Board({ tiles, frame, label, highlights, limit = 72 }: BoardProp
   });
 
   return (
-    <div class="board" ref={box}>
+    <div class="board" ref={box} style={frame ? { '--ratio': frame.height / frame.width } : {}}>
       <canvas ref={canvas} role="img" aria-label={label} />
     </div>
   );

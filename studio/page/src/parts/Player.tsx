@@ -150,8 +150,9 @@ function key(run: Run, event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey) return false;
   const target = event.target;
   if (target instanceof HTMLElement) {
-    if (target.closest('input, select, textarea, dialog, [contenteditable="true"], .cm-editor, [data-keys="own"]')) return false;
-    if (event.key === ' ' && target.closest('button, a, summary')) return false;
+    if (target.closest('input:not([type=checkbox], [type=range]), select, textarea, dialog, .cm-editor')) return false;
+    if (event.key === ' ' && target.closest('button, a, summary, input')) return false;
+    if (event.key.startsWith('Arrow') && target.closest('input[type=range]')) return false;
   }
   const action = KEYS[event.key] ?? KEYS[event.key.toLowerCase()];
   if (action) {
@@ -244,7 +245,7 @@ function Pad({ run }: { run: Run }) {
       {one(NIL, null, 'nil')}
       {one('ACTION_RIGHT', 'right', 'right')}
       {one('ACTION_DOWN', 'down', 'down')}
-      {one('ACTION_USE', null, 'use')}
+      {has('ACTION_USE') && one('ACTION_USE', null, 'use')}
     </div>
   );
 }

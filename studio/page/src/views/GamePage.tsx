@@ -9,6 +9,7 @@ import { Icon } from '../parts/Icon';
 import { Markdown } from '../parts/Markdown';
 import { useAsked, useTitle } from '../parts/hooks';
 import { go, href } from '../parts/route';
+import { intentOf } from './Play';
 
 /** The card of a game: levels as boards, facts, rules in words, witnesses to watch. */
 export function GamePage({ game, workspace, onCopied }: { game: Game; workspace: Workspace; onCopied: () => void }) {
@@ -18,7 +19,6 @@ export function GamePage({ game, workspace, onCopied }: { game: Game; workspace:
   const released = release.value?.games.find((one) => one.id === game.id);
   const about = text(game.card?.description);
   const goal = text(game.card?.goal);
-  const intents = Array.isArray(game.card?.levels) ? (game.card.levels as { intent?: unknown }[]) : [];
   return (
     <main class="card-page">
       <header class="heading">
@@ -41,7 +41,7 @@ export function GamePage({ game, workspace, onCopied }: { game: Game; workspace:
       <ul class="cards levels">
         {game.levels.map((level, index) => {
           const facts = released?.levels.find((one) => one.name === level.name || `${one.name}.txt` === level.name) ?? released?.levels[index];
-          const intent = text(intents[index]?.intent);
+          const intent = intentOf(game, index);
           const own = game.witnesses.filter((witness) => studio.levelOf(game, witness) === index);
           return (
             <li key={level.name}>

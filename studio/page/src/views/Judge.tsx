@@ -132,7 +132,7 @@ function One({ side, game, onPlayed }: { side: Side; game: JudgeSide; onPlayed: 
   return (
     <section class="one" aria-label={`${name}: ${game.title}`}>
       <header>
-        <h2><span class="soft">{name}</span> {game.title}</h2>
+        <h2 title={game.title}><span class="soft">{name}</span> {game.title}</h2>
         <nav class="tabs" aria-label={`Levels of the ${side} game`}>
           {game.levels.map((_, index) => <button type="button" aria-pressed={index === level} onClick={() => { setWatching(false); setLevel(index); }}>{index + 1}</button>)}
         </nav>
@@ -142,7 +142,7 @@ function One({ side, game, onPlayed }: { side: Side; game: JudgeSide; onPlayed: 
       <p class="row">
         {episode && !watching && <button type="button" onClick={() => setWatching(true)}><Icon name="play" /> Watch it won</button>}
         {watching && <button type="button" class="strong" onClick={() => setWatching(false)}>Play it yourself</button>}
-        {!watching && <span class="soft">Click the board, then use the arrow keys.</span>}
+        {!watching && <span class="soft hint">Click the board, then use the arrow keys.</span>}
       </p>
       <details><summary>How it is played</summary><Markdown text={game.describe} /></details>
     </section>

@@ -79,6 +79,7 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
     }
   };
 
+  const intent = intentOf(game, shownLevel);
   const planner = run?.planner?.split(':')[0] ?? '';
   const choosePlanner = (name: string, calls: string): void => run?.setPlanner(name ? (calls ? `${name}:${calls}` : name) : null);
   return (
@@ -88,6 +89,10 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
         {run ? <Player run={run} keys="page" label={`${game.title}, level ${shownLevel + 1}`} /> : !error && <div class="board" aria-busy="true" />}
       </div>
       <aside class="side" aria-label="About this level">
+        <div>
+          <h1>{`Level ${shownLevel + 1}`}<span class="hidden">{` of ${game.title}`}</span></h1>
+          {intent && <p class="soft">{intent}</p>}
+        </div>
         {game.levels.length > 1 && (
           <nav class="tabs" aria-label="Levels">
             {game.levels.map((one, index) => (
@@ -163,6 +168,13 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
       </aside>
     </main>
   );
+}
+
+/** The sentence of a card on what a level asks. */
+export function intentOf(game: Game, level: number): string | null {
+  const levels = game.card?.levels;
+  const intent: unknown = Array.isArray(levels) ? (levels[level] as { intent?: unknown } | undefined)?.intent : null;
+  return typeof intent === 'string' ? intent : null;
 }
 
 function watchHref(game: Game, level: number): string {
