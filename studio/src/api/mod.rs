@@ -1,0 +1,29 @@
+//! The questions that the page asks.
+
+mod boards;
+mod editor;
+mod play;
+mod workspace;
+
+use crate::answers::{Serving, asked, of_game, of_part, put_part, told};
+use axum::Router;
+
+/// Returns the routes of all questions.
+pub(crate) fn routes() -> Router<Serving> {
+    Router::new()
+        .route("/api/workspace", told(workspace::workspace))
+        .route("/api/games/{id}", of_game(workspace::game))
+        .route("/api/games/{id}/versions", of_game(workspace::versions))
+        .route("/api/games/{id}/witness/{name}", of_part(workspace::witness))
+        .route("/api/games/{id}/files/{name}", put_part(workspace::save))
+        .route("/api/copy", asked(workspace::copy))
+        .route("/api/check", asked(editor::check))
+        .route("/api/page", asked(editor::page))
+        .route("/api/board", asked(boards::board))
+        .route("/api/replay", asked(boards::replay))
+        .route("/api/play/begin", asked(play::begin))
+        .route("/api/play/act", asked(play::act))
+        .route("/api/play/seek", asked(play::seek))
+        .route("/api/play/episode", asked(play::episode))
+        .route("/api/planners", told(play::planners))
+}
