@@ -107,7 +107,9 @@ pub(crate) fn of_part<O: Serialize + 'static>(
 pub(crate) fn put_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     work: fn(&Studio, &str, &str, I) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
-    let answer = move |State(serving): State<Serving>, Path((id, part)): Path<(String, String)>, body: Body| async move {
+    let answer = move |State(serving): State<Serving>,
+                       Path((id, part)): Path<(String, String)>,
+                       body: Body| async move {
         match serving.read(body).await {
             Ok(asked) => serving.answer(move |studio| work(studio, &id, &part, asked)).await,
             Err(refusal) => refusal.into_response(),
@@ -140,7 +142,8 @@ pub(crate) fn streamed<I: DeserializeOwned + Send + 'static>(
     work: fn(&Studio, Asked<I>, &Lines) -> Result<(), Ended>,
 ) -> MethodRouter<Serving> {
     let answer = move |State(serving): State<Serving>, request: Request| async move {
-        let page = request.headers().get("x-arcade-page").and_then(|page| page.to_str().ok()).map(str::to_owned);
+        let page =
+            request.headers().get("x-arcade-page").and_then(|page| page.to_str().ok()).map(str::to_owned);
         let body = match serving.read(request.into_body()).await {
             Ok(body) => body,
             Err(refusal) => return refusal.into_response(),

@@ -46,7 +46,8 @@ fn read_text(file: &Path, limit: usize) -> Result<String, Refusal> {
     let name = shown(file);
     let bytes = read_bytes(file, limit).map_err(|error| unreadable(file, &error))?;
     let bytes = bytes.ok_or_else(|| Refusal::bad(format_args!("{name} is larger than {limit} bytes")))?;
-    String::from_utf8(bytes).map_err(|_| Refusal::bad(format_args!("{name} is no text")).help("save it as UTF-8"))
+    String::from_utf8(bytes)
+        .map_err(|_| Refusal::bad(format_args!("{name} is no text")).help("save it as UTF-8"))
 }
 
 /// Reads a file of at most `limit` bytes; `None` if it is larger.
@@ -72,8 +73,10 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(unreadable(file, &error)),
         // A link would be replaced by a file, and what it points at would stay as it was.
-        Ok(found) if !found.is_file() => Err(Refusal::forbidden(format_args!("{} is not a plain file", shown(file)))
-            .help("replace it by a file to change it here")),
+        Ok(found) if !found.is_file() => {
+            Err(Refusal::forbidden(format_args!("{} is not a plain file", shown(file)))
+                .help("replace it by a file to change it here"))
+        }
         Ok(_) => read_text(file, MAX_LEVEL_TEXT.max(MAX_SOURCE)).map(Some),
     }
 }
@@ -122,7 +125,17 @@ mod tests {
         for (name, number) in [("lvl0.txt", 0), ("lvl12.txt", 12)] {
             assert_eq!(level_number(name), Some(number));
         }
-        for name in ["lvl.txt", "lvl01.txt", "lvl+1.txt", "lvl-1.txt", "lvl1000.txt", "../lvl1.txt", "lvl1.txt/", "LVL1.txt", "lvl1.TXT"] {
+        for name in [
+            "lvl.txt",
+            "lvl01.txt",
+            "lvl+1.txt",
+            "lvl-1.txt",
+            "lvl1000.txt",
+            "../lvl1.txt",
+            "lvl1.txt/",
+            "LVL1.txt",
+            "lvl1.TXT",
+        ] {
             assert_eq!(level_number(name), None, "{name}");
         }
     }

@@ -94,7 +94,12 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// Draws a state after `tick` ticks. Cost: O(sprites log sprites + cells).
-    pub(crate) fn of(compiled: &Compiled, state: &State, tick: usize, tiles: &mut Tiles) -> Result<Frame, Refusal> {
+    pub(crate) fn of(
+        compiled: &Compiled,
+        state: &State,
+        tick: usize,
+        tiles: &mut Tiles,
+    ) -> Result<Frame, Refusal> {
         Frame::with_looks(&compiled.looks, state, tick, tiles)
     }
 

@@ -50,7 +50,9 @@ impl Guard {
         let all = |name: &HeaderName| -> Vec<&str> {
             headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default()).collect()
         };
-        let forbidden = |error: &str| Some(Refusal::forbidden(error).help("open the address that `arcade studio` printed"));
+        let forbidden = |error: &str| {
+            Some(Refusal::forbidden(error).help("open the address that `arcade studio` printed"))
+        };
         let own = |host: &str| self.hosts.iter().any(|own| host.eq_ignore_ascii_case(own));
         if !matches!(all(&header::HOST)[..], [host] if own(host)) {
             return forbidden("this server answers only under its own address");
@@ -85,7 +87,8 @@ pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Ne
         Some(refusal) => refusal.into_response(),
     };
     let headers = response.headers_mut();
-    let mut set = |name: HeaderName, value: &'static str| headers.insert(name, HeaderValue::from_static(value));
+    let mut set =
+        |name: HeaderName, value: &'static str| headers.insert(name, HeaderValue::from_static(value));
     set(header::CONTENT_SECURITY_POLICY, POLICY);
     set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
     set(header::REFERRER_POLICY, "no-referrer");

@@ -20,4 +20,4 @@ mod workspace;
 
 pub use server::{Server, Stop};
 pub use studio::Studio;
-pub use workspace::{GameEntry, Kind, NamedText, Place, Workspace, WitnessEntry};
+pub use workspace::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};

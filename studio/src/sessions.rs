@@ -90,7 +90,9 @@ impl Session {
         let spec: PlannerSpec = name.parse().map_err(Refusal::bad)?;
         let Budget(calls) = spec.budget().unwrap_or(Budget(USUAL_CALLS));
         if calls > MOST_CALLS {
-            return Err(Refusal::bad(format_args!("a planner has at most {MOST_CALLS} calls a decision here")));
+            return Err(Refusal::bad(format_args!(
+                "a planner has at most {MOST_CALLS} calls a decision here"
+            )));
         }
         let known = self.planner.take().filter(|(known, _)| known == spec.name());
         let fresh = || (spec.name().to_owned(), spec.player(self.seed.child("planner", 0)));
@@ -153,7 +155,9 @@ impl Sessions {
             numbered.all.iter().find(|(number, _)| number.to_string() == name).map(|(_, found)| found.clone())
         };
         let Some(session) = found else {
-            return Err(Refusal::missing("this game is over: newer ones took its place").help("begin it again"));
+            return Err(
+                Refusal::missing("this game is over: newer ones took its place").help("begin it again")
+            );
         };
         work(&mut session.lock().unwrap_or_else(PoisonError::into_inner))
     }

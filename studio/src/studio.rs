@@ -20,7 +20,11 @@ pub struct Studio {
 
 impl Studio {
     /// A studio of a workspace, with the version to show and the pages of the manual.
-    pub fn new(workspace: Workspace, version: impl Into<String>, manual: fn(&str) -> Option<String>) -> Studio {
+    pub fn new(
+        workspace: Workspace,
+        version: impl Into<String>,
+        manual: fn(&str) -> Option<String>,
+    ) -> Studio {
         Studio {
             workspace,
             version: version.into(),

@@ -189,7 +189,9 @@ impl GameEntry {
     pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
         let unknown = |help: &str| Refusal::missing("the game has no file of that name").help(help);
         match &self.place {
-            Place::Texts { .. } => Err(Refusal::forbidden("this game cannot be changed").help("copy it first")),
+            Place::Texts { .. } => {
+                Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
+            }
             Place::Folder { writable: false, .. } | Place::File { writable: false, .. } => {
                 Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
             }
@@ -200,9 +202,9 @@ impl GameEntry {
                 Err(unknown(&format!("there are {source} and lvl0.txt, lvl1.txt …")))
             }
             Place::File { file, .. } if file.file_name().is_some_and(|own| own == name) => Ok(file.clone()),
-            Place::File { .. } => {
-                Err(unknown("a game that is a single file has no levels beside it; put it into a folder as game.vgdl"))
-            }
+            Place::File { .. } => Err(unknown(
+                "a game that is a single file has no levels beside it; put it into a folder as game.vgdl",
+            )),
         }
     }
 }

@@ -29,7 +29,8 @@ pub(crate) fn board(studio: &Studio, asked: Board) -> Result<Value, Refusal> {
     let mut tiles = Tiles::default();
     let frame = Frame::of(&compiled, &state, 0, &mut tiles)?;
     let types = |symbol: &u8| {
-        let names: Vec<&str> = compiled.game.places(*symbol).iter().map(|&stype| compiled.game.name(stype)).collect();
+        let names: Vec<&str> =
+            compiled.game.places(*symbol).iter().map(|&stype| compiled.game.name(stype)).collect();
         names.join(" ")
     };
     let cells: Vec<Vec<String>> =

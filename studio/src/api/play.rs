@@ -89,6 +89,7 @@ pub(crate) fn planners(_: &Studio) -> Result<Value, Refusal> {
         "olets" => "open-loop tree search",
         _ => "",
     };
-    let listed: Vec<Value> = PLANNERS.iter().map(|&name| json!({ "name": name, "help": help(name) })).collect();
+    let listed: Vec<Value> =
+        PLANNERS.iter().map(|&name| json!({ "name": name, "help": help(name) })).collect();
     Ok(json!(listed))
 }

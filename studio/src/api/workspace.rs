@@ -29,7 +29,8 @@ pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
 
 fn summary(studio: &Studio, game: &GameEntry) -> Value {
     // A game that cannot be read or has faults is listed without a picture.
-    let (tiles, frame) = first_board(studio, game).map_or((Vec::new(), None), |(tiles, frame)| (tiles, Some(frame)));
+    let (tiles, frame) =
+        first_board(studio, game).map_or((Vec::new(), None), |(tiles, frame)| (tiles, Some(frame)));
     json!({
         "id": game.id,
         "title": game.title,
@@ -55,10 +56,9 @@ pub(crate) fn first_board(studio: &Studio, game: &GameEntry) -> Option<(Vec<Tile
 pub(crate) fn game(studio: &Studio, id: &str) -> Result<Value, Refusal> {
     let game = studio.workspace.game(id)?;
     let (source, levels) = game.read()?;
-    let described = studio.compiled.find(&source.text).map_or_else(|_| String::new(), |found| describe(&found.game));
-    let file = |NamedText { name, text }: &NamedText| {
-        json!({ "name": name, "text": text, "digest": Digest::of(text.as_bytes()) })
-    };
+    let described =
+        studio.compiled.find(&source.text).map_or_else(|_| String::new(), |found| describe(&found.game));
+    let file = |NamedText { name, text }: &NamedText| json!({ "name": name, "text": text, "digest": Digest::of(text.as_bytes()) });
     let witnesses = game.witnesses.iter();
     let witnesses: Vec<Value> =
         witnesses.map(|witness| json!({ "name": witness.name, "level": witness.level })).collect();
@@ -104,7 +104,10 @@ pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result
         None => engine::MAX_SOURCE,
     };
     if asked.text.len() > limit {
-        return Err(Refusal::new(StatusCode::PAYLOAD_TOO_LARGE, format_args!("{name} has at most {limit} bytes")));
+        return Err(Refusal::new(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            format_args!("{name} has at most {limit} bytes"),
+        ));
     }
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
     let now = files::content(&path)?;
