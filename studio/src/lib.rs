@@ -13,9 +13,11 @@ mod guard;
 mod lines;
 mod positions;
 mod refusal;
+mod running;
 mod server;
 mod sessions;
 mod studio;
+mod verdict;
 mod workspace;
 
 pub use server::{Server, Stop};

@@ -1,6 +1,7 @@
 //! All that the server knows: the opened games, and the work in progress.
 
 use crate::compiled::Cache;
+use crate::running::Running;
 use crate::sessions::Sessions;
 use crate::workspace::Workspace;
 use std::fmt;
@@ -14,6 +15,7 @@ pub struct Studio {
     pub(crate) manual: fn(&str) -> Option<String>,
     pub(crate) compiled: Cache,
     pub(crate) sessions: Sessions,
+    pub(crate) verdicts: Running,
     /// Held while a file is compared and written, so that no two requests do so at once.
     pub(crate) saving: Mutex<()>,
 }
@@ -31,6 +33,7 @@ impl Studio {
             manual,
             compiled: Cache::default(),
             sessions: Sessions::default(),
+            verdicts: Running::default(),
             saving: Mutex::default(),
         }
     }

@@ -59,17 +59,22 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     let Compiled { game, looks, .. } = compiled;
     let order = game.drawing_order();
-    let entry = |line: &engine::syntax::MappingLine| {
-        let symbol = u8::try_from(line.symbol).ok()?;
+    let entry = |symbol: u8| {
         let types = game.places(symbol);
         let visible = types.iter().filter(|&&stype| looks.is_visible(stype));
         let on_top = visible.max_by_key(|stype| order.iter().position(|&at| at == stype.0));
         let tile = on_top.map(|&stype| tiles.number(&render::sprite_tile(looks, stype)));
         let names: Vec<&str> = types.iter().map(|&stype| game.name(stype)).collect();
         let label = on_top.map_or("", |&stype| looks.meaning(stype));
-        Some(json!({ "symbol": line.symbol, "types": names, "label": label, "tile": tile }))
+        json!({ "symbol": char::from(symbol), "types": names, "label": label, "tile": tile })
     };
-    game.description().mapping.iter().filter_map(entry).collect()
+    // Those that the game maps, in its order, then those that are mapped by default.
+    let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());
+    let mut symbols: Vec<u8> = written.collect();
+    let by_default = (b'!'..=b'~').filter(|symbol| !symbols.contains(symbol));
+    symbols.extend(by_default.collect::<Vec<u8>>());
+    symbols.retain(|&symbol| !game.places(symbol).is_empty());
+    symbols.into_iter().map(entry).collect()
 }
 
 /// The name of a page of the manual.

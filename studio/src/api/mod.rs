@@ -3,9 +3,10 @@
 mod boards;
 mod editor;
 mod play;
+mod verdict;
 mod workspace;
 
-use crate::answers::{Serving, asked, of_game, of_part, put_part, told};
+use crate::answers::{Serving, asked, of_game, of_part, put_part, streamed, told};
 use axum::Router;
 
 /// Returns the routes of all questions.
@@ -25,5 +26,8 @@ pub(crate) fn routes() -> Router<Serving> {
         .route("/api/play/act", asked(play::act))
         .route("/api/play/seek", asked(play::seek))
         .route("/api/play/episode", asked(play::episode))
+        .route("/api/verdict", streamed(verdict::verdict))
+        .route("/api/necessity", streamed(verdict::necessity))
+        .route("/api/more", streamed(verdict::more))
         .route("/api/planners", told(play::planners))
 }
