@@ -2,7 +2,7 @@
 
 use crate::refusal::Refusal;
 use crate::workspace::NamedText;
-use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
+use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::Path;
@@ -55,16 +55,6 @@ fn read_bytes(file: &Path, limit: usize) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     File::open(file)?.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     Ok(Some(bytes).filter(|bytes| bytes.len() <= limit))
-}
-
-/// Returns the digest of a file's bytes; `None` if there is no such file.
-pub(crate) fn digest(file: &Path) -> Result<Option<Digest>, Refusal> {
-    match read_bytes(file, MAX_LEVEL_TEXT.max(MAX_SOURCE)) {
-        Ok(Some(bytes)) => Ok(Some(Digest::of(&bytes))),
-        Ok(None) => Ok(Some(Digest::of(b"too large"))),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(unreadable(file, &error)),
-    }
 }
 
 /// Returns the content of a file; `None` if there is no such file.

@@ -1,48 +1,33 @@
 //! Positions in texts as a page counts them: UTF-16 code units from 0, lines and columns from 1.
 
-use engine::{Diagnostic, Span, line_and_column};
+use editor::Problem;
+use editor::positions::utf16_of_byte;
+use engine::{Diagnostic, Edit, Span, line_and_column};
 use serde_json::{Value, json};
-
-/// Returns the number of UTF-16 code units before a byte. Cost: O(offset).
-pub(crate) fn units(text: &str, byte: usize) -> usize {
-    let mut end = byte.min(text.len());
-    while !text.is_char_boundary(end) {
-        end -= 1;
-    }
-    text[..end].encode_utf16().count()
-}
 
 /// Returns the range of a span in UTF-16 code units.
 pub(crate) fn range(text: &str, span: Span) -> (usize, usize) {
-    (units(text, span.start), units(text, span.end))
+    (utf16_of_byte(text, span.start), utf16_of_byte(text, span.end))
 }
 
-/// Returns a problem as the page shows it.
+/// Returns an edit as the page makes it.
+pub(crate) fn edit(text: &str, edit: &Edit) -> Value {
+    let (start, end) = range(text, edit.span);
+    json!({ "start": start, "end": end, "text": edit.text })
+}
+
+/// Returns a problem as the page shows it, with its repairs.
 pub(crate) fn problem(text: &str, diagnostic: &Diagnostic) -> Value {
-    let (start, end) = range(text, diagnostic.span);
-    let (line, column) = line_and_column(text, diagnostic.span.start);
+    let Problem { code, severity, message, label, help, span, fixes } = Problem::of(diagnostic.clone(), text);
+    let (start, end) = range(text, span);
+    let (line, column) = line_and_column(text, span.start);
+    let fixes = fixes.iter().map(|fix| {
+        let edits: Vec<Value> = fix.edits.iter().map(|made| edit(text, made)).collect();
+        json!({ "title": fix.title, "edits": edits })
+    });
+    let fixes: Vec<Value> = fixes.collect();
     json!({
-        "code": diagnostic.code,
-        "severity": diagnostic.severity,
-        "message": diagnostic.message,
-        "label": diagnostic.label,
-        "help": diagnostic.help,
-        "start": start, "end": end, "line": line, "column": column,
-        "fixes": [],
-        "page": diagnostic.code,
+        "code": code, "severity": severity, "message": message, "label": label, "help": help,
+        "start": start, "end": end, "line": line, "column": column, "fixes": fixes, "page": code,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn positions_count_code_units() {
-        let text = "aé😀b";
-        let at = |part: &str| units(text, text.find(part).unwrap());
-        assert_eq!([at("a"), at("é"), at("😀"), at("b"), units(text, 100)], [0, 1, 2, 4, 5]);
-        // Inside a character: its start.
-        assert_eq!(units(text, 5), 2);
-    }
 }

@@ -32,7 +32,11 @@ impl Running {
         }
         entries.push(Entry { page, switch: switch.clone() });
         let live = entries.iter().filter(|entry| !entry.switch.load(Ordering::Relaxed)).count();
-        for entry in entries.iter().filter(|entry| !entry.switch.load(Ordering::Relaxed)).take(live.saturating_sub(MOST)) {
+        for entry in entries
+            .iter()
+            .filter(|entry| !entry.switch.load(Ordering::Relaxed))
+            .take(live.saturating_sub(MOST))
+        {
             entry.switch.store(true, Ordering::Relaxed);
         }
         Place { running: self, switch }

@@ -49,7 +49,8 @@ impl Subject<'_> {
                 Solution::Impossible { states, .. } => {
                     lines.check()?;
                     // The proof was cheap enough to be found again, with its explanation.
-                    criteria.budget = SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
+                    criteria.budget =
+                        SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
                     lines.send(&criterion(&self.why_not(&criteria), source))?;
                 }
                 Solution::Unknown => {}
@@ -58,7 +59,9 @@ impl Subject<'_> {
         let is_open = impossible.is_none() && witness.is_some();
         criteria.budget = CRITERIA;
         // Whether it can be won is known, or was looked for with more calls than there are here.
-        criteria.ask.retain(|name| *name != "winnable" && (is_open || !["length", "skill"].contains(&name.as_str())));
+        criteria
+            .ask
+            .retain(|name| *name != "winnable" && (is_open || !["length", "skill"].contains(&name.as_str())));
         let Ok(panel) = Panel::bounded(&criteria, CRITERIA) else { return Ok(()) };
         let mut heard = Ok(());
         panel.judge_aloud(game, level, witness, seed, &mut |judged| {
@@ -92,7 +95,8 @@ impl Subject<'_> {
                     return Ok(solution);
                 }
                 Solution::Impossible { states, .. } => {
-                    let text = format!("the level cannot be won: all {states} reachable states were searched");
+                    let text =
+                        format!("the level cannot be won: all {states} reachable states were searched");
                     lines.send(&json!({ "stage": "impossible", "text": text, "states": states }))?;
                     return Ok(solution);
                 }
@@ -107,7 +111,8 @@ impl Subject<'_> {
     /// Returns the judgement on a level that cannot be won, with the chain of causes.
     fn why_not(&self, criteria: &Criteria) -> Judgement {
         let ask = vec!["winnable".to_owned()];
-        let panel = Panel::new(&Criteria { ask, ..criteria.clone() }).expect("the default criteria are sensible");
+        let panel =
+            Panel::new(&Criteria { ask, ..criteria.clone() }).expect("the default criteria are sensible");
         let mut report = panel.judge(&self.compiled.game, self.level, self.seed);
         report.judgements.pop().expect("one criterion was asked")
     }
@@ -134,7 +139,8 @@ fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> 
             false => unreachable.push(json!({ "type": game.name(stype), "cells": cells })),
         }
     }
-    let avatar: Vec<Value> = (0..level.cells().len()).filter(|&at| reach.avatar_reaches(at)).map(cell).collect();
+    let avatar: Vec<Value> =
+        (0..level.cells().len()).filter(|&at| reach.avatar_reaches(at)).map(cell).collect();
     json!({
         "stage": "reach",
         "reachable": reachable,

@@ -113,7 +113,8 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     let method: Method = method.parse().map_err(Refusal::bad)?;
     let example = level.and_then(|text| compiled.game.level(&text).ok());
     let config = example.and_then(|level| Examples::of(&compiled.game, &[level]));
-    let mut config = config.map_or_else(LevelConfig::default, |examples| LevelConfig::like(Arc::new(examples)));
+    let mut config =
+        config.map_or_else(LevelConfig::default, |examples| LevelConfig::like(Arc::new(examples)));
     if let Some(width) = width {
         config.columns = (width, width);
     }

@@ -4,7 +4,7 @@ use crate::files;
 use crate::frames::{Frame, TileSvg, Tiles};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
-use crate::workspace::{GameEntry, Kind, NamedText, Place};
+use crate::workspace::{GameEntry, NamedText, Place};
 use axum::http::StatusCode;
 use engine::{Digest, Episode, Seed, describe};
 use rayon::prelude::*;
@@ -173,12 +173,6 @@ fn folder_name(title: &str) -> String {
     let words = title.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let name = words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-");
     name.chars().take(MAX_FOLDER).collect::<String>().trim_end_matches('-').to_owned()
-}
-
-/// Tests whether the workspace is of a kind.
-#[allow(dead_code, reason = "used by later questions")]
-pub(crate) fn is(studio: &Studio, kind: Kind) -> bool {
-    studio.workspace.kind == kind
 }
 
 #[cfg(test)]
