@@ -97,8 +97,10 @@ pub struct Workspace {
     pub name: String,
     /// The folder that copies of games go to.
     pub copies: PathBuf,
-    /// The place of the release or results.
+    /// The place of the release.
     pub root: Option<PathBuf>,
+    /// The folders of results, one for each player.
+    pub results: Vec<PathBuf>,
     /// The release, if it is one that verifies.
     pub released: Option<Arc<Released>>,
     /// The release to compare it with.
@@ -114,6 +116,7 @@ impl Workspace {
             name: name.into(),
             copies,
             root: None,
+            results: Vec::new(),
             released: None,
             against: None,
             games: RwLock::default(),

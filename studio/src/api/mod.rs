@@ -3,6 +3,8 @@
 mod boards;
 mod editor;
 mod play;
+mod release;
+mod results;
 mod verdict;
 mod workspace;
 
@@ -34,5 +36,10 @@ pub(crate) fn routes() -> Router<Serving> {
         .route("/api/verdict", streamed(verdict::verdict))
         .route("/api/necessity", streamed(verdict::necessity))
         .route("/api/more", streamed(verdict::more))
+        .route("/api/release", told(release::release))
+        .route("/api/release/verify", streamed(release::verified))
+        .route("/api/release/compare", told(release::compare))
+        .route("/api/results", told(results::results))
+        .route("/api/results/{index}", of_game(results::episode))
         .route("/api/planners", told(play::planners))
 }

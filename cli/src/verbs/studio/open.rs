@@ -38,11 +38,12 @@ pub(super) fn workspace(
     if against.is_some() {
         bail!("--against compares releases, and {place} is none");
     }
-    if path.is_dir() && Evaluation::is_begun(path) {
-        let mut workspace = Workspace::new(Kind::Results, place, copies(here)?, Vec::new());
+    let results = results(path)?;
+    if !results.is_empty() {
         // Opened at once, so that a damaged folder is reported here.
-        Evaluation::open(path)?;
-        workspace.root = Some(path.to_owned());
+        results.iter().try_for_each(|folder| Evaluation::open(folder).map(drop))?;
+        let mut workspace = Workspace::new(Kind::Results, place, copies(here)?, Vec::new());
+        workspace.results = results;
         return Ok(workspace);
     }
     let inputs = input::games(place)?;
@@ -56,6 +57,19 @@ pub(super) fn workspace(
 /// Tests whether a file lies in a folder itself, or is the named file.
 fn is_in(file: &Path, place: &Path) -> bool {
     file == place || file.parent() == Some(place)
+}
+
+/// Returns the results of evaluations at a path: the folder itself, or those in it.
+fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if !path.is_dir() {
+        return Ok(Vec::new());
+    }
+    if Evaluation::is_begun(path) {
+        return Ok(vec![path.to_owned()]);
+    }
+    let mut folders = input::sorted_entries(path)?;
+    folders.retain(|folder| folder.is_dir() && Evaluation::is_begun(folder));
+    Ok(folders)
 }
 
 /// Tests whether a path is a release: a folder with a manifest, or an archive.
