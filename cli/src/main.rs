@@ -96,6 +96,7 @@ verbs! {
     Contamination: contamination,
     Diff: diff,
     Export: export,
+    Studio: studio,
     Play: play,
     Render: render,
     Describe: describe,

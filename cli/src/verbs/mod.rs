@@ -29,6 +29,7 @@ pub(crate) mod run;
 pub(crate) mod scale;
 pub(crate) mod serve_player;
 pub(crate) mod sign;
+pub(crate) mod studio;
 pub(crate) mod timeline;
 pub(crate) mod validate;
 pub(crate) mod verify;

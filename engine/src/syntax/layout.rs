@@ -1,6 +1,6 @@
 //! The layout pass: splits a text into logical lines with an indent, and separates the comments (`spec/01` §1.1).
 
-use crate::diagnostic::Span;
+use crate::diagnostic::{Edit, Span};
 
 /// The character with which some editors start a file.
 pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
@@ -23,6 +23,16 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
+    /// The place of the indent; its characters have one byte each.
+    pub(super) fn indentation(&self) -> Span {
+        Span::new(self.span.start - self.indent, self.span.start)
+    }
+
+    /// The edit that indents the line by that many columns.
+    pub(super) fn indented(&self, columns: usize) -> Edit {
+        Edit::new(self.indentation(), " ".repeat(columns))
+    }
+
     /// The place of a part of `text`.
     pub(super) fn span_of(&self, part: &str) -> Span {
         let start = self.span.start + (part.as_ptr() as usize - self.text.as_ptr() as usize);

@@ -4,7 +4,7 @@
 use super::description::Section;
 use super::indents;
 use super::layout::Line;
-use crate::diagnostic::{Diagnostic, nearest};
+use crate::diagnostic::{Diagnostic, Edit, Span, nearest};
 use crate::keywords::{CLASSES, EFFECTS, TERMINATIONS};
 
 /// A section: the line of its name and the lines below it.
@@ -62,7 +62,8 @@ fn split<'a, 'b>(
                 None => format!("no section named `{}`", line.text),
             };
             let problem = Diagnostic::error("unknown-section", line.span, message);
-            problems.push(problem.help(format!("did you mean `{}`?", section.name())));
+            let problem = problem.help(format!("did you mean `{}`?", section.name()));
+            problems.push(problem.replace(line.span, section.name()));
         }
         parts.push(Part { section, head: line, indent: line.indent, body: Vec::new() });
     }
@@ -82,7 +83,8 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
         if meant != part.section && guesses.all(|other| other == meant) {
             let message = format!("the lines of this {} are {}", part.section.name(), lines_of(meant));
             let problem = Diagnostic::error("swapped-section", part.head.span, message);
-            problems.push(problem.help(format!("write `{}`", meant.name())));
+            let problem = problem.help(format!("write `{}`", meant.name()));
+            problems.push(problem.replace(part.head.span, meant.name()));
             part.section = meant;
         }
     }
@@ -96,10 +98,16 @@ fn missing<'a, 'b>(
     parts: &mut Vec<Part<'a, 'b>>,
     problems: &mut Vec<Diagnostic>,
 ) {
+    let heads = parts.iter().map(|part| part.head.indent).filter(|&indent| indent > header.indent);
+    let indent = heads.clone().next().map_or(header.indent + 1, |_| indents::usual(heads));
     let mut tell = |section: Section, line: &Line<'_>| {
         let message = format!("the game has no {}, and this line is {}", section.name(), line_of(section));
         let problem = Diagnostic::error("missing-section", line.span, message);
-        problems.push(problem.help(format!("add a line `{}` above it", section.name())));
+        let problem = problem.help(format!("add a line `{}` above it", section.name()));
+        let start = line.indentation().start;
+        let insert =
+            Edit::new(Span::new(start, start), format!("{}{}\n", " ".repeat(indent), section.name()));
+        problems.push(problem.fix(format!("Add a line `{}`", section.name()), vec![insert]));
     };
     for section in Section::ALL {
         if parts.iter().any(|part| part.section == section) {
@@ -160,7 +168,8 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
             true => Diagnostic::error("stray-indent", part.head.span, message),
             false => Diagnostic::warning("uneven-indent", part.head.span, message),
         };
-        problems.push(problem.help(format!("indent it by {usual} columns, like them")));
+        let problem = problem.help(format!("indent it by {usual} columns, like them"));
+        problems.push(problem.fix(format!("Indent it by {usual} columns"), vec![part.head.indented(usual)]));
     }
     if !below.is_empty() {
         for part in parts {

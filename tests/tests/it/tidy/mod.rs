@@ -21,6 +21,7 @@ use toml::de::{DeTable, DeValue};
 /// Our crates by folder, each with its allowed dependencies. Imports point one way only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("engine", &[]),
+    ("editor", &["engine"]),
     ("statistics", &[]),
     ("agents", &["engine"]),
     ("generators", &["engine"]),

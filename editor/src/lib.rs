@@ -1,0 +1,26 @@
+//! What editors ask of VGDL games and levels: problems with repairs, hover texts, completions, definitions, renaming.
+//!
+//! Every function takes a text as it is being written, which need not compile, and places are bytes of it;
+//! [`positions`] converts them to what editors count in. The same text always gives the same answer.
+
+mod complete;
+mod format;
+mod hover;
+mod navigate;
+mod outline;
+mod pages;
+pub mod positions;
+mod problems;
+mod rename;
+mod values;
+mod words;
+
+pub use complete::{Completion, Item, ItemKind, complete};
+pub use engine::{Edit, Fix, Severity, Span};
+pub use format::format;
+pub use hover::{Hover, hover};
+pub use navigate::{definition, references};
+pub use outline::{Entry, EntryKind, outline};
+pub use pages::page;
+pub use problems::{LevelRules, Problem, applied, level_problems, problems};
+pub use rename::{RenameError, renamable, rename, rename_in_level};

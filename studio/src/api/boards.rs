@@ -1,0 +1,74 @@
+//! Boards and recordings.
+
+use crate::frames::{Frame, Tiles, action_name, shortened};
+use crate::positions;
+use crate::refusal::Refusal;
+use crate::studio::Studio;
+use engine::{Diagnostics, Episode, MAX_TICKS, Seed};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// A level of a game.
+#[derive(Deserialize)]
+pub(crate) struct Board {
+    source: String,
+    level: String,
+}
+
+pub(crate) fn board(studio: &Studio, asked: Board) -> Result<Value, Refusal> {
+    let compiled = studio.compiled.need(&asked.source)?;
+    let level = match compiled.game.level(&asked.level) {
+        Ok(level) => level,
+        Err(Diagnostics(problems)) => {
+            let problems: Vec<Value> =
+                problems.iter().map(|problem| positions::problem(&asked.level, problem)).collect();
+            return Ok(json!({ "tiles": [], "frame": null, "cells": null, "problems": problems }));
+        }
+    };
+    let state = compiled.game.start(&level, Seed::from_text("board"));
+    let mut tiles = Tiles::default();
+    let frame = Frame::of(&compiled, &state, 0, &mut tiles)?;
+    let types = |symbol: &u8| {
+        let names: Vec<&str> =
+            compiled.game.places(*symbol).iter().map(|&stype| compiled.game.name(stype)).collect();
+        names.join(" ")
+    };
+    let cells: Vec<Vec<String>> =
+        level.cells().chunks(level.columns().max(1)).map(|row| row.iter().map(types).collect()).collect();
+    let problems: Vec<Value> =
+        level.warnings().iter().map(|problem| positions::problem(&asked.level, problem)).collect();
+    Ok(json!({ "tiles": tiles.fresh(), "frame": frame, "cells": cells, "problems": problems }))
+}
+
+/// A recording on a level of a game.
+#[derive(Deserialize)]
+pub(crate) struct Replay {
+    source: String,
+    level: String,
+    episode: Episode,
+}
+
+pub(crate) fn replay(studio: &Studio, asked: Replay) -> Result<Value, Refusal> {
+    let compiled = studio.compiled.need(&asked.source)?;
+    let level = compiled.level(&asked.level)?;
+    let divergence = asked.episode.replay(&compiled.game, &level).err();
+    let mut tiles = Tiles::default();
+    let mut state = compiled.game.start(&level, asked.episode.seed);
+    let mut frames = vec![Frame::of(&compiled, &state, 0, &mut tiles)?];
+    let mut actions = Vec::new();
+    for &action in asked.episode.actions.iter().take(MAX_TICKS.unsigned_abs() as usize + 1) {
+        if state.is_over() {
+            break;
+        }
+        compiled.game.step(&mut state, action);
+        actions.push(action_name(action));
+        frames.push(Frame::of(&compiled, &state, actions.len(), &mut tiles)?);
+    }
+    Ok(json!({
+        "tiles": tiles.fresh(),
+        "frames": shortened(frames),
+        "actions": actions,
+        "agrees": divergence.is_none(),
+        "note": divergence.map(|divergence| divergence.to_string()),
+    }))
+}
