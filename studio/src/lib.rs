@@ -9,6 +9,7 @@ mod api;
 mod compiled;
 mod files;
 mod frames;
+mod gallery;
 mod guard;
 mod lines;
 mod positions;
@@ -20,6 +21,7 @@ mod studio;
 mod verdict;
 mod workspace;
 
+pub use gallery::{Gallery, GalleryError};
 pub use server::{Server, Stop};
 pub use studio::Studio;
 pub use workspace::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};

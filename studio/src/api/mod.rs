@@ -11,6 +11,9 @@ mod workspace;
 use crate::answers::{Serving, asked, of_game, of_part, put_part, streamed, told};
 use axum::Router;
 
+pub(crate) use release::release as release_of;
+pub(crate) use workspace::game as game_of;
+
 /// Returns the routes of all questions.
 pub(crate) fn routes() -> Router<Serving> {
     Router::new()

@@ -1,7 +1,7 @@
 //! `arcade studio`: games on a page of this machine.
 
 mod browser;
-mod open;
+pub(super) mod open;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
