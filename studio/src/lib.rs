@@ -11,6 +11,7 @@ mod files;
 mod frames;
 mod gallery;
 mod guard;
+pub mod judging;
 mod lines;
 mod positions;
 mod refusal;

@@ -2,6 +2,7 @@
 
 mod boards;
 mod editor;
+mod judge;
 mod play;
 mod release;
 mod results;
@@ -44,5 +45,7 @@ pub(crate) fn routes() -> Router<Serving> {
         .route("/api/release/compare", told(release::compare))
         .route("/api/results", told(results::results))
         .route("/api/results/{index}", of_game(results::episode))
+        .route("/api/judge", told(judge::next).merge(asked(judge::add)))
+        .route("/api/judge/report", told(judge::report))
         .route("/api/planners", told(play::planners))
 }

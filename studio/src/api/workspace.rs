@@ -23,7 +23,7 @@ pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
         "name": studio.workspace.name,
         "version": studio.version,
         "games": listed,
-        "judge": false,
+        "judge": studio.judging.is_some(),
     }))
 }
 

@@ -73,7 +73,7 @@ fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Tests whether a path is a release: a folder with a manifest, or an archive.
-fn is_release(path: &Path) -> Result<bool, Failure> {
+pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(path)? else { return Ok(false) };
     if found.is_dir() {
         return Ok(path.join(MANIFEST_FILE).is_file());
@@ -177,7 +177,7 @@ pub(crate) fn of_release(path: &Path, released: Released, copies: PathBuf) -> Wo
     workspace
 }
 
-fn unsound(path: &Path, error: &snapshots::released::ReleasedError) -> Failure {
+pub(super) fn unsound(path: &Path, error: &snapshots::released::ReleasedError) -> Failure {
     let name = path.display();
     malformed!(
         "{name}: {error}; `arcade verify {name}` lists all problems, `arcade studio {name}/games` opens its games without trust"
