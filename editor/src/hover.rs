@@ -1,6 +1,6 @@
 //! Explanations of single words.
 
-use crate::navigate::Subject;
+use crate::navigate::{Subject, symbol_at};
 use crate::pages;
 use crate::words::{BUILT_IN, EDGES, Owner, Role, Sprite, Word, Words};
 use engine::describe::{Guide, plural};
@@ -38,6 +38,14 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
         Role::Arrow | Role::Stray => return None,
     };
     Some(Hover { span: word.span, markdown })
+}
+
+/// The explanation of the character at a byte of a level: what it places in the game.
+pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
+    let (span, symbol) = symbol_at(level, at)?;
+    let words = Words::of(source);
+    let is_mapped = words.mapping().any(|(word, _)| word.text == symbol);
+    is_mapped.then(|| Hover { span, markdown: of_symbol(source, &words, symbol) })
 }
 
 fn of_game_class(name: &str) -> &'static str {
@@ -272,6 +280,16 @@ mod tests {
         check("hero >", &["**hero**: MovingAvatar", "arrow keys"]);
         check("wall", &["Every game has this sprite type"]);
         check("h > hawk", &["- `hawk`: Chaser", "chases"]);
+    }
+
+    #[test]
+    fn characters_of_levels_are_explained() {
+        let hover = level_hover(GAME, "w A\n", 2).unwrap();
+        assert!(
+            hover.span == Span::new(2, 3) && hover.markdown.contains("- `hero`: MovingAvatar"),
+            "{hover:?}"
+        );
+        assert_eq!(level_hover(GAME, "w A\n", 1), None);
     }
 
     #[test]
