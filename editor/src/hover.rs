@@ -188,18 +188,25 @@ fn ancestors<'a>(words: &Words<'a>, sprite: &Sprite<'a>) -> Vec<&'a str> {
     names
 }
 
-/// The sentences of the game's guide that speak of a type, or of a type above it.
+/// The sentences of the game's guide that speak of a type, or of a type above or below it.
 fn sentences(source: &str, words: &Words<'_>, name: &str) -> Vec<String> {
     let Ok(game) = Game::from_source(source) else { return Vec::new() };
     let mut names = vec![name.to_owned(), plural(name)];
-    for above in words.sprite(name).map_or(Vec::new(), |sprite| ancestors(words, sprite)) {
-        names.extend([above.to_owned(), plural(above)]);
+    let above = words.sprite(name).map_or(Vec::new(), |sprite| ancestors(words, sprite));
+    let below = words.sprites.iter().filter(|other| ancestors(words, other).contains(&name));
+    for relative in above.into_iter().chain(below.map(|other| other.name)) {
+        names.extend([relative.to_owned(), plural(relative)]);
     }
     let is_avatar =
         game.sprite_type(name).and_then(|stype| game.class(stype)).is_some_and(|class| class.is_avatar());
-    let speaks = |sentence: &String| {
-        let mut said = sentence.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        said.any(|word| names.iter().any(|name| name == word) || is_avatar && ["You", "you"].contains(&word))
+    let said = |text: &str, is_meant: &dyn Fn(&str) -> bool| {
+        text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(is_meant)
+    };
+    let speaks = |line: &String| {
+        // What else a line says of the player is what happens to the score.
+        let first = line.split(". ").next().unwrap_or_default();
+        let is_player = |word: &str| ["You", "you"].contains(&word);
+        said(line, &|word| names.iter().any(|name| name == word)) || is_avatar && said(first, &is_player)
     };
     let guide = Guide::of(&game);
     let all =
@@ -276,10 +283,13 @@ mod tests {
             "nut >",
             &["**nut**: Immovable", "Subtype of `fruit`", "`color=RED` (inherited)", "`n`", "\n- "],
         );
-        check("fruit", &["Subtypes: `nut`"]);
+        check("fruit", &["Subtypes: `nut`", "You win when no nut is left"]);
         check("hero >", &["**hero**: MovingAvatar", "arrow keys"]);
-        check("wall", &["Every game has this sprite type"]);
-        check("h > hawk", &["- `hawk`: Chaser", "chases"]);
+        let lines = |place: &str| -> Vec<String> {
+            let markdown = hover(GAME, GAME.find(place).unwrap()).unwrap().markdown;
+            markdown.lines().filter(|line| line.contains("edge")).map(str::to_owned).collect()
+        };
+        assert_eq!((lines("nut >").len(), lines("hero >").len()), (1, 0));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What editors ask of VGDL games and levels: problems with repairs, hover texts, completions, definitions, renaming.
+//! Answers to the questions of editors about VGDL games and levels: problems with repairs, hover texts, completions, renaming.
 //!
 //! Every function takes a text as it is being written, which need not compile, and places are bytes of it;
 //! [`positions`] converts them to what editors count in. The same text always gives the same answer. [`lsp`] is a language

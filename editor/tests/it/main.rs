@@ -65,7 +65,7 @@ fn renaming_agrees_with_the_engine() {
     }
 }
 
-/// What a sound game says at a place is among the completions there, and every word but an arrow is explained.
+/// The words of a sound game are among the completions at their places, and every word but an arrow is explained.
 #[test]
 fn every_word_of_the_corpus_is_offered_and_explained() {
     for (name, source, level) in corpus() {
