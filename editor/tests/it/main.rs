@@ -160,3 +160,25 @@ fn damaged_texts_have_answers() {
         }
     }
 }
+
+/// Texts that inherit, place and name as much as their length allows.
+#[test]
+fn texts_at_the_limit_have_answers() {
+    let params: String = (0..250).map(|number| format!(" k{number}=1")).collect();
+    let children: String = (0..11_000).map(|number| format!("   c{number}>\n")).collect();
+    let family = format!("BasicGame\n SpriteSet\n  a > Missile{params}\n{children}");
+    let types: String = (0..500).map(|number| format!("  t{number} > Missile\n")).collect();
+    let names: String = (0..300).map(|number| format!(" t{number}")).collect();
+    let crowd = format!(
+        "BasicGame\n SpriteSet\n{types}  A > MovingAvatar\n LevelMapping\n  x >{names}\n  A > A\n InteractionSet\n TerminationSet\n  Timeout limit=9\n"
+    );
+    for (text, place) in [(&family, "a > M"), (&family, "c10999"), (&crowd, "x > t0"), (&crowd, "t299")] {
+        let at = text.find(place).unwrap();
+        assert!(hover(text, at).is_some(), "{place}");
+        assert!(!references(text, at).is_empty(), "{place}");
+        assert!(rename(text, at, "Q").is_ok(), "{place}");
+        assert_eq!(outline(text).len(), text.matches("Set\n").count() + text.matches("Mapping\n").count());
+        assert!(complete(text, text.find("> M").unwrap() + 2).items.len() > 40);
+        problems(text);
+    }
+}
