@@ -10,6 +10,7 @@ mod export;
 mod generate;
 mod generate_games;
 mod log;
+mod lsp;
 mod mailbox;
 mod marks;
 mod pictures;

@@ -36,6 +36,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "cli",
         &[
             "engine",
+            "editor",
             "agents",
             "generators",
             "validators",
