@@ -230,7 +230,7 @@ export function LevelEditor(props: Props) {
     return undefined;
   };
   const said = cursor
-    ? `Column ${cursor[0] + 1}, row ${cursor[1] + 1}: ${bySymbol.get(at(grid, cursor[0], cursor[1]))?.label ?? at(grid, cursor[0], cursor[1])}`
+    ? `Column ${cursor[0] + 1}, row ${cursor[1] + 1}: ${bySymbol.get(at(grid, cursor[0], cursor[1]))?.types.join(', ') ?? at(grid, cursor[0], cursor[1])}`
     : '';
   const resize = (way: typeof grow, edge: EdgeName): void => {
     strokes += 1;
@@ -263,9 +263,9 @@ export function LevelEditor(props: Props) {
         {legend.map((entry) => {
           const tile = entry.tile === null ? undefined : tiles[entry.tile];
           return (
-            <button type="button" role="radio" aria-checked={entry.symbol === symbol} title={`${entry.symbol}  ${entry.label}`} aria-label={`${entry.label}, symbol ${entry.symbol}`} onClick={() => setBrush(entry.symbol)}>
+            <button type="button" role="radio" aria-checked={entry.symbol === symbol} title={entry.label} aria-label={`${entry.types.join(', ')}, symbol ${entry.symbol}`} onClick={() => setBrush(entry.symbol)}>
               <span class="swatch">{tile ? <img src={address(tile)} alt="" width="28" height="28" /> : <b>{entry.symbol}</b>}</span>
-              <span class="name">{entry.label}</span>
+              <span class="name">{entry.types.join(', ')}</span>
               <kbd>{entry.symbol}</kbd>
             </button>
           );

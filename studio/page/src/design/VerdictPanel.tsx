@@ -230,6 +230,7 @@ function Whole(props: Props) {
   const [error, setError] = useState<string | null>(null);
   const key = `${props.source}\n${props.levels.join('\n')}`;
   const [judged, setJudged] = useState('');
+  const [level, setLevel] = useState('');
   useEffect(() => () => abort?.abort(), [abort]);
   const judge = async (): Promise<void> => {
     const control = new AbortController();
@@ -237,9 +238,11 @@ function Whole(props: Props) {
     setCriteria([]);
     setError(null);
     setJudged(key);
+    setLevel('');
     try {
       for await (const line of stream<VerdictLine>('/api/necessity', { source: props.source, levels: props.levels }, control.signal)) {
         if (line.stage === 'criterion') setCriteria((before) => [...before, line]);
+        else if (line.stage === 'judging') setLevel(`level ${line.level + 1} of ${line.of}`);
         else if (line.stage === 'error') setError(line.error);
       }
     } catch (failure) {
@@ -252,7 +255,7 @@ function Whole(props: Props) {
       <h3>The whole game</h3>
       <p class="row">
         {abort ? <button type="button" onClick={() => abort.abort()}>Stop</button> : <button type="button" onClick={() => void judge()}>Judge all levels</button>}
-        {abort && <span class="spinner" aria-hidden="true" />}
+        {abort && <><span class="spinner" aria-hidden="true" /><span class="soft">{level}</span></>}
         {criteria.length > 0 && judged !== key && <span class="soft">of an earlier state</span>}
       </p>
       {error && <p class="notice bad" role="alert">{error}</p>}
