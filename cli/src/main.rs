@@ -97,6 +97,7 @@ verbs! {
     Diff: diff,
     Export: export,
     Studio: studio,
+    Gallery: gallery,
     Play: play,
     Render: render,
     Describe: describe,

@@ -9,7 +9,9 @@ mod api;
 mod compiled;
 mod files;
 mod frames;
+mod gallery;
 mod guard;
+pub mod judging;
 mod lines;
 mod positions;
 mod refusal;
@@ -20,6 +22,7 @@ mod studio;
 mod verdict;
 mod workspace;
 
+pub use gallery::{Gallery, GalleryError};
 pub use server::{Server, Stop};
 pub use studio::Studio;
 pub use workspace::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};

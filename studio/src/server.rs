@@ -16,7 +16,7 @@ use std::time::Duration;
 use tokio::sync::oneshot;
 
 /// The page: `index.html`, its script and its style.
-static PAGE: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/bundle");
+pub(crate) static PAGE: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/bundle");
 
 /// The limits of the server. A body holds a game and its levels.
 const BOUNDS: Bounds = Bounds {

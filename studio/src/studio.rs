@@ -1,11 +1,12 @@
 //! All that the server knows: the opened games, and the work in progress.
 
 use crate::compiled::Cache;
+use crate::judging::Judging;
 use crate::running::Running;
 use crate::sessions::Sessions;
 use crate::workspace::Workspace;
 use std::fmt;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 /// Answers the questions of a page about a workspace.
 pub struct Studio {
@@ -16,6 +17,7 @@ pub struct Studio {
     pub(crate) compiled: Cache,
     pub(crate) sessions: Sessions,
     pub(crate) verdicts: Running,
+    pub(crate) judging: Option<Arc<Judging>>,
     /// Held while a file is compared and written, so that no two requests do so at once.
     pub(crate) saving: Mutex<()>,
 }
@@ -34,8 +36,18 @@ impl Studio {
             compiled: Cache::default(),
             sessions: Sessions::default(),
             verdicts: Running::default(),
+            judging: None,
             saving: Mutex::default(),
         }
+    }
+}
+
+impl Studio {
+    /// Adds a session of judging, and begins to measure its games.
+    pub fn judging(self, judging: Judging) -> Studio {
+        let judging = Arc::new(judging);
+        Judging::measure_ahead(&judging);
+        Studio { judging: Some(judging), ..self }
     }
 }
 

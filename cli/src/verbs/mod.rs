@@ -11,6 +11,7 @@ pub(crate) mod docs;
 pub(crate) mod evaluate;
 pub(crate) mod export;
 pub(crate) mod fmt;
+pub(crate) mod gallery;
 pub(crate) mod generate;
 pub(crate) mod keygen;
 pub(crate) mod keys;

@@ -2,6 +2,7 @@
 
 mod boards;
 mod editor;
+mod judge;
 mod play;
 mod release;
 mod results;
@@ -10,6 +11,9 @@ mod workspace;
 
 use crate::answers::{Serving, asked, of_game, of_part, put_part, streamed, told};
 use axum::Router;
+
+pub(crate) use release::release as release_of;
+pub(crate) use workspace::game as game_of;
 
 /// Returns the routes of all questions.
 pub(crate) fn routes() -> Router<Serving> {
@@ -41,5 +45,7 @@ pub(crate) fn routes() -> Router<Serving> {
         .route("/api/release/compare", told(release::compare))
         .route("/api/results", told(results::results))
         .route("/api/results/{index}", of_game(results::episode))
+        .route("/api/judge", told(judge::next).merge(asked(judge::add)))
+        .route("/api/judge/report", told(judge::report))
         .route("/api/planners", told(play::planners))
 }

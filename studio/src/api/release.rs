@@ -77,7 +77,9 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
             let content = folder::read(root, &item.path, Limits::SNAPSHOT.file_bytes);
             let ok = content.is_ok_and(|bytes| Digest::of(&bytes) == item.digest);
             let (done, total) = (done + 1, items.len());
-            lines.send(&json!({ "stage": "file", "path": item.path, "ok": ok, "done": done, "total": total }))?;
+            lines.send(
+                &json!({ "stage": "file", "path": item.path, "ok": ok, "done": done, "total": total }),
+            )?;
         }
     }
     lines.check()?;
@@ -97,7 +99,8 @@ fn words(found: &Verification) -> Vec<String> {
         return found.problems.clone();
     }
     let Verification { files, games, levels, .. } = found;
-    let mut said = vec![format!("{files} files, {games} games, {levels} levels: every digest and the root are right")];
+    let mut said =
+        vec![format!("{files} files, {games} games, {levels} levels: every digest and the root are right")];
     said.push(match &found.witnesses {
         Witnesses::Replayed(count) => format!("{count} recorded wins were replayed, state by state"),
         Witnesses::Held => "sealed: its wins are withheld until the reveal".to_owned(),

@@ -32,7 +32,8 @@ pub(crate) fn results(studio: &Studio) -> Result<Value, Refusal> {
     for evaluation in &evaluations {
         let tasks = evaluation.tasks();
         let listed = tasks.par_iter().enumerate().map(|(at, task)| summary(evaluation, task, first + at));
-        let listed: Vec<Value> = listed.collect::<Result<Vec<Option<Value>>, Refusal>>()?.into_iter().flatten().collect();
+        let listed: Vec<Value> =
+            listed.collect::<Result<Vec<Option<Value>>, Refusal>>()?.into_iter().flatten().collect();
         first += tasks.len();
         let entrant = &evaluation.settings.entrant;
         let name = match &entrant.mode {
@@ -163,7 +164,8 @@ fn talks(log: &[Event]) -> Vec<Talk> {
                 current.parsed = match (&reply.action, &reply.plan) {
                     (Some(action), _) => Some(action_name(*action)),
                     (None, Some(plan)) => {
-                        let names: Vec<String> = plan.iter().map(|&action: &Action| action_name(action)).collect();
+                        let names: Vec<String> =
+                            plan.iter().map(|&action: &Action| action_name(action)).collect();
                         Some(names.join(" "))
                     }
                     (None, None) => None,

@@ -23,7 +23,7 @@ pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
         "name": studio.workspace.name,
         "version": studio.version,
         "games": listed,
-        "judge": false,
+        "judge": studio.judging.is_some(),
     }))
 }
 
@@ -37,9 +37,22 @@ fn summary(studio: &Studio, game: &GameEntry) -> Value {
         "levels": game.count(),
         "writable": game.is_writable(),
         "summary": game.summary,
+        "kind": of_card(game, "kind"),
+        "tier": hardest(game),
         "tile": frame,
         "tiles": tiles,
     })
+}
+
+/// Returns a field of a game's card.
+fn of_card<'a>(game: &'a GameEntry, field: &str) -> Option<&'a Value> {
+    game.card.as_ref()?.get(field)
+}
+
+/// Returns the highest tier of a game's levels.
+fn hardest(game: &GameEntry) -> Option<u64> {
+    let levels = of_card(game, "levels")?.as_array()?;
+    levels.iter().filter_map(|level| level.get("tier")?.as_u64()).max()
 }
 
 /// Draws the first level of a game, if there is one without problems.

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use studio::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};
 
 /// Opens the named place; the corpus if none is named.
-pub(super) fn workspace(
+pub(crate) fn workspace(
     place: Option<&str>,
     out: Option<&Path>,
     against: Option<&Path>,
@@ -73,7 +73,7 @@ fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Tests whether a path is a release: a folder with a manifest, or an archive.
-fn is_release(path: &Path) -> Result<bool, Failure> {
+pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(path)? else { return Ok(false) };
     if found.is_dir() {
         return Ok(path.join(MANIFEST_FILE).is_file());
@@ -136,9 +136,19 @@ fn corpus() -> Result<Vec<GameEntry>, Failure> {
     Ok(embedded::corpus()?.games.into_iter().map(entry).collect())
 }
 
+/// Opens a release, which is verified first, and another one to compare it with.
 fn release(path: &Path, against: Option<&Path>, copies: PathBuf) -> Result<Workspace, Failure> {
-    let read = |path: &Path| Released::read(path).map(Arc::new).map_err(|error| unsound(path, &error));
-    let released = read(path)?;
+    let read = |path: &Path| Released::read(path).map_err(|error| unsound(path, &error));
+    let mut workspace = of_release(path, read(path)?, copies);
+    if let Some(other) = against {
+        workspace.against = Some((other.to_owned(), Arc::new(read(other)?)));
+    }
+    Ok(workspace)
+}
+
+/// Returns the workspace of a verified release.
+pub(crate) fn of_release(path: &Path, released: Released, copies: PathBuf) -> Workspace {
+    let released = Arc::new(released);
     let games = released.games.iter().map(|game| {
         let level = |(number, level): (usize, &snapshots::released::ReleasedLevel)| NamedText {
             name: format!("lvl{number}.txt"),
@@ -164,12 +174,10 @@ fn release(path: &Path, against: Option<&Path>, copies: PathBuf) -> Result<Works
         Workspace::new(Kind::Snapshot, released.manifest.name.clone(), copies, games.collect());
     workspace.root = Some(path.to_owned());
     workspace.released = Some(released.clone());
-    workspace.against =
-        against.map(|other| Ok::<_, Failure>((other.to_owned(), read(other)?))).transpose()?;
-    Ok(workspace)
+    workspace
 }
 
-fn unsound(path: &Path, error: &snapshots::released::ReleasedError) -> Failure {
+pub(super) fn unsound(path: &Path, error: &snapshots::released::ReleasedError) -> Failure {
     let name = path.display();
     malformed!(
         "{name}: {error}; `arcade verify {name}` lists all problems, `arcade studio {name}/games` opens its games without trust"
