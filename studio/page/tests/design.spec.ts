@@ -29,14 +29,14 @@ test('a level that cannot be won says why, and can be won again after an undo', 
   await page.getByRole('radio', { name: /^hedge/ }).click();
   await paint(page, 2, 3);
   await paint(page, 4, 3);
-  await expect(page.getByText('Cannot be won')).toBeVisible();
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
   await expect(page.getByRole('heading', { name: 'Out of reach' })).toBeVisible();
   await page.locator('.verdict .evidence button').first().click();
   await page.locator('.paint canvas').focus();
   await page.keyboard.press('Control+z');
   await expect(page.getByText(/^Can be won in/)).toBeVisible();
   await page.keyboard.press('Control+Shift+Z');
-  await expect(page.getByText('Cannot be won')).toBeVisible();
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
 });
 
 test('a level is painted with the keyboard alone, and the cursor is announced', async ({ page, studio }) => {

@@ -4,6 +4,7 @@ import { address, Tileset } from '../data/tiles';
 import type { BoardAnswer, Frame, LegendEntry, Problem, Tile } from '../data/types';
 import { cellFor, colour, type Highlight, onScheme } from '../parts/Board';
 import { Icon } from '../parts/Icon';
+import { Words } from '../parts/Markdown';
 import { area, at, type EdgeName, type Grid, grow, line, paint, parse, print, shrink, widthOf } from './grid';
 
 interface Props {
@@ -13,6 +14,9 @@ interface Props {
   tiles: Tile[];
   problems: Problem[];
   highlights: Highlight[];
+  /** The symbol that is painted; null until one is chosen. */
+  brush: string | null;
+  onBrush: (symbol: string) => void;
   onChange: (text: string, stroke: number) => void;
   onUndo: () => void;
   onRedo: () => void;
@@ -31,8 +35,7 @@ let strokes = 0;
 
 /** A level painted on its board, with the legend as the palette. */
 export function LevelEditor(props: Props) {
-  const { source, text, legend, tiles, highlights, onChange } = props;
-  const [brush, setBrush] = useState<string | null>(null);
+  const { source, text, legend, tiles, highlights, onChange, brush, onBrush: setBrush } = props;
   const [tool, setTool] = useState<'brush' | 'fill'>('brush');
   const [asText, setAsText] = useState(false);
   const [cursor, setCursor] = useState<[number, number] | null>(null);
@@ -292,7 +295,7 @@ export function LevelEditor(props: Props) {
           />
         </div>
       )}
-      <p class="under" role="status">{said || error || props.problems[0]?.message || ' '}</p>
+      <p class="under" role="status"><Words text={said || error || props.problems[0]?.message || ' '} /></p>
     </div>
   );
 }

@@ -1,7 +1,9 @@
+import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { stream, words } from '../data/api';
 import type { Episode, Evidence, RuleSpan, VerdictLine } from '../data/types';
 import { Icon } from '../parts/Icon';
+import { Words } from '../parts/Markdown';
 import { Share } from '../views/Judge';
 
 type Criterion = Extract<VerdictLine, { stage: 'criterion' }>;
@@ -130,7 +132,7 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
   if (errors.length > 0) {
     return (
       <div class="headline bad"><Icon name="cross" /><div><strong>{errors.length === 1 ? 'A problem comes first' : `${errors.length} problems come first`}</strong>
-        {errors.slice(0, 3).map((one) => <p>{one.message}</p>)}
+        {errors.slice(0, 3).map((one) => <p><Words text={one.message} /></p>)}
       </div></div>
     );
   }
@@ -147,7 +149,7 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
     return (
       <div class="headline bad"><Icon name="cross" /><div>
         <strong>Cannot be won</strong>
-        <p>{answer.text}</p>
+        <p><Words text={answer.text} /></p>
         {answer.states > 0 && <p class="soft">All {answer.states.toLocaleString('en')} states were seen.</p>}
       </div></div>
     );
@@ -156,7 +158,7 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
     return (
       <div class="headline"><Icon name="help" /><div>
         <strong>Not known</strong>
-        <p>{answer.text}</p>
+        <p><Words text={answer.text} /></p>
         <button type="button" onClick={() => onLonger(Math.max(answer.calls, 1000))}>Look ten times longer</button>
       </div></div>
     );
@@ -172,27 +174,30 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
 
 const SIGNS = { pass: ['✓', 'passes'], fail: ['✗', 'fails'], unknown: ['?', 'not known'], skipped: ['–', 'skipped'] } as const;
 
+const RANKS = ['fail', 'unknown', 'pass', 'skipped'];
+
 function Criteria({ criteria, ...props }: Props & { criteria: Criterion[] }) {
   return (
     <section>
       <h3>Criteria</h3>
       <ul class="criteria">
-        {criteria.map((one) => {
+        {[...criteria].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)).map((one) => {
           const [sign, word] = SIGNS[one.verdict] ?? SIGNS.unknown;
           const { episode } = one;
           return (
             <li class={one.verdict}>
               <span class="sign" role="img" aria-label={word}>{sign}</span>
               <div>
-                <strong>{one.name}</strong> <span>{one.text}</span>
-                {(one.evidence.length > 0 || episode) && (
-                  <ul class="evidence">
-                    {one.evidence.map((seen) => <Seen evidence={seen} episode={episode} {...props} />)}
-                    {episode && !one.evidence.some((seen) => seen.tick !== null) && (
-                      <li><button type="button" class="link" onClick={() => props.onEpisode(episode, null, one.name)}>watch</button></li>
-                    )}
-                  </ul>
-                )}
+                <Shown open={one.verdict !== 'pass'} head={<><strong>{one.name}</strong> <span><Words text={one.text} /></span></>}>
+                  {one.evidence.length === 0 && !episode ? null : (
+                    <ul class="evidence">
+                      {one.evidence.map((seen) => <Seen evidence={seen} episode={episode} {...props} />)}
+                      {episode && !one.evidence.some((seen) => seen.tick !== null) && (
+                        <li><button type="button" class="link" onClick={() => props.onEpisode(episode, null, one.name)}>watch</button></li>
+                      )}
+                    </ul>
+                  )}
+                </Shown>
               </div>
             </li>
           );
@@ -202,10 +207,16 @@ function Criteria({ criteria, ...props }: Props & { criteria: Criterion[] }) {
   );
 }
 
+/** What was seen below its head; of what passes it is folded away, since a designer looks for what does not. */
+function Shown({ open, head, children }: { open: boolean; head: ComponentChildren; children: ComponentChildren }) {
+  if (!children) return <>{head}</>;
+  return <details open={open}><summary>{head}</summary>{children}</details>;
+}
+
 /** A piece of evidence: a click shows its square, its rule and its moment. */
 function Seen({ evidence, episode, ...props }: Props & { evidence: Evidence; episode: Episode | null }) {
   const { cell, rule, tick } = evidence;
-  if (!cell && !rule && (tick === null || !episode)) return <li>{evidence.text}</li>;
+  if (!cell && !rule && (tick === null || !episode)) return <li><Words text={evidence.text} /></li>;
   const show = (): void => {
     if (episode && tick !== null) props.onEpisode(episode, tick, evidence.text);
     if (cell) props.onCells([cell]);
@@ -213,7 +224,7 @@ function Seen({ evidence, episode, ...props }: Props & { evidence: Evidence; epi
   };
   return (
     <li>
-      <button type="button" class="link" onClick={show}>{evidence.text}</button>
+      <button type="button" class="link" onClick={show}><Words text={evidence.text} /></button>
       <span class="soft">
         {rule && ` line ${rule.line}`}
         {cell && ` square ${cell[0] + 1}, ${cell[1] + 1}`}

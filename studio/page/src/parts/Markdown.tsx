@@ -75,6 +75,11 @@ function table(rows: string[]): ComponentChild {
   );
 }
 
+/** A sentence of a message: names in backquotes are set as code. */
+export function Words({ text }: { text: string }) {
+  return <>{text.split(/`([^`]*)`/).map((part, index) => (index % 2 === 1 ? <code>{part}</code> : part))}</>;
+}
+
 function inline(text: string): ComponentChild[] {
   const out: ComponentChild[] = [];
   const pattern = /`([^`]+)`|\*\*([^*]+)\*\*|\*([^*\s][^*]*)\*|\[([^\]]+)\]\(([^)\s]+)\)/g;

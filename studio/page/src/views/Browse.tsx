@@ -70,7 +70,7 @@ export function Browse({ workspace }: { workspace: Workspace }) {
     <main class="browse">
       <header class="heading">
         <div>
-          <h1>{workspace.name}</h1>
+          <h1>{workspace.kind === 'corpus' ? 'The corpus' : workspace.name}</h1>
           <p class="soft">
             {games.length === all.length ? `${all.length} games` : `${games.length} of ${all.length} games`}
             {workspace.kind === 'snapshot' && <> · <a href={href('release')}>about this release</a></>}

@@ -96,12 +96,14 @@ function Verify() {
 }
 
 function Levels({ release }: { release: Release }) {
+  const hasTiers = release.games.some((game) => game.levels.some((level) => level.tier));
+  const hasEase = release.games.some((game) => game.levels.some((level) => level.difficulty));
   return (
     <section>
       <h2>Games and levels</h2>
       <Wide name="Games and levels">
         <table>
-          <thead><tr><th>Game</th><th>Kind</th><th class="n">Levels</th><th>Tiers</th><th>Difficulty</th></tr></thead>
+          <thead><tr><th>Game</th><th>Kind</th><th class="n">Levels</th>{hasTiers && <th>Tiers</th>}{hasEase && <th>Difficulty</th>}</tr></thead>
           <tbody>
             {release.games.map((game) => {
               const tiers = [...new Set(game.levels.map((level) => level.tier).filter(Boolean))];
@@ -111,8 +113,8 @@ function Levels({ release }: { release: Release }) {
                   <td><a href={href('game', game.id)}>{game.title}</a></td>
                   <td>{game.kind ?? '–'}</td>
                   <td class="n">{game.levels.length}</td>
-                  <td>{tiers.length ? tiers.join(', ') : '–'}</td>
-                  <td>{easeSpan(eases) ?? '–'}</td>
+                  {hasTiers && <td>{tiers.length ? tiers.join(', ') : '–'}</td>}
+                  {hasEase && <td>{easeSpan(eases) ?? '–'}</td>}
                 </tr>
               );
             })}

@@ -29,13 +29,13 @@ export function ResultsPage() {
         <div class="filters">
           <Choice label="Player" all="All players" value={player} options={choices((one) => one.player)} onChange={setPlayer} />
           <Choice label="Game" all="All games" value={game} options={choices((one) => one.episode.game)} onChange={setGame} />
-          <Choice label="Outcome" all="All outcomes" value={outcome} options={choices((one) => one.episode.outcome)} onChange={setOutcome} />
+          <Choice label="Outcome" all="All outcomes" value={outcome} options={choices((one) => one.episode.outcome)} words={outcomeWords} onChange={setOutcome} />
         </div>
       </header>
       {asked.error && <p class="notice bad" role="alert">{asked.error}</p>}
       <Wide name="Episodes">
         <table>
-          <thead><tr><th>Player</th><th>Game</th><th>Level</th><th>Run</th><th>Outcome</th><th class="n">Score</th><th class="n">Steps</th><td /></tr></thead>
+          <thead><tr><th>Player</th><th>Game</th><th>Level</th><th>Run</th><th>Outcome</th><th class="n">Score</th><th class="n">Steps</th></tr></thead>
           <tbody>{rows.slice(0, count).map((one) => <Row key={one.episode.index} player={one.player} episode={one.episode} />)}</tbody>
         </table>
       </Wide>
@@ -44,17 +44,21 @@ export function ResultsPage() {
   );
 }
 
+/** An episode that is still playing was stopped by a limit of the evaluation. */
+function outcomeWords(outcome: string): string {
+  return outcome === 'playing' ? 'unfinished' : outcome;
+}
+
 function Row({ player, episode }: { player: string; episode: ResultEpisode }) {
   return (
     <tr>
       <td>{player}</td>
-      <td>{episode.game}</td>
+      <td><a href={href('results', episode.index)} aria-label={`Watch ${player} on ${episode.game}, level ${episode.level}`}>{episode.game}</a></td>
       <td>{String(episode.level)}</td>
       <td>{String(episode.run)}</td>
-      <td><span class={`outcome ${episode.outcome}`}>{episode.outcome}</span></td>
+      <td><span class={`outcome ${episode.outcome}`}>{outcomeWords(episode.outcome)}</span></td>
       <td class="n">{episode.score}</td>
       <td class="n">{episode.steps}</td>
-      <td><a href={href('results', episode.index)} aria-label={`Watch ${player} on ${episode.game}, level ${episode.level}`}>watch</a></td>
     </tr>
   );
 }
