@@ -232,7 +232,7 @@ const STREAMS = {
   async *more({ level, source, count }) {
     for (let at = 0; at < count; at += 1) {
       await pause(20);
-      yield { stage: 'level', level, tiles: TILES, frame: frame(begin(source, level)), ticks: 7 + at };
+      yield { stage: 'level', level, tiles: at === 0 ? TILES : [], frame: frame(begin(source, level)), ticks: 7 + at };
     }
   },
   async *'release/verify'() {

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'preact/hooks';
 import { stream, words } from '../data/api';
-import type { MoreLine } from '../data/types';
+import type { MoreLine, Tile } from '../data/types';
 import { Thumb } from '../parts/Board';
 import { EASE, easeWords } from '../views/Browse';
 
@@ -33,9 +33,15 @@ export function MorePanel({ source, level, width, height, onUse, onAdd }: { sour
     setFailed([]);
     setError(null);
     const asked = { source, level, method, width: Number(columns) || width, height: Number(rows) || height, difficulty: difficulty || null, seed, count: 6 };
+    // A line brings only the tiles that no line before it brought.
+    const tiles: Tile[] = [];
     try {
       for await (const line of stream<MoreLine>('/api/more', asked, control.signal)) {
-        if (line.stage === 'level') setMade((before) => [...before, line]);
+        if (line.stage === 'level') {
+          tiles.push(...line.tiles);
+          const whole = { ...line, tiles: [...tiles] };
+          setMade((before) => [...before, whole]);
+        }
         else if (line.stage === 'none') setFailed((before) => [...before, line.text]);
         else if (line.stage === 'error') setError(line.error);
       }

@@ -110,7 +110,7 @@ export function VerdictPanel(props: Props) {
           <ul class="evidence">{said.reach.why.map((one) => <Seen evidence={{ ...one, tick: null }} episode={null} {...props} />)}</ul>
         </section>
       )}
-      {said.criteria.length > 0 && <Criteria criteria={said.criteria} {...props} />}
+      {said.criteria.length > 0 && <Criteria criteria={fresh(said)} {...props} />}
       {said.ladder && (
         <section>
           <h3>Players</h3>
@@ -170,6 +170,12 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
       <p class="soft">{said.calls > 0 ? `${said.calls.toLocaleString('en')} calls` : ' '}</p>
     </div></div>
   );
+}
+
+/** The criteria without the evidence that is listed under the reasons already. */
+function fresh(said: Said): Criterion[] {
+  const listed = new Set(said.reach?.why.map((one) => one.text));
+  return said.criteria.map((one) => ({ ...one, evidence: one.evidence.filter((seen) => !listed.has(seen.text)) }));
 }
 
 const SIGNS = { pass: ['✓', 'passes'], fail: ['✗', 'fails'], unknown: ['?', 'not known'], skipped: ['–', 'skipped'] } as const;
