@@ -29,14 +29,14 @@ test('a level that cannot be won says why, and can be won again after an undo', 
   await page.getByRole('radio', { name: /^hedge/ }).click();
   await paint(page, 2, 3);
   await paint(page, 4, 3);
-  await expect(page.getByText('Cannot be won')).toBeVisible();
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
   await expect(page.getByRole('heading', { name: 'Out of reach' })).toBeVisible();
   await page.locator('.verdict .evidence button').first().click();
   await page.locator('.paint canvas').focus();
   await page.keyboard.press('Control+z');
   await expect(page.getByText(/^Can be won in/)).toBeVisible();
   await page.keyboard.press('Control+Shift+Z');
-  await expect(page.getByText('Cannot be won')).toBeVisible();
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
 });
 
 test('a level is painted with the keyboard alone, and the cursor is announced', async ({ page, studio }) => {
@@ -123,7 +123,10 @@ test('a made level is inserted, and evidence plays in the board', async ({ page,
   await page.getByRole('button', { name: 'Back to painting' }).click();
   await page.getByRole('tab', { name: 'More like this' }).click();
   await page.getByRole('button', { name: 'Make six' }).click();
-  await page.getByRole('button', { name: 'Add', exact: true }).first().click({ timeout: 20_000 });
+  const second = page.locator('.more canvas').nth(1);
+  await second.scrollIntoViewIfNeeded({ timeout: 20_000 });
+  await expect.poll(() => second.evaluate((canvas: HTMLCanvasElement) => canvas.getContext('2d')?.getImageData(0, 0, 1, 1).data[3])).toBe(255);
+  await page.getByRole('button', { name: 'Add', exact: true }).first().click();
   await expect(page.getByRole('navigation', { name: 'Levels' }).getByRole('link')).toHaveCount(3);
   await page.getByRole('tab', { name: 'Verdict' }).click();
   await expect(page.getByText(/^Can be won in/)).toBeVisible();

@@ -1,20 +1,22 @@
 import { mkdirSync } from 'node:fs';
-import { open, test } from './studio';
+import { expect, type Mode, open, test } from './studio';
 
 // Pictures of every view, to be looked at: `LOOK=1 npx playwright test look` writes them into shots/.
 test.skip(process.env.LOOK === undefined, 'set LOOK=1 to take pictures');
 
-const VIEWS: [string, 'games' | 'snapshot' | 'judge' | 'results', string][] = [
-  ['browse', 'snapshot', ''],
-  ['game', 'games', 'game/moth-and-lamps'],
+const VIEWS: [string, Mode, string][] = [
+  ['browse', 'corpus', ''],
+  ['game', 'corpus', 'game/first-ice'],
+  ['play', 'corpus', 'play/first-ice/4'],
+  ['design', 'corpus', 'design/quiet-jars/1'],
+  ['broken', 'games', 'design/moth-and-lamps/0'],
+  ['snapshot', 'snapshot', ''],
   ['release', 'snapshot', 'release'],
-  ['play', 'games', 'play/moth-and-lamps/0'],
-  ['watch', 'snapshot', 'watch/moth-and-lamps/lvl0'],
-  ['design', 'games', 'design/moth-and-lamps/1'],
+  ['watch', 'snapshot', ''],
   ['judge', 'judge', 'judge'],
   ['report', 'judge', 'judge/report'],
   ['results', 'results', 'results'],
-  ['result', 'results', 'results/0'],
+  ['result', 'results', 'results/2'],
 ];
 
 for (const [name, mode, route] of VIEWS) {
@@ -27,7 +29,21 @@ for (const [name, mode, route] of VIEWS) {
         await page.setViewportSize({ width, height });
         await page.goto('about:blank');
         await open(page, running, route);
-        await page.waitForTimeout(900);
+        if (name === 'watch') {
+          await page.locator('a.card').first().click();
+          await page.getByRole('link', { name: /^watch/ }).first().click();
+          await page.getByRole('slider', { name: 'Rewind' }).fill('20');
+        }
+        if (name === 'broken') {
+          if (width === 375) await page.getByRole('button', { name: 'Rules' }).click();
+          await page.locator('.cm-line', { hasText: 'lamp moth' }).click();
+          await page.keyboard.press('Home');
+          await page.keyboard.type('z');
+          await page.keyboard.press('Escape');
+          await expect(page.getByRole('list', { name: 'Problems' })).toBeVisible();
+        }
+        if (name === 'release') await page.getByRole('button', { name: 'Verify' }).click();
+        await page.waitForTimeout(name === 'design' ? 2500 : 900);
         await page.screenshot({ path: `shots/${name}-${width}-${scheme}.png` });
         if (width === 375) await page.screenshot({ path: `shots/${name}-${width}-${scheme}-full.png`, fullPage: true });
       }

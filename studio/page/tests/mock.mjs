@@ -132,13 +132,14 @@ function game(id) {
   const file = (name) => ({ name, text: read(name), digest: digest(read(name)) });
   const card = existsSync(join(dir, 'CARD.toml')) ? read('CARD.toml') : '';
   const levels = readdirSync(dir).filter((name) => /^lvl\d+\.txt$/.test(name)).sort().map(file);
+  if (mode === 'games') return { id, title: id, writable: true, source: file('game.vgdl'), levels, card: null, witnesses: [], describe: describe() };
   const fields = Object.fromEntries(['title', 'description', 'goal', 'kind', 'skill', 'real_time'].map((name) => [name, toml(card, name)]));
   fields.levels = [...card.matchAll(/^intent = (.*)$/gm)].map((found) => ({ intent: JSON.parse(found[1]) }));
   return { id, title: fields.title ?? id, writable: mode === 'games', source: file('game.vgdl'), levels, card: fields, witnesses: levels.map((level, index) => ({ name: `lvl${index}`, level: index })), describe: describe() };
 }
 const entry = (id) => {
   const of = game(id);
-  return { id, title: of.title, levels: of.levels.length, writable: of.writable, summary: of.card.description ?? '', tile: frame(begin(of.source.text, of.levels[0].text)), tiles: TILES };
+  return { id, title: of.title, levels: of.levels.length, writable: of.writable, summary: of.card?.description ?? '', tile: frame(begin(of.source.text, of.levels[0].text)), tiles: TILES };
 };
 
 const sessions = new Map();
@@ -186,7 +187,7 @@ const ROUTES = {
   'POST play/episode': ({ session }) => ({ actions: sessions.get(session).actions }),
   'GET planners': () => [{ name: 'mcts', help: 'Monte-Carlo tree search' }, { name: 'random', help: 'any action' }],
   'POST replay': ({ source, level, episode }) => ({ tiles: TILES, frames: play(source, level, episode.actions).map(frame), actions: episode.actions, agrees: true, note: null }),
-  'GET release': () => ({ name: 'april', root: digest('root'), parent: digest('parent'), format: 3, semantics: 12, generation: 4, sealed: false, games: [...dirs.keys()].map((id) => ({ id, title: game(id).title, kind: game(id).card.kind, levels: game(id).levels.map((level, at) => ({ name: level.name, tier: at ? 'hard' : 'easy', difficulty: 0.2 + at / 2, width: 8, height: 5 })), tiles: TILES, frame: entry(id).tile })) }),
+  'GET release': () => ({ name: 'april', root: digest('root'), parent: digest('parent'), format: 3, semantics: 12, generation: 4, sealed: false, games: [...dirs.keys()].map((id) => ({ id, title: game(id).title, kind: game(id).card.kind, levels: game(id).levels.map((level, at) => ({ name: level.name, tier: null, difficulty: at ? 'very_hard' : 'easy', width: 8, height: 5 })), tiles: TILES, frame: entry(id).tile })) }),
   'GET release/compare': () => ({ other: 'march', new: [...dirs.keys()], gone: ['old-game'], kept: [], nearest: [...dirs.keys()].map((id) => ({ id, other: 'old-game', distance: 0.41 })) }),
   'GET results': () => ({ players: [{ name: 'a-model', episodes: [{ index: 0, game: 'moth-and-lamps', level: 0, run: 0, outcome: 'won', score: 1, steps: 6 }] }] }),
   'GET results/0': () => {
@@ -231,7 +232,7 @@ const STREAMS = {
   async *more({ level, source, count }) {
     for (let at = 0; at < count; at += 1) {
       await pause(20);
-      yield { stage: 'level', level, tiles: TILES, frame: frame(begin(source, level)), ticks: 7 + at };
+      yield { stage: 'level', level, tiles: at === 0 ? TILES : [], frame: frame(begin(source, level)), ticks: 7 + at };
     }
   },
   async *'release/verify'() {

@@ -1,11 +1,14 @@
 import { type ChildProcess, spawn } from 'node:child_process';
-import { cpSync, mkdtempSync } from 'node:fs';
+import { cpSync, mkdtempSync, renameSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { expect, test as base, type Page } from '@playwright/test';
 
 /** Where the tests' own games are; each test works on a copy. */
 export const GAMES = join(import.meta.dirname, 'games');
+
+/** A title that would run if a page took it for markup; a game's folder is named so at run time, since not every system allows it. */
+export const HOSTILE = '<img src=x onerror="window.owned=1">';
 
 /** The binary under test; without one the mock answers. */
 const ARCADE = process.env.ARCADE;
@@ -15,7 +18,7 @@ export interface Studio {
   folder: string;
 }
 
-type Mode = 'games' | 'snapshot' | 'judge' | 'results';
+export type Mode = 'games' | 'corpus' | 'snapshot' | 'judge' | 'results';
 
 interface Fixtures {
   /** Starts a studio on a fresh copy of the tests' games, and ends it after the test. */
@@ -32,6 +35,8 @@ function command(mode: Mode, folder: string): [string, string[]] {
   switch (mode) {
     case 'games':
       return [ARCADE, [...common, folder]];
+    case 'corpus':
+      return [ARCADE, [...common, '--out', folder]];
     case 'snapshot':
       return [ARCADE, [...common, process.env.SNAPSHOT ?? '', '--against', process.env.SNAPSHOT ?? '']];
     case 'results':
@@ -47,6 +52,7 @@ export const test = base.extend<Fixtures>({
     await use(async (mode) => {
       const folder = mkdtempSync(join(tmpdir(), 'studio-'));
       cpSync(GAMES, folder, { recursive: true });
+      renameSync(join(folder, 'hostile-words'), join(folder, HOSTILE));
       const [program, words] = command(mode, folder);
       const child = spawn(program, words, { stdio: ['ignore', 'pipe', 'pipe'] });
       children.push(child);

@@ -16,6 +16,9 @@ export class Failure extends Error {
 
 let token = '';
 
+/** This page among others of the same browser: a newer question of it ends the older stream. */
+const page = Array.from(crypto.getRandomValues(new Uint32Array(2)), (part) => part.toString(36)).join('');
+
 /** Takes the token from the address, keeps it for reloads of this tab, and takes it out of the address bar and the history. */
 export function takeToken(): void {
   const here = new URL(location.href);
@@ -39,7 +42,7 @@ export function takeToken(): void {
 }
 
 async function request(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<Response> {
-  const headers: Record<string, string> = { 'X-Arcade-Token': token };
+  const headers: Record<string, string> = { 'X-Arcade-Token': token, 'X-Arcade-Page': page };
   const init: RequestInit = { method, headers };
   if (signal) init.signal = signal;
   if (body !== undefined) {

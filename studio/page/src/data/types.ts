@@ -50,6 +50,8 @@ export interface Problem {
   column: number;
   fixes: Fix[];
   page: string | null;
+  /** In a verdict: the text that the problem is in. */
+  in?: 'source' | 'level';
 }
 
 export type Episode = Record<string, unknown>;
@@ -63,8 +65,6 @@ export interface GameEntry {
   tile: Frame | null;
   tiles?: Tile[];
   kind?: string | null;
-  tier?: string | null;
-  difficulty?: string | number | null;
 }
 
 export interface Workspace {
@@ -150,6 +150,7 @@ export type VerdictLine =
       why: { text: string; cell: [number, number] | null; rule: RuleSpan | null }[];
     }
   | { stage: 'search'; calls: number }
+  | { stage: 'judging'; level: number; of: number }
   | { stage: 'win'; ticks: number; shortest: boolean; calls: number; episode: Episode }
   | { stage: 'impossible'; text: string; states: number }
   | { stage: 'unknown'; calls: number; text: string }
@@ -166,14 +167,15 @@ export type VerdictLine =
   | { stage: 'error'; error: string };
 
 export type MoreLine =
-  | { stage: 'level'; level: string; tiles: Tile[]; frame: Frame; ticks: number | null }
+  | { stage: 'level'; level: string; tiles: Tile[]; frame: Frame; ticks: number | null; difficulty?: string | null }
+  | { stage: 'none'; text: string }
   | { stage: 'done' }
   | { stage: 'error'; error: string };
 
 export interface ReleaseLevel {
   name: string;
   tier: string | null;
-  difficulty: string | number | null;
+  difficulty: string | null;
   width: number;
   height: number;
 }
@@ -209,6 +211,7 @@ export interface Comparison {
   new: string[];
   gone: string[];
   kept: string[];
+  changed?: string[];
   nearest: { id: string; other: string; distance: number }[];
 }
 
@@ -230,12 +233,16 @@ export interface Talk {
   frame: number;
   prompt: string;
   answer: string;
+  reasoning?: string;
   parsed: string | null;
   validity: string | null;
 }
 
 export interface ResultReplay {
   title: string;
+  player?: string;
+  agrees?: boolean;
+  note?: string | null;
   tiles: Tile[];
   frames: SentFrame[];
   actions: string[];

@@ -6,7 +6,7 @@ import type { Check, Edit, Episode, Game, Problem, RuleSpan } from '../data/type
 import type { Highlight } from '../parts/Board';
 import { Dialog } from '../parts/Dialog';
 import { Icon } from '../parts/Icon';
-import { Markdown } from '../parts/Markdown';
+import { Markdown, Words } from '../parts/Markdown';
 import { Player } from '../parts/Player';
 import { useTitle } from '../parts/hooks';
 import { go, leaving } from '../parts/route';
@@ -40,6 +40,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
   const [levels, setLevels] = useState<Draft[]>(() => game.levels.map(draft));
   const [check, setCheck] = useState<Check>(EMPTY);
   const [checked, setChecked] = useState('');
+  const [sound, setSound] = useState(game.source.text);
   const [panel, setPanel] = useState<Panel>('verdict');
   const [pane, setPane] = useState<'rules' | 'board' | 'panel'>('board');
   const [page, setPage] = useState<{ name: string; markdown: string } | null>(null);
@@ -50,6 +51,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
   const [conflict, setConflict] = useState<Conflict | null>(null);
   const [renaming, setRenaming] = useState<{ at: number; word: string } | null>(null);
   const [copying, setCopying] = useState(false);
+  const [brush, setBrush] = useState<string | null>(null);
   const pasts = useRef(new Map<string, { past: string[]; future: string[]; stroke: number }>());
   const editor = useRef<EditorHandle>(null);
   const saves = useRef(0);
@@ -69,6 +71,8 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
           // The palette of the last rules that compiled stays.
           setCheck((before) => (answer.legend.length > 0 ? answer : { ...answer, legend: before.legend, tiles: before.tiles }));
           setChecked(source.text);
+          // Boards are drawn by the last rules that compiled.
+          if (!answer.problems.some((problem) => problem.severity === 'error')) setSound(source.text);
         },
         (failure: unknown) => {
           if (!abort.signal.aborted) setNotice({ text: words(failure), bad: true });
@@ -322,12 +326,14 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         ) : now ? (
           <LevelEditor
             key={now.name}
-            source={source.text}
+            source={sound}
             text={now.text}
             legend={check.legend}
             tiles={check.tiles}
             problems={check.levels[at]?.problems ?? []}
             highlights={highlights}
+            brush={brush}
+            onBrush={setBrush}
             onChange={edit}
             onUndo={() => travel('past', 'future')}
             onRedo={() => travel('future', 'past')}
@@ -421,7 +427,7 @@ function Problems({ problems, onShow, onPage, onFix }: { problems: Problem[]; on
         <li class={problem.severity}>
           <button type="button" class="link" onClick={() => onShow(problem)} aria-label={`Go to line ${problem.line}`}>{problem.line}</button>
           <ProblemWords problem={problem} onPage={onPage} />
-          {problem.fixes.map((fix) => <button type="button" class="fix" onClick={() => onFix(fix.edits)}>{fix.title}</button>)}
+          {problem.fixes.map((fix) => <button type="button" class="fix" onClick={() => onFix(fix.edits)}><Words text={fix.title} /></button>)}
         </li>
       ))}
     </ul>

@@ -4,6 +4,7 @@ import { address, Tileset } from '../data/tiles';
 import type { BoardAnswer, Frame, LegendEntry, Problem, Tile } from '../data/types';
 import { cellFor, colour, type Highlight, onScheme } from '../parts/Board';
 import { Icon } from '../parts/Icon';
+import { Words } from '../parts/Markdown';
 import { area, at, type EdgeName, type Grid, grow, line, paint, parse, print, shrink, widthOf } from './grid';
 
 interface Props {
@@ -13,6 +14,9 @@ interface Props {
   tiles: Tile[];
   problems: Problem[];
   highlights: Highlight[];
+  /** The symbol that is painted; null until one is chosen. */
+  brush: string | null;
+  onBrush: (symbol: string) => void;
   onChange: (text: string, stroke: number) => void;
   onUndo: () => void;
   onRedo: () => void;
@@ -31,8 +35,7 @@ let strokes = 0;
 
 /** A level painted on its board, with the legend as the palette. */
 export function LevelEditor(props: Props) {
-  const { source, text, legend, tiles, highlights, onChange } = props;
-  const [brush, setBrush] = useState<string | null>(null);
+  const { source, text, legend, tiles, highlights, onChange, brush, onBrush: setBrush } = props;
   const [tool, setTool] = useState<'brush' | 'fill'>('brush');
   const [asText, setAsText] = useState(false);
   const [cursor, setCursor] = useState<[number, number] | null>(null);
@@ -230,7 +233,7 @@ export function LevelEditor(props: Props) {
     return undefined;
   };
   const said = cursor
-    ? `Column ${cursor[0] + 1}, row ${cursor[1] + 1}: ${bySymbol.get(at(grid, cursor[0], cursor[1]))?.label ?? at(grid, cursor[0], cursor[1])}`
+    ? `Column ${cursor[0] + 1}, row ${cursor[1] + 1}: ${bySymbol.get(at(grid, cursor[0], cursor[1]))?.types.join(', ') ?? at(grid, cursor[0], cursor[1])}`
     : '';
   const resize = (way: typeof grow, edge: EdgeName): void => {
     strokes += 1;
@@ -263,9 +266,9 @@ export function LevelEditor(props: Props) {
         {legend.map((entry) => {
           const tile = entry.tile === null ? undefined : tiles[entry.tile];
           return (
-            <button type="button" role="radio" aria-checked={entry.symbol === symbol} title={`${entry.symbol}  ${entry.label}`} aria-label={`${entry.label}, symbol ${entry.symbol}`} onClick={() => setBrush(entry.symbol)}>
+            <button type="button" role="radio" aria-checked={entry.symbol === symbol} title={entry.label} aria-label={`${entry.types.join(', ')}, symbol ${entry.symbol}`} onClick={() => setBrush(entry.symbol)}>
               <span class="swatch">{tile ? <img src={address(tile)} alt="" width="28" height="28" /> : <b>{entry.symbol}</b>}</span>
-              <span class="name">{entry.label}</span>
+              <span class="name">{entry.types.join(', ')}</span>
               <kbd>{entry.symbol}</kbd>
             </button>
           );
@@ -292,7 +295,7 @@ export function LevelEditor(props: Props) {
           />
         </div>
       )}
-      <p class="under" role="status">{said || error || props.problems[0]?.message || ' '}</p>
+      <p class="under" role="status"><Words text={said || error || props.problems[0]?.message || ' '} /></p>
     </div>
   );
 }

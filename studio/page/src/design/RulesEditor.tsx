@@ -12,7 +12,7 @@ import { useEffect, useImperativeHandle, useRef } from 'preact/hooks';
 import type { Ref } from 'preact';
 import { post } from '../data/api';
 import type { Edit, Problem } from '../data/types';
-import { Markdown } from '../parts/Markdown';
+import { Markdown, Words } from '../parts/Markdown';
 import { language } from './language';
 
 /** What other parts of the view may ask of the editor. */
@@ -112,7 +112,7 @@ export function RulesEditor(props: Props) {
         extensions: [
           lineNumbers(), highlightActiveLineGutter(), highlightActiveLine(), drawSelection(), history(), indentUnit.of('    '),
           EditorState.tabSize.of(4), EditorState.readOnly.of(props.readOnly), EditorState.allowMultipleSelections.of(true),
-          highlightSelectionMatches(), language, markedLine, lintGutter({ hoverTime: 200 }), hover,
+          highlightSelectionMatches(), EditorView.lineWrapping, language, markedLine, lintGutter({ hoverTime: 200 }), hover,
           autocompletion({ override: [complete], activateOnTypingDelay: 60 }),
           EditorView.contentAttributes.of({ 'aria-label': 'Rules', spellcheck: 'false', autocapitalize: 'off' }),
           keymap.of([
@@ -201,7 +201,7 @@ function diagnostic(problem: Problem, checked: string, latest: { current: Props 
       return node;
     },
     actions: problem.fixes.map((fix) => ({
-      name: fix.title,
+      name: fix.title.replaceAll('`', ''),
       apply(view: EditorView) {
         if (view.state.doc.toString() === checked) applyEdits(view, fix.edits);
       },
@@ -212,9 +212,9 @@ function diagnostic(problem: Problem, checked: string, latest: { current: Props 
 export function ProblemWords({ problem, onPage }: { problem: Problem; onPage: (name: string) => void }) {
   return (
     <div class="problem-words">
-      <strong>{problem.message}</strong>
-      {problem.label && problem.label !== problem.message && <span>{problem.label}</span>}
-      {problem.help && <span class="soft">{problem.help}</span>}
+      <strong><Words text={problem.message} /></strong>
+      {problem.label && problem.label !== problem.message && <span><Words text={problem.label} /></span>}
+      {problem.help && <span class="soft"><Words text={problem.help} /></span>}
       {problem.page && <button type="button" class="link" onClick={() => onPage(problem.page ?? '')}>explain</button>}
     </div>
   );

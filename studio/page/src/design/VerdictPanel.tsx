@@ -1,7 +1,9 @@
+import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { stream, words } from '../data/api';
 import type { Episode, Evidence, RuleSpan, VerdictLine } from '../data/types';
 import { Icon } from '../parts/Icon';
+import { Words } from '../parts/Markdown';
 import { Share } from '../views/Judge';
 
 type Criterion = Extract<VerdictLine, { stage: 'criterion' }>;
@@ -108,7 +110,7 @@ export function VerdictPanel(props: Props) {
           <ul class="evidence">{said.reach.why.map((one) => <Seen evidence={{ ...one, tick: null }} episode={null} {...props} />)}</ul>
         </section>
       )}
-      {said.criteria.length > 0 && <Criteria criteria={said.criteria} {...props} />}
+      {said.criteria.length > 0 && <Criteria criteria={fresh(said)} {...props} />}
       {said.ladder && (
         <section>
           <h3>Players</h3>
@@ -130,7 +132,7 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
   if (errors.length > 0) {
     return (
       <div class="headline bad"><Icon name="cross" /><div><strong>{errors.length === 1 ? 'A problem comes first' : `${errors.length} problems come first`}</strong>
-        {errors.slice(0, 3).map((one) => <p>{one.message}</p>)}
+        {errors.slice(0, 3).map((one) => <p><Words text={one.message} /></p>)}
       </div></div>
     );
   }
@@ -147,7 +149,7 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
     return (
       <div class="headline bad"><Icon name="cross" /><div>
         <strong>Cannot be won</strong>
-        <p>{answer.text}</p>
+        <p><Words text={answer.text} /></p>
         {answer.states > 0 && <p class="soft">All {answer.states.toLocaleString('en')} states were seen.</p>}
       </div></div>
     );
@@ -156,7 +158,7 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
     return (
       <div class="headline"><Icon name="help" /><div>
         <strong>Not known</strong>
-        <p>{answer.text}</p>
+        <p><Words text={answer.text} /></p>
         <button type="button" onClick={() => onLonger(Math.max(answer.calls, 1000))}>Look ten times longer</button>
       </div></div>
     );
@@ -170,29 +172,38 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
   );
 }
 
+/** The criteria without the evidence that is listed under the reasons already. */
+function fresh(said: Said): Criterion[] {
+  const listed = new Set(said.reach?.why.map((one) => one.text));
+  return said.criteria.map((one) => ({ ...one, evidence: one.evidence.filter((seen) => !listed.has(seen.text)) }));
+}
+
 const SIGNS = { pass: ['✓', 'passes'], fail: ['✗', 'fails'], unknown: ['?', 'not known'], skipped: ['–', 'skipped'] } as const;
+
+const RANKS = ['fail', 'unknown', 'pass', 'skipped'];
 
 function Criteria({ criteria, ...props }: Props & { criteria: Criterion[] }) {
   return (
     <section>
       <h3>Criteria</h3>
       <ul class="criteria">
-        {criteria.map((one) => {
+        {[...criteria].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)).map((one) => {
           const [sign, word] = SIGNS[one.verdict] ?? SIGNS.unknown;
           const { episode } = one;
           return (
             <li class={one.verdict}>
               <span class="sign" role="img" aria-label={word}>{sign}</span>
               <div>
-                <strong>{one.name}</strong> <span>{one.text}</span>
-                {(one.evidence.length > 0 || episode) && (
-                  <ul class="evidence">
-                    {one.evidence.map((seen) => <Seen evidence={seen} episode={episode} {...props} />)}
-                    {episode && !one.evidence.some((seen) => seen.tick !== null) && (
-                      <li><button type="button" class="link" onClick={() => props.onEpisode(episode, null, one.name)}>watch</button></li>
-                    )}
-                  </ul>
-                )}
+                <Shown open={one.verdict !== 'pass'} head={<><strong>{one.name}</strong> <span><Words text={one.text} /></span></>}>
+                  {one.evidence.length === 0 && !episode ? null : (
+                    <ul class="evidence">
+                      {one.evidence.map((seen) => <Seen evidence={seen} episode={episode} {...props} />)}
+                      {episode && !one.evidence.some((seen) => seen.tick !== null) && (
+                        <li><button type="button" class="link" onClick={() => props.onEpisode(episode, null, one.name)}>watch</button></li>
+                      )}
+                    </ul>
+                  )}
+                </Shown>
               </div>
             </li>
           );
@@ -202,10 +213,16 @@ function Criteria({ criteria, ...props }: Props & { criteria: Criterion[] }) {
   );
 }
 
+/** What was seen below its head; of what passes it is folded away, since a designer looks for what does not. */
+function Shown({ open, head, children }: { open: boolean; head: ComponentChildren; children: ComponentChildren }) {
+  if (!children) return <>{head}</>;
+  return <details open={open}><summary>{head}</summary>{children}</details>;
+}
+
 /** A piece of evidence: a click shows its square, its rule and its moment. */
 function Seen({ evidence, episode, ...props }: Props & { evidence: Evidence; episode: Episode | null }) {
   const { cell, rule, tick } = evidence;
-  if (!cell && !rule && (tick === null || !episode)) return <li>{evidence.text}</li>;
+  if (!cell && !rule && (tick === null || !episode)) return <li><Words text={evidence.text} /></li>;
   const show = (): void => {
     if (episode && tick !== null) props.onEpisode(episode, tick, evidence.text);
     if (cell) props.onCells([cell]);
@@ -213,7 +230,7 @@ function Seen({ evidence, episode, ...props }: Props & { evidence: Evidence; epi
   };
   return (
     <li>
-      <button type="button" class="link" onClick={show}>{evidence.text}</button>
+      <button type="button" class="link" onClick={show}><Words text={evidence.text} /></button>
       <span class="soft">
         {rule && ` line ${rule.line}`}
         {cell && ` square ${cell[0] + 1}, ${cell[1] + 1}`}
@@ -230,6 +247,7 @@ function Whole(props: Props) {
   const [error, setError] = useState<string | null>(null);
   const key = `${props.source}\n${props.levels.join('\n')}`;
   const [judged, setJudged] = useState('');
+  const [level, setLevel] = useState('');
   useEffect(() => () => abort?.abort(), [abort]);
   const judge = async (): Promise<void> => {
     const control = new AbortController();
@@ -237,9 +255,11 @@ function Whole(props: Props) {
     setCriteria([]);
     setError(null);
     setJudged(key);
+    setLevel('');
     try {
       for await (const line of stream<VerdictLine>('/api/necessity', { source: props.source, levels: props.levels }, control.signal)) {
         if (line.stage === 'criterion') setCriteria((before) => [...before, line]);
+        else if (line.stage === 'judging') setLevel(`level ${line.level + 1} of ${line.of}`);
         else if (line.stage === 'error') setError(line.error);
       }
     } catch (failure) {
@@ -252,7 +272,7 @@ function Whole(props: Props) {
       <h3>The whole game</h3>
       <p class="row">
         {abort ? <button type="button" onClick={() => abort.abort()}>Stop</button> : <button type="button" onClick={() => void judge()}>Judge all levels</button>}
-        {abort && <span class="spinner" aria-hidden="true" />}
+        {abort && <><span class="spinner" aria-hidden="true" /><span class="soft">{level}</span></>}
         {criteria.length > 0 && judged !== key && <span class="soft">of an earlier state</span>}
       </p>
       {error && <p class="notice bad" role="alert">{error}</p>}

@@ -1,4 +1,5 @@
 import type { ComponentChild } from 'preact';
+import { Wide } from './Wide';
 
 /**
  * The Markdown of descriptions, hovers and manual pages, as nodes: nothing of a text is ever markup. Headings, lists, tables,
@@ -65,13 +66,18 @@ function table(rows: string[]): ComponentChild {
     .filter((row) => !row.every((cell) => /^:?-+:?$/.test(cell)));
   const [head, ...body] = cells;
   return (
-    <div class="wide">
+    <Wide name="Table">
       <table>
         <thead><tr>{head?.map((cell) => <th>{inline(cell)}</th>)}</tr></thead>
         <tbody>{body.map((row) => <tr>{row.map((cell) => <td>{inline(cell)}</td>)}</tr>)}</tbody>
       </table>
-    </div>
+    </Wide>
   );
+}
+
+/** A sentence of a message: names in backquotes are set as code. */
+export function Words({ text }: { text: string }) {
+  return <>{text.split(/`([^`]*)`/).map((part, index) => (index % 2 === 1 ? <code>{part}</code> : part))}</>;
 }
 
 function inline(text: string): ComponentChild[] {

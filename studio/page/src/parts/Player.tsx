@@ -1,4 +1,4 @@
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { Board } from './Board';
 import { Icon, type IconName } from './Icon';
 import { useRun } from './hooks';
@@ -31,7 +31,8 @@ export function Player({ run, label, keys, compact }: PlayerProps) {
   useRun(run);
   const root = useRef<HTMLElement>(null);
 
-  useEffect(() => {
+  // Before the first paint: whoever sees the board may press a key.
+  useLayoutEffect(() => {
     const target: HTMLElement | Window | null = keys === 'page' ? window : root.current;
     if (!target) return undefined;
     const down = (event: Event): void => {

@@ -11,22 +11,17 @@ interface Shown {
   entry: GameEntry;
   kind: string | null;
   tiers: string[];
-  difficulty: [number, number] | null;
+  difficulties: string[];
 }
 
 function shown(entry: GameEntry, release: Release | null): Shown {
   const released = release?.games.find((game) => game.id === entry.id);
-  const tiers = released ? unique(released.levels.map((level) => level.tier)) : unique([entry.tier]);
-  const numbers = (released?.levels.map((level) => level.difficulty) ?? [entry.difficulty])
-    .filter((one) => one !== null && one !== undefined && one !== '')
-    .map(Number)
-    .filter((one) => Number.isFinite(one));
   const merged = released ? { ...entry, tile: entry.tile ?? released.frame, tiles: entry.tile ? entry.tiles ?? released.tiles : released.tiles } : entry;
   return {
     entry: merged,
     kind: released?.kind ?? entry.kind ?? null,
-    tiers,
-    difficulty: numbers.length ? [Math.min(...numbers), Math.max(...numbers)] : null,
+    tiers: unique(released?.levels.map((level) => level.tier) ?? []),
+    difficulties: byEase(unique(released?.levels.map((level) => level.difficulty) ?? [])),
   };
 }
 
@@ -34,10 +29,22 @@ function unique(words: (string | null | undefined)[]): string[] {
   return [...new Set(words.filter((word): word is string => Boolean(word)))];
 }
 
-export function difficultyWords(range: [number, number] | null): string | null {
-  if (!range) return null;
-  const [low, high] = range.map((one) => one.toFixed(Number.isInteger(one) ? 0 : 2));
-  return low === high ? `difficulty ${low}` : `difficulty ${low}–${high}`;
+export const EASE = ['very_easy', 'easy', 'medium', 'hard', 'very_hard', 'unbeaten'];
+
+/** Labels of difficulty, the easiest first. */
+export function byEase(labels: string[]): string[] {
+  return [...labels].sort((a, b) => EASE.indexOf(a) - EASE.indexOf(b));
+}
+
+export function easeWords(label: string): string {
+  return label.replaceAll('_', ' ');
+}
+
+/** The span of labels, such as "easy to hard". */
+export function easeSpan(labels: string[]): string | null {
+  const [first, last] = [labels[0], labels[labels.length - 1]];
+  if (first === undefined || last === undefined) return null;
+  return first === last ? easeWords(first) : `${easeWords(first)} to ${easeWords(last)}`;
 }
 
 export function Browse({ workspace }: { workspace: Workspace }) {
@@ -45,22 +52,25 @@ export function Browse({ workspace }: { workspace: Workspace }) {
   const [text, setText] = useState('');
   const [kind, setKind] = useState('');
   const [tier, setTier] = useState('');
+  const [ease, setEase] = useState('');
   const release = useAsked<Release | null>(() => (workspace.kind === 'snapshot' ? studio.release() : Promise.resolve(null)), [workspace]);
   const all = useMemo(() => workspace.games.map((entry) => shown(entry, release.value)), [workspace, release.value]);
   const kinds = unique(all.map((one) => one.kind)).sort();
   const tiers = unique(all.flatMap((one) => one.tiers)).sort();
+  const eases = byEase(unique(all.flatMap((one) => one.difficulties)));
   const wanted = text.trim().toLowerCase();
   const games = all.filter(
     (one) =>
       (!wanted || `${one.entry.title} ${one.entry.id} ${one.entry.summary} ${one.kind ?? ''}`.toLowerCase().includes(wanted)) &&
       (!kind || one.kind === kind) &&
-      (!tier || one.tiers.includes(tier)),
+      (!tier || one.tiers.includes(tier)) &&
+      (!ease || one.difficulties.includes(ease)),
   );
   return (
     <main class="browse">
       <header class="heading">
         <div>
-          <h1>{workspace.name}</h1>
+          <h1>{workspace.kind === 'corpus' ? 'The corpus' : workspace.name}</h1>
           <p class="soft">
             {games.length === all.length ? `${all.length} games` : `${games.length} of ${all.length} games`}
             {workspace.kind === 'snapshot' && <> · <a href={href('release')}>about this release</a></>}
@@ -74,13 +84,14 @@ export function Browse({ workspace }: { workspace: Workspace }) {
           <input type="search" placeholder="Find a game" aria-label="Find a game" value={text} onInput={(event) => setText(event.currentTarget.value)} />
           {kinds.length > 1 && <Choice label="Kind" all="All kinds" value={kind} options={kinds} onChange={setKind} />}
           {tiers.length > 1 && <Choice label="Tier" all="All tiers" value={tier} options={tiers} onChange={setTier} />}
+          {eases.length > 1 && <Choice label="Difficulty" all="Any difficulty" value={ease} options={eases} words={easeWords} onChange={setEase} />}
         </form>
       </header>
       {release.error && <p class="notice bad" role="alert">{release.error}</p>}
       {games.length === 0 && (
         <p class="empty">
           {all.length === 0 ? 'There are no games here yet.' : 'No game matches.'}
-          {all.length > 0 && <button type="button" onClick={() => { setText(''); setKind(''); setTier(''); }}>Show all</button>}
+          {all.length > 0 && <button type="button" onClick={() => { setText(''); setKind(''); setTier(''); setEase(''); }}>Show all</button>}
         </p>
       )}
       <ul class="cards">
@@ -92,9 +103,9 @@ export function Browse({ workspace }: { workspace: Workspace }) {
               {one.entry.summary && <span class="summary">{one.entry.summary}</span>}
               <span class="facts">
                 {one.kind && <span class="chip">{one.kind}</span>}
-                {one.tiers.map((word) => <span class="chip">{word}</span>)}
+                {one.tiers.map((word) => <span class="chip">{easeWords(word)}</span>)}
                 <span class="soft">{one.entry.levels} {one.entry.levels === 1 ? 'level' : 'levels'}</span>
-                {one.difficulty && <span class="soft">{difficultyWords(one.difficulty)}</span>}
+                {one.difficulties.length > 0 && <span class="soft">{easeSpan(one.difficulties)}</span>}
                 {live && one.entry.writable && <span class="soft">yours</span>}
               </span>
             </a>
@@ -105,11 +116,11 @@ export function Browse({ workspace }: { workspace: Workspace }) {
   );
 }
 
-export function Choice({ label, all, value, options, onChange }: { label: string; all?: string; value: string; options: readonly string[]; onChange: (value: string) => void }) {
+export function Choice({ label, all, value, options, words, onChange }: { label: string; all?: string; value: string; options: readonly string[]; words?: (option: string) => string; onChange: (value: string) => void }) {
   return (
     <select aria-label={label} value={value} onChange={(event) => onChange(event.currentTarget.value)}>
       {all !== undefined && <option value="">{all}</option>}
-      {options.map((one) => <option value={one}>{one}</option>)}
+      {options.map((one) => <option value={one}>{words ? words(one) : one}</option>)}
     </select>
   );
 }

@@ -9,6 +9,7 @@ import { Icon } from '../parts/Icon';
 import { Markdown } from '../parts/Markdown';
 import { useAsked, useTitle } from '../parts/hooks';
 import { go, href } from '../parts/route';
+import { easeWords } from './Browse';
 import { intentOf } from './Play';
 
 /** The card of a game: levels as boards, facts, rules in words, witnesses to watch. */
@@ -50,7 +51,7 @@ export function GamePage({ game, workspace, onCopied }: { game: Game; workspace:
               {intent && <p class="summary">{intent}</p>}
               <p class="facts">
                 {facts?.tier && <span class="chip">{facts.tier}</span>}
-                {facts?.difficulty !== null && facts?.difficulty !== undefined && <span class="soft">difficulty {String(facts.difficulty)}</span>}
+                {facts?.difficulty && <span class="soft">{easeWords(facts.difficulty)}</span>}
                 {own.map((witness) => (
                   <a href={href('watch', game.id, witness.name)}>{own.length === 1 ? 'watch a win' : `watch ${witness.name}`}</a>
                 ))}

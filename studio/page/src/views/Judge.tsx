@@ -7,6 +7,7 @@ import { Icon } from '../parts/Icon';
 import { Markdown } from '../parts/Markdown';
 import { Player } from '../parts/Player';
 import { useAsked, useTitle } from '../parts/hooks';
+import { Wide } from '../parts/Wide';
 import { href } from '../parts/route';
 import { isTurnBased } from './Play';
 
@@ -163,19 +164,19 @@ export function JudgeReportPage() {
           <h2>Sources</h2>
           {report.sources.length === 0 && <p class="soft">Nothing is judged yet.</p>}
           {report.sources.length > 0 && (
-            <div class="wide"><table>
+            <Wide name="Sources"><table>
               <thead><tr><th>Source</th><th class="n">Wins</th><th class="n">Losses</th><th class="n">Ties</th><th>Share of wins</th></tr></thead>
               <tbody>{report.sources.map((one) => <tr><td>{one.name}</td><td class="n">{one.wins}</td><td class="n">{one.losses}</td><td class="n">{one.ties}</td><td><Share {...one} /></td></tr>)}</tbody>
-            </table></div>
+            </table></Wide>
           )}
           {report.measures.length > 0 && (
             <>
               <h2>Measures</h2>
               <p class="soft">How often a measure prefers the game that people preferred.</p>
-              <div class="wide"><table>
+              <Wide name="Measures"><table>
                 <thead><tr><th>Measure</th><th class="n">Agrees</th><th class="n">Pairs</th><th>Share</th></tr></thead>
                 <tbody>{report.measures.map((one) => <tr><td>{one.name}</td><td class="n">{one.agrees}</td><td class="n">{one.pairs}</td><td><Share {...one} /></td></tr>)}</tbody>
-              </table></div>
+              </table></Wide>
             </>
           )}
         </>

@@ -5,7 +5,9 @@ import * as studio from '../data/studio';
 import type { Comparison, Release, VerifyLine } from '../data/types';
 import { Thumb } from '../parts/Board';
 import { useAsked, useTitle } from '../parts/hooks';
+import { Wide } from '../parts/Wide';
 import { href } from '../parts/route';
+import { byEase, easeSpan } from './Browse';
 
 export function ReleasePage() {
   useTitle('Release');
@@ -94,29 +96,31 @@ function Verify() {
 }
 
 function Levels({ release }: { release: Release }) {
+  const hasTiers = release.games.some((game) => game.levels.some((level) => level.tier));
+  const hasEase = release.games.some((game) => game.levels.some((level) => level.difficulty));
   return (
     <section>
       <h2>Games and levels</h2>
-      <div class="wide">
+      <Wide name="Games and levels">
         <table>
-          <thead><tr><th>Game</th><th>Kind</th><th class="n">Levels</th><th>Tiers</th><th class="n">Difficulty</th></tr></thead>
+          <thead><tr><th>Game</th><th>Kind</th><th class="n">Levels</th>{hasTiers && <th>Tiers</th>}{hasEase && <th>Difficulty</th>}</tr></thead>
           <tbody>
             {release.games.map((game) => {
               const tiers = [...new Set(game.levels.map((level) => level.tier).filter(Boolean))];
-              const difficulty = game.levels.map((level) => Number(level.difficulty)).filter((one) => Number.isFinite(one) && one !== 0);
+              const eases = byEase([...new Set(game.levels.map((level) => level.difficulty).filter((one) => one !== null))]);
               return (
                 <tr>
                   <td><a href={href('game', game.id)}>{game.title}</a></td>
                   <td>{game.kind ?? '–'}</td>
                   <td class="n">{game.levels.length}</td>
-                  <td>{tiers.length ? tiers.join(', ') : '–'}</td>
-                  <td class="n">{difficulty.length ? `${Math.min(...difficulty).toFixed(2)}–${Math.max(...difficulty).toFixed(2)}` : '–'}</td>
+                  {hasTiers && <td>{tiers.length ? tiers.join(', ') : '–'}</td>}
+                  {hasEase && <td>{easeSpan(eases) ?? '–'}</td>}
                 </tr>
               );
             })}
           </tbody>
         </table>
-      </div>
+      </Wide>
     </section>
   );
 }
@@ -140,9 +144,9 @@ function Compare({ release }: { release: Release }) {
       {!compared && !asked.error && <p class="soft">Start the studio with <code>--against SNAPSHOT</code> to see what is new beside an earlier release.</p>}
       {compared && (
         <>
-          <p>Beside <strong>{compared.other}</strong>: {compared.new.length} new, {compared.kept.length} kept, {compared.gone.length} gone.</p>
-          <div class="columns three">
-            {([['New', compared.new], ['Kept', compared.kept], ['Gone', compared.gone]] as const).map(([name, ids]) => (
+          <p>Beside <strong>{compared.other}</strong>: {compared.new.length} new, {compared.changed?.length ?? 0} changed, {compared.kept.length} kept, {compared.gone.length} gone.</p>
+          <div class="columns four">
+            {([['New', compared.new], ['Changed', compared.changed ?? []], ['Kept', compared.kept], ['Gone', compared.gone]] as const).map(([name, ids]) => (
               <div>
                 <h3>{name}</h3>
                 {ids.length === 0 && <p class="soft">none</p>}

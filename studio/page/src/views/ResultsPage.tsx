@@ -4,6 +4,7 @@ import { Run } from '../data/run';
 import type { ResultEpisode, ResultReplay, Results, Talk } from '../data/types';
 import { Player } from '../parts/Player';
 import { useAsked, useRun, useTitle } from '../parts/hooks';
+import { Wide } from '../parts/Wide';
 import { href } from '../parts/route';
 import { Choice } from './Browse';
 
@@ -28,32 +29,36 @@ export function ResultsPage() {
         <div class="filters">
           <Choice label="Player" all="All players" value={player} options={choices((one) => one.player)} onChange={setPlayer} />
           <Choice label="Game" all="All games" value={game} options={choices((one) => one.episode.game)} onChange={setGame} />
-          <Choice label="Outcome" all="All outcomes" value={outcome} options={choices((one) => one.episode.outcome)} onChange={setOutcome} />
+          <Choice label="Outcome" all="All outcomes" value={outcome} options={choices((one) => one.episode.outcome)} words={outcomeWords} onChange={setOutcome} />
         </div>
       </header>
       {asked.error && <p class="notice bad" role="alert">{asked.error}</p>}
-      <div class="wide">
+      <Wide name="Episodes">
         <table>
-          <thead><tr><th>Player</th><th>Game</th><th>Level</th><th>Run</th><th>Outcome</th><th class="n">Score</th><th class="n">Steps</th><th /></tr></thead>
+          <thead><tr><th>Player</th><th>Game</th><th>Level</th><th>Run</th><th>Outcome</th><th class="n">Score</th><th class="n">Steps</th></tr></thead>
           <tbody>{rows.slice(0, count).map((one) => <Row key={one.episode.index} player={one.player} episode={one.episode} />)}</tbody>
         </table>
-      </div>
+      </Wide>
       {rows.length > count && <p><button type="button" onClick={() => setCount(count + PAGE)}>Show more</button></p>}
     </main>
   );
+}
+
+/** An episode that is still playing was stopped by a limit of the evaluation. */
+function outcomeWords(outcome: string): string {
+  return outcome === 'playing' ? 'unfinished' : outcome;
 }
 
 function Row({ player, episode }: { player: string; episode: ResultEpisode }) {
   return (
     <tr>
       <td>{player}</td>
-      <td>{episode.game}</td>
+      <td><a href={href('results', episode.index)} aria-label={`Watch ${player} on ${episode.game}, level ${episode.level}`}>{episode.game}</a></td>
       <td>{String(episode.level)}</td>
       <td>{String(episode.run)}</td>
-      <td><span class={`outcome ${episode.outcome}`}>{episode.outcome}</span></td>
+      <td><span class={`outcome ${episode.outcome}`}>{outcomeWords(episode.outcome)}</span></td>
       <td class="n">{episode.score}</td>
       <td class="n">{episode.steps}</td>
-      <td><a href={href('results', episode.index)} aria-label={`Watch ${player} on ${episode.game}, level ${episode.level}`}>watch</a></td>
     </tr>
   );
 }
@@ -66,7 +71,7 @@ export function ResultPage({ index }: { index: string }) {
   useRun(run);
   useEffect(() => {
     if (!asked.value) return undefined;
-    const made = Run.replay({ ...asked.value, agrees: true, note: null });
+    const made = Run.replay({ ...asked.value, agrees: asked.value.agrees ?? true, note: asked.value.note ?? null });
     setRun(made);
     return () => made.close();
   }, [asked.value]);
@@ -81,6 +86,7 @@ export function ResultPage({ index }: { index: string }) {
       <aside class="side talk" aria-label="Prompt and answer">
         <p><a href={href('results')}>All results</a></p>
         <h1>{asked.value?.title}</h1>
+        {asked.value?.player && <p class="soft">{asked.value.player}</p>}
         {run && talk.length === 0 && <p class="soft">No prompts were kept for this episode.</p>}
         {at && (
           <>
@@ -95,6 +101,7 @@ export function ResultPage({ index }: { index: string }) {
               {at.talk.parsed && <span class="chip">{at.talk.parsed}</span>}
               {at.talk.validity && <span class="soft">{at.talk.validity}</span>}
             </p>
+            {at.talk.reasoning && <details><summary>Reasoning</summary><pre tabIndex={0} aria-label="Reasoning">{at.talk.reasoning}</pre></details>}
             <h2>Prompt</h2>
             <pre class="prompt" tabIndex={0} aria-label="Prompt">{at.talk.prompt}</pre>
           </>
