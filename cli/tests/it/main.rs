@@ -23,6 +23,7 @@ mod served;
 #[path = "../../../evaluation/tests/it/server.rs"]
 mod server;
 mod shards;
+mod studio;
 mod tracks;
 mod trust;
 mod usage;

@@ -33,6 +33,21 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("render", &["engine"]),
     ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
     (
+        "studio",
+        &[
+            "engine",
+            "editor",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "statistics",
+            "render",
+            "evaluation",
+        ],
+    ),
+    (
         "cli",
         &[
             "engine",
@@ -47,6 +62,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "statistics",
             "render",
             "evaluation",
+            "studio",
         ],
     ),
     ("xtask", &["engine", "agents", "generators", "validators", "forge", "report", "render", "statistics"]),
