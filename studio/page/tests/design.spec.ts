@@ -131,3 +131,14 @@ test('a made level is inserted, and evidence plays in the board', async ({ page,
   await page.getByRole('tab', { name: 'Verdict' }).click();
   await expect(page.getByText(/^Can be won in/)).toBeVisible();
 });
+
+test('a level with a fault says what is wrong and offers the repair', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await page.getByRole('button', { name: 'Text', exact: true }).click();
+  const text = page.getByLabel('Level as text');
+  await text.fill((await text.inputValue()).replace('wa', 'wX'));
+  const problem = page.getByRole('list', { name: 'Problems of the level' }).getByRole('listitem').filter({ hasText: 'X' });
+  await expect(problem).toBeVisible();
+  await problem.locator('.fix').first().click();
+  await expect(problem).toBeHidden();
+});
