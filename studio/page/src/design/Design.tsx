@@ -6,7 +6,7 @@ import type { Check, Edit, Episode, Game, Problem, RuleSpan } from '../data/type
 import type { Highlight } from '../parts/Board';
 import { Dialog } from '../parts/Dialog';
 import { Icon } from '../parts/Icon';
-import { Markdown } from '../parts/Markdown';
+import { Markdown, Words } from '../parts/Markdown';
 import { Player } from '../parts/Player';
 import { arrows } from '../parts/arrows';
 import { useTitle } from '../parts/hooks';
@@ -297,7 +297,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
             <button type="button" aria-pressed={pane === one} onClick={() => setPane(one)}>{one === 'panel' ? 'Verdict' : one === 'rules' ? 'Rules' : 'Board'}</button>
           ))}
         </div>
-        <p class={`said ${notice?.bad ? 'bad' : ''}`} role="status">{notice?.text}</p>
+        <p class={`said ${notice?.bad ? 'bad' : ''}`} role="status">{notice && <Words text={notice.text} />}</p>
         {run === null
           ? <button type="button" onClick={tryOut}><Icon name="play" /> Try it</button>
           : <button type="button" onClick={stopRun}>Back to painting</button>}
