@@ -120,7 +120,10 @@ pub fn solve_until(
     if !start.is_over()
         && is_certain
         && (take(&mut solved, a_star_until(analysis, &pushes, &start, share(config.shortest), stopped))
-            || take(&mut solved, best_first_until(analysis, &pushes, &start, share(config.systematic), stopped)))
+            || take(
+                &mut solved,
+                best_first_until(analysis, &pushes, &start, share(config.systematic), stopped),
+            ))
     {
         return solved;
     }

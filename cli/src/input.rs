@@ -165,7 +165,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
 }
 
 /// The word for all corpus games, if there is no folder of that name.
-const CORPUS: &str = "corpus";
+pub(crate) const CORPUS: &str = "corpus";
 
 /// Finds games: those that [`game`] finds, all games in a folder of such folders, and `corpus` for all games of the
 /// corpus.

@@ -102,6 +102,7 @@ verbs! {
     Render: render,
     Describe: describe,
     Fmt: fmt,
+    Lsp: lsp,
     Conformance: conformance,
     Clean: clean,
     Recipes: recipes,

@@ -6,6 +6,7 @@ use crate::values::{self, Kind};
 use crate::words::{EDGES, Line, Owner, Place, Role, SECTIONS, Words, code, is_blank};
 use engine::syntax::Section;
 use engine::{EFFECTS, Span, SpriteClass, TERMINATIONS};
+use std::collections::BTreeMap;
 
 /// The words that can stand at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -188,10 +189,13 @@ impl<'a> Context<'a, '_> {
         let own = self.line.filter(|line| line.place == Place::Body(Section::SpriteSet));
         let own = own.and_then(|line| line.words.first()).map(|word| word.text);
         let names = self.words.sprite_names().into_iter().filter(is_own).filter(|name| Some(*name) != own);
-        let class = |name: &str| self.words.sprite(name).and_then(|sprite| sprite.class);
+        // Of two declarations the first one counts, as everywhere in this crate.
+        let classes: BTreeMap<&str, Option<SpriteClass>> =
+            self.words.sprites.iter().rev().map(|sprite| (sprite.name, sprite.class)).collect();
         names
             .map(|name| {
-                let class = class(name).map_or(String::new(), |class| class.name().to_owned());
+                let class = classes.get(name).copied().flatten();
+                let class = class.map_or(String::new(), |class| class.name().to_owned());
                 Item::new(name, ItemKind::Sprite, class)
             })
             .collect()

@@ -1,11 +1,11 @@
 //! Explanations of single words.
 
-use crate::navigate::Subject;
+use crate::navigate::{Subject, symbol_at};
 use crate::pages;
 use crate::words::{BUILT_IN, EDGES, Owner, Role, Sprite, Word, Words};
 use engine::describe::{Guide, plural};
 use engine::syntax::Section;
-use engine::{Game, Span};
+use engine::{Game, Span, SpriteClass};
 use std::fmt::Write;
 
 /// The explanation of a word.
@@ -38,6 +38,14 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
         Role::Arrow | Role::Stray => return None,
     };
     Some(Hover { span: word.span, markdown })
+}
+
+/// The explanation of the character at a byte of a level: what it places in the game.
+pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
+    let (span, symbol) = symbol_at(level, at)?;
+    let words = Words::of(source);
+    let is_mapped = words.mapping().any(|(word, _)| word.text == symbol);
+    is_mapped.then(|| Hover { span, markdown: of_symbol(source, &words, symbol) })
 }
 
 fn of_game_class(name: &str) -> &'static str {
@@ -133,12 +141,11 @@ fn of_sprite(source: &str, words: &Words<'_>, name: &str) -> Option<String> {
     if !placed.is_empty() {
         let _ = write!(markdown, "\n\nLevel characters: {}", placed.join(", "));
     }
-    let sentences = sentences(source, words, name);
-    if !sentences.is_empty() {
-        markdown += "\n";
-    }
-    for sentence in &sentences {
-        let _ = write!(markdown, "\n- {sentence}");
+    let told = Told::of(source);
+    let sentences = told.iter().flat_map(|told| told.sentences(words, name)).take(SENTENCES);
+    for (at, sentence) in sentences.enumerate() {
+        let gap = if at == 0 { "\n" } else { "" };
+        let _ = write!(markdown, "{gap}\n- {sentence}");
     }
     Some(markdown)
 }
@@ -146,9 +153,8 @@ fn of_sprite(source: &str, words: &Words<'_>, name: &str) -> Option<String> {
 /// The ancestors of a type, its subtypes, and its parameters with their origin.
 fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     let mut markdown = String::new();
-    let above = ancestors(words, sprite);
-    if !above.is_empty() {
-        let names: Vec<String> = above.iter().map(|name| format!("`{name}`")).collect();
+    let names: Vec<String> = words.ancestors(sprite).map(|above| format!("`{}`", above.name)).collect();
+    if !names.is_empty() {
         let _ = write!(markdown, "\n\nSubtype of {}", names.join(", of "));
     }
     let is_child = |other: &&Sprite<'_>| other.parent.is_some_and(|at| words.sprites[at].name == sprite.name);
@@ -157,11 +163,12 @@ fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     if !below.is_empty() {
         let _ = write!(markdown, "\n\nSubtypes: {}", below.join(", "));
     }
-    if !sprite.params.is_empty() {
+    let params = words.params(sprite);
+    if !params.is_empty() {
         markdown += "\n\nParameters:";
     }
-    for (at, (key, value)) in sprite.params.iter().enumerate() {
-        let origin = if at < sprite.own_params { "" } else { " (inherited)" };
+    for (key, value, is_inherited) in params {
+        let origin = if is_inherited { " (inherited)" } else { "" };
         let meaning = pages::row(Owner::Sprite(sprite.class), key).map(|row| row.meaning);
         let meaning = meaning.map_or(String::new(), |meaning| format!(": {meaning}"));
         let _ = write!(markdown, "\n- `{key}={value}`{origin}{meaning}");
@@ -169,38 +176,48 @@ fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     markdown
 }
 
-/// The names of the types above a type, its parent first.
-fn ancestors<'a>(words: &Words<'a>, sprite: &Sprite<'a>) -> Vec<&'a str> {
-    let mut names = Vec::new();
-    let mut parent = sprite.parent;
-    while let Some(at) = parent {
-        names.push(words.sprites[at].name);
-        parent = words.sprites[at].parent;
-    }
-    names
+/// A game that compiles, with its rules in words.
+struct Told {
+    game: Game,
+    lines: Vec<String>,
 }
 
-/// The sentences of the game's guide that speak of a type, or of a type above it.
-fn sentences(source: &str, words: &Words<'_>, name: &str) -> Vec<String> {
-    let Ok(game) = Game::from_source(source) else { return Vec::new() };
-    let mut names = vec![name.to_owned(), plural(name)];
-    for above in words.sprite(name).map_or(Vec::new(), |sprite| ancestors(words, sprite)) {
-        names.extend([above.to_owned(), plural(above)]);
+impl Told {
+    fn of(source: &str) -> Option<Told> {
+        let game = Game::from_source(source).ok()?;
+        let guide = Guide::of(&game);
+        let all =
+            [guide.controls, guide.sprites, guide.winning, guide.losing, guide.timed_effects, guide.meetings];
+        Some(Told { game, lines: all.concat() })
     }
-    let is_avatar =
-        game.sprite_type(name).and_then(|stype| game.class(stype)).is_some_and(|class| class.is_avatar());
-    let speaks = |sentence: &String| {
-        let mut said = sentence.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        said.any(|word| names.iter().any(|name| name == word) || is_avatar && ["You", "you"].contains(&word))
-    };
-    let guide = Guide::of(&game);
-    let all =
-        [guide.controls, guide.sprites, guide.winning, guide.losing, guide.timed_effects, guide.meetings];
-    all.into_iter().flatten().filter(speaks).take(SENTENCES).collect()
+
+    /// The sentences that speak of a type, or of a type above or below it.
+    fn sentences<'a>(&'a self, words: &Words<'_>, name: &str) -> impl Iterator<Item = &'a str> {
+        let mut names = vec![name.to_owned(), plural(name)];
+        let above = words.sprite(name).into_iter().flat_map(|sprite| words.ancestors(sprite));
+        let below =
+            words.sprites.iter().filter(|other| words.ancestors(other).any(|above| above.name == name));
+        for relative in above.chain(below) {
+            names.extend([relative.name.to_owned(), plural(relative.name)]);
+        }
+        let class = self.game.sprite_type(name).and_then(|stype| self.game.class(stype));
+        let is_avatar = class.is_some_and(SpriteClass::is_avatar);
+        let said = |text: &str, is_meant: &dyn Fn(&str) -> bool| {
+            text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(is_meant)
+        };
+        let speaks = move |line: &&str| {
+            // What else a line says of the player is what happens to the score.
+            let first = line.split(". ").next().unwrap_or_default();
+            let is_player = |word: &str| ["You", "you"].contains(&word);
+            said(line, &|word| names.iter().any(|name| name == word)) || is_avatar && said(first, &is_player)
+        };
+        self.lines.iter().map(String::as_str).filter(speaks)
+    }
 }
 
 fn of_symbol(source: &str, words: &Words<'_>, symbol: &str) -> String {
     let mut markdown = format!("**`{symbol}`** in a level places:");
+    let told = Told::of(source);
     let mapped = words.mapping().find(|(word, _)| word.text == symbol);
     for name in mapped.map_or(Vec::new(), |(_, names)| names.collect()) {
         let class = words.sprite(name).and_then(|sprite| sprite.class);
@@ -211,8 +228,8 @@ fn of_symbol(source: &str, words: &Words<'_>, symbol: &str) -> String {
             "\n- `{name}`{}",
             class.map_or(String::new(), |class| format!(": {}", class.name()))
         );
-        let subject = sentences(source, words, name).into_iter().next();
-        if let Some(sentence) = subject {
+        let sentence = told.as_ref().and_then(|told| told.sentences(words, name).next());
+        if let Some(sentence) = sentence {
             let _ = write!(markdown, ". {sentence}");
         }
     }
@@ -268,10 +285,23 @@ mod tests {
             "nut >",
             &["**nut**: Immovable", "Subtype of `fruit`", "`color=RED` (inherited)", "`n`", "\n- "],
         );
-        check("fruit", &["Subtypes: `nut`"]);
+        check("fruit", &["Subtypes: `nut`", "You win when no nut is left"]);
         check("hero >", &["**hero**: MovingAvatar", "arrow keys"]);
-        check("wall", &["Every game has this sprite type"]);
-        check("h > hawk", &["- `hawk`: Chaser", "chases"]);
+        let lines = |place: &str| -> Vec<String> {
+            let markdown = hover(GAME, GAME.find(place).unwrap()).unwrap().markdown;
+            markdown.lines().filter(|line| line.contains("edge")).map(str::to_owned).collect()
+        };
+        assert_eq!((lines("nut >").len(), lines("hero >").len()), (1, 0));
+    }
+
+    #[test]
+    fn characters_of_levels_are_explained() {
+        let hover = level_hover(GAME, "w A\n", 2).unwrap();
+        assert!(
+            hover.span == Span::new(2, 3) && hover.markdown.contains("- `hero`: MovingAvatar"),
+            "{hover:?}"
+        );
+        assert_eq!(level_hover(GAME, "w A\n", 1), None);
     }
 
     #[test]

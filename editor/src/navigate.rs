@@ -39,6 +39,20 @@ pub fn definition(source: &str, at: usize) -> Option<Span> {
     subject.places(&words).find(declares).map(|word| word.span)
 }
 
+/// The place in a game where the character at a byte of a level is declared.
+pub fn level_definition(source: &str, level: &str, at: usize) -> Option<Span> {
+    let (_, symbol) = symbol_at(level, at)?;
+    let words = Words::of(source);
+    Subject::Symbol(symbol).places(&words).next().map(|word| word.span)
+}
+
+/// The character of a level that starts at a byte, and its place; `None` for blanks and ends of lines.
+pub(crate) fn symbol_at(level: &str, at: usize) -> Option<(Span, &str)> {
+    let symbol = level.get(at..)?.chars().next().filter(|c| !c.is_whitespace())?;
+    let span = Span::new(at, at + symbol.len_utf8());
+    Some((span, &level[span.start..span.end]))
+}
+
 /// All places that name what the word at a byte names, the declaration included; sorted.
 pub fn references(source: &str, at: usize) -> Vec<Span> {
     let words = Words::of(source);
@@ -70,6 +84,13 @@ mod tests {
         assert_eq!(definition(GAME, GAME.find("wall").unwrap()), None);
         assert_eq!(references(GAME, GAME.find("Missile").unwrap()), []);
         assert_eq!(definition(GAME, GAME.len() + 9), None);
+    }
+
+    #[test]
+    fn characters_of_levels_are_found_in_the_game() {
+        assert_eq!(level_definition(GAME, "w f\n", 2).map(|span| span.start), GAME.find("f > fox"));
+        assert_eq!(level_definition(GAME, "w f\n", 1), None);
+        assert_eq!(level_definition(GAME, "w f\n", 99), None);
     }
 
     #[test]

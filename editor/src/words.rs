@@ -2,8 +2,9 @@
 //! words, and a word is known before the game compiles.
 
 use crate::values;
+use engine::limits::MAX_LINE;
 use engine::syntax::Section;
-use engine::{EFFECTS, Span, SpriteClass, TERMINATIONS, nearest};
+use engine::{EFFECTS, MAX_SOURCE, Span, SpriteClass, TERMINATIONS, nearest};
 use std::collections::BTreeSet;
 
 /// The sprite types that every game has, declared or not, with their classes.
@@ -115,10 +116,8 @@ pub(crate) struct Sprite<'a> {
     pub(crate) class: Option<SpriteClass>,
     /// The index of the parent.
     pub(crate) parent: Option<usize>,
-    /// The parameters of the line, and after them those inherited, the nearest ancestor's first.
+    /// The parameters that the line names.
     pub(crate) params: Vec<(&'a str, &'a str)>,
-    /// The number of parameters of the line itself.
-    pub(crate) own_params: usize,
 }
 
 /// A game text, split into words.
@@ -154,8 +153,11 @@ fn section(text: &str) -> Option<Section> {
 }
 
 impl<'a> Words<'a> {
-    /// The words of a text.
+    /// The words of a text; none of one that is too long to be read, and none of its lines that are.
     pub(crate) fn of(source: &'a str) -> Words<'a> {
+        if source.len() > MAX_SOURCE {
+            return Words { lines: Vec::new(), sprites: Vec::new() };
+        }
         let mut raw = Vec::new();
         let mut start = 0;
         let mut place = Place::Outside;
@@ -166,7 +168,7 @@ impl<'a> Words<'a> {
             let skipped = if marked { '\u{feff}'.len_utf8() } else { 0 };
             let code = code(&line[skipped..]);
             let text = code.trim_matches(is_blank);
-            if text.is_empty() {
+            if text.is_empty() || text.len() > MAX_LINE {
                 continue;
             }
             let at = own + skipped + (code.len() - code.trim_start_matches(is_blank).len());
@@ -212,6 +214,20 @@ impl<'a> Words<'a> {
         self.sprites.iter().find(|sprite| sprite.name == name)
     }
 
+    /// The sprite types above a type, its parent first.
+    pub(crate) fn ancestors<'b>(&'b self, sprite: &'b Sprite<'a>) -> impl Iterator<Item = &'b Sprite<'a>> {
+        std::iter::successors(Some(sprite), |sprite| self.sprites.get(sprite.parent?)).skip(1)
+    }
+
+    /// The parameters of a type, its own and then those that it inherits; `true` for inherited ones.
+    pub(crate) fn params(&self, sprite: &Sprite<'a>) -> Vec<(&'a str, &'a str, bool)> {
+        let mut seen = BTreeSet::new();
+        let own = sprite.params.iter().map(|&(key, value)| (key, value, false));
+        let above = self.ancestors(sprite).flat_map(|above| &above.params);
+        let all = own.chain(above.map(|&(key, value)| (key, value, true)));
+        all.filter(|(key, ..)| seen.insert(*key)).collect()
+    }
+
     /// The names of all sprite types, in order, each once.
     pub(crate) fn sprite_names(&self) -> Vec<&'a str> {
         let mut seen = BTreeSet::new();
@@ -247,27 +263,18 @@ where
         let name =
             words.clone().next().filter(|word| *word != ">" && !word.contains('=')).unwrap_or_default();
         let written = words.clone().skip_while(|word| *word != ">").skip(1).find(|word| !word.contains('='));
-        let mut params: Vec<(&str, &str)> = words
+        let params: Vec<(&str, &str)> = words
             .by_ref()
             .filter_map(|word| word.split_once('='))
             .filter(|(key, _)| !key.is_empty())
             .collect();
-        let own_params = params.len();
         let inherited = parent.and_then(|(_, _, class)| class);
-        if let Some((parent, ..)) = parent {
-            for &(key, value) in &sprites[parent].params {
-                if !params.iter().any(|(known, _)| *known == key) {
-                    params.push((key, value));
-                }
-            }
-        }
         above.push((sprites.len(), indent, written.or(inherited)));
         sprites.push(Sprite {
             name,
             class: inherited.or(written).and_then(SpriteClass::from_name),
             parent: parent.map(|(parent, ..)| parent),
             params,
-            own_params,
         });
     }
     sprites
@@ -447,10 +454,7 @@ mod tests {
         let words = Words::of(source);
         let fox = words.sprite("fox").unwrap();
         assert_eq!(fox.class, Some(SpriteClass::Missile));
-        assert_eq!(
-            (fox.params.as_slice(), fox.own_params),
-            ([("color", "BLUE"), ("speed", "2")].as_slice(), 1)
-        );
+        assert_eq!(words.params(fox), [("color", "BLUE", false), ("speed", "2", true)]);
         assert_eq!(words.sprite("rock").unwrap().parent, None);
     }
 

@@ -284,7 +284,15 @@ impl LevelReader<'_> {
             };
             let problem = Diagnostic::error("undefined-character", span, message).help(help);
             let own = places.remove(&symbol).unwrap_or_default();
-            self.problems.push(match meant {
+            // Of several avatars all but one are errors.
+            let rules = &self.game.0;
+            let is_avatar =
+                |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
+            let plays = |meant: char| {
+                u8::try_from(meant).is_ok_and(|code| self.game.places(code).iter().any(is_avatar))
+            };
+            let fits = |meant: &char| !plays(*meant) || self.avatars.len() + count == 1;
+            self.problems.push(match meant.filter(fits) {
                 Some(meant) => problem.fix(
                     format!("Write `{meant}`"),
                     own.into_iter().map(|span| Edit::new(span, meant)).collect(),

@@ -2,8 +2,8 @@
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
-use crate::play::Stopped;
 use crate::features::{Atoms, Features};
+use crate::play::Stopped;
 use crate::progress::Progress;
 use engine::State;
 use engine::analysis::Analysis;

@@ -16,6 +16,7 @@ pub(crate) mod generate;
 pub(crate) mod keygen;
 pub(crate) mod keys;
 pub(crate) mod log;
+pub(crate) mod lsp;
 pub(crate) mod mailbox;
 pub(crate) mod man;
 pub(crate) mod merge;

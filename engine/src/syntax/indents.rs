@@ -93,7 +93,9 @@ pub(super) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
             true => format!("indent {it} by {near} columns, or by {} below its parent", near + step),
             false => format!("indent {it} by {near} columns, like them"),
         });
-        problems.push(shifted(problem, run, near));
+        let at = lines.iter().position(|line| line.span == first.span).unwrap_or(0);
+        let deepest = above[at].next_multiple_of(step) + step;
+        problems.push(if near - head <= deepest { shifted(problem, run, near) } else { problem });
     }
     true
 }

@@ -126,10 +126,7 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .fallback(no_route)
         .method_not_allowed_fallback(no_method)
         .layer(axum::middleware::from_fn(origin::check))
-        .with_state(Arc::new(Serving {
-            player,
-            bodies: Bodies::new(bounds),
-        }))
+        .with_state(Arc::new(Serving { player, bodies: Bodies::new(bounds) }))
 }
 
 /// The state needed for an answer.

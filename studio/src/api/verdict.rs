@@ -13,7 +13,7 @@ use generators::levels::{Examples, LevelConfig};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
-use validators::{Criteria, Difficulty, Panel, Report};
+use validators::{Criteria, Difficulty, GATES, Panel, Report};
 
 /// A level to judge.
 #[derive(Deserialize)]
@@ -72,7 +72,10 @@ pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines)
     if levels.is_empty() {
         return Err(Refusal::bad("the game has no level").help("draw one first").into());
     }
-    let criteria = Criteria { budget: CALLS, ..Criteria::full() };
+    let mut criteria = Criteria { budget: CALLS, ..Criteria::full() };
+    criteria.ask.extend(GATES.iter().map(|gate| (*gate).to_owned()));
+    criteria.ask.sort_unstable();
+    criteria.ask.dedup();
     let panel = Panel::bounded(&criteria, CALLS).map_err(Refusal::failed)?;
     let seed = Seed::from_text("studio");
     let mut reports: Vec<Report> = Vec::new();

@@ -164,7 +164,10 @@ impl Judging {
         match next {
             None => json!({ "pair": of, "of": of, "done": true, "left": null, "right": null }),
             Some(pair) => {
-                let [left, right] = self.pairs[pair].map(|at| shown(&self.entries[at].candidate));
+                let both = self.pairs[pair].map(|at| &self.entries[at].candidate);
+                // As many levels of the one as of the other: their number tells sources apart.
+                let levels = both.iter().map(|candidate| candidate.levels.len()).min().unwrap_or_default();
+                let [left, right] = both.map(|candidate| shown(candidate, levels));
                 json!({ "pair": pair, "of": of, "done": false, "left": left, "right": right })
             }
         }
@@ -217,9 +220,9 @@ impl Entry {
 }
 
 /// Returns a game as its judge sees it: printed anew, since spelling and comments would tell where it is from.
-fn shown(candidate: &Candidate) -> Value {
+fn shown(candidate: &Candidate, levels: usize) -> Value {
     let source = print_bare(candidate.game.description());
-    let levels: Vec<String> = candidate.levels.iter().map(ToString::to_string).collect();
+    let levels: Vec<String> = candidate.levels.iter().take(levels).map(ToString::to_string).collect();
     json!({
         "title": candidate.title,
         "describe": engine::describe(&candidate.game),

@@ -32,6 +32,9 @@ pub(crate) fn workspace(
         return Ok(Workspace::new(Kind::Corpus, "the corpus", copies(here)?, corpus()?));
     };
     let path = Path::new(place);
+    if place == input::CORPUS && !path.exists() {
+        return Ok(Workspace::new(Kind::Corpus, "the corpus", copies(here)?, corpus()?));
+    }
     if is_release(path)? {
         return release(path, against, copies(here)?);
     }

@@ -33,9 +33,25 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("render", &["engine"]),
     ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
     (
+        "studio",
+        &[
+            "engine",
+            "editor",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "statistics",
+            "render",
+            "evaluation",
+        ],
+    ),
+    (
         "cli",
         &[
             "engine",
+            "editor",
             "agents",
             "generators",
             "validators",
@@ -46,6 +62,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "statistics",
             "render",
             "evaluation",
+            "studio",
         ],
     ),
     ("xtask", &["engine", "agents", "generators", "validators", "forge", "report", "render", "statistics"]),
