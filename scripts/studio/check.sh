@@ -54,11 +54,18 @@ arcade=${ARCADE:-$root/target/debug/arcade}
 [ -x "$arcade" ] || missing "$arcade: cargo build -p infinite-arcade, or name a binary with ARCADE"
 chromium=${CHROMIUM:-/usr/bin/chromium}
 [ -x "$chromium" ] || missing "$chromium: apt-get install chromium, or name a browser with CHROMIUM"
-# A release and results to look at; kept between runs, for they take longer than the tests.
+# A release and results to look at; kept between runs, for they take a while.
 held=$page/test-data
 if [ ! -d "$held/results" ]; then
     rm -rf "$held"
     "$arcade" --quiet release tiny --out "$held/tiny" >"$scratch/release.log"
-    "$arcade" --quiet evaluate "$held/tiny" --player reflex --out "$held/results" >"$scratch/evaluate.log"
+    # A player behind chat completions: its prompts and answers are in the results.
+    "$arcade" serve-player --player reflex >"$scratch/player" &
+    player=$!
+    trap 'kill "$player" 2>/dev/null; rm -rf "$scratch"' EXIT
+    while [ ! -s "$scratch/player" ]; do sleep 0.1; done
+    url=$(sed 's/.*"base_url":"\([^"]*\)".*/\1/;q' "$scratch/player")
+    "$arcade" --quiet evaluate "$held/tiny" --model openai:reflex --base-url "$url" --max-steps 40 --out "$held/results" >"$scratch/evaluate.log"
+    kill "$player"
 fi
 ARCADE=$arcade CHROMIUM=$chromium SNAPSHOT=$held/tiny RESULTS=$held/results npx playwright test

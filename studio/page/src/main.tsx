@@ -26,7 +26,7 @@ function Studio() {
   }, [asked.value]);
   const workspace = asked.value ?? kept;
   if (asked.error && !workspace) return <Trouble text={asked.error} />;
-  if (!workspace) return <main aria-busy="true" />;
+  if (!workspace) return <><header class="top"><Mark /></header><main aria-busy="true" /></>;
   return <Views route={route} workspace={workspace} onChanged={() => setVersion((before) => before + 1)} />;
 }
 
@@ -83,10 +83,7 @@ function Top({ view, workspace, game }: { view: string; workspace: Workspace; ga
   return (
     <header class="top">
       <button type="button" class="skip" onClick={toContent}>Skip to the content</button>
-      <a class="mark" href="#/" aria-label="Infinite Arcade, all games">
-        <svg viewBox="0 0 20 20" width="20" height="20" aria-hidden="true"><circle cx="10" cy="10" r="8" fill="none" stroke="currentColor" stroke-width="2.5" /><path d="M8 6.8v6.4l5-3.2z" fill="currentColor" /></svg>
-        <span>Infinite Arcade</span>
-      </a>
+      <Mark />
       <nav aria-label="Views">
         {game ? (
           <>
@@ -104,6 +101,15 @@ function Top({ view, workspace, game }: { view: string; workspace: Workspace; ga
         )}
       </nav>
     </header>
+  );
+}
+
+function Mark() {
+  return (
+    <a class="mark" href="#/" aria-label="Infinite Arcade, all games">
+      <svg viewBox="0 0 20 20" width="20" height="20" aria-hidden="true"><circle cx="10" cy="10" r="8" fill="none" stroke="currentColor" stroke-width="2.5" /><path d="M8 6.8v6.4l5-3.2z" fill="currentColor" /></svg>
+      <span>Infinite Arcade</span>
+    </a>
   );
 }
 

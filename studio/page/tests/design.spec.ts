@@ -131,3 +131,28 @@ test('a made level is inserted, and evidence plays in the board', async ({ page,
   await page.getByRole('tab', { name: 'Verdict' }).click();
   await expect(page.getByText(/^Can be won in/)).toBeVisible();
 });
+
+test('a level with a fault says what is wrong and offers the repair', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await page.getByRole('button', { name: 'Text', exact: true }).click();
+  const text = page.getByLabel('Level as text');
+  await text.fill((await text.inputValue()).replace('wa', 'wX'));
+  const problem = page.getByRole('list', { name: 'Problems of the level' }).getByRole('listitem').filter({ hasText: 'X' });
+  await expect(problem).toBeVisible();
+  await problem.locator('.fix').first().click();
+  await expect(problem).toBeHidden();
+});
+
+test('fingers paint on a phone, and the verdict is a tap away', async ({ browser, studio }) => {
+  const running = await studio('games');
+  const context = await browser.newContext({ viewport: { width: 375, height: 812 }, hasTouch: true, isMobile: true });
+  const page = await context.newPage();
+  await open(page, running, VIEW);
+  await page.getByRole('radio', { name: /^hedge/ }).tap();
+  const box = await page.locator('.paint canvas').boundingBox();
+  if (!box) throw new Error('the level is not shown');
+  for (const x of [2.5, 4.5]) await page.touchscreen.tap(box.x + (x * box.width) / 8, box.y + (3.5 * box.width) / 8);
+  await page.getByRole('button', { name: 'Verdict', exact: true }).tap();
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
+  await context.close();
+});

@@ -51,8 +51,9 @@ function problems(source) {
   return found;
 }
 function levelProblems(source, level) {
+  let start = -1;
   const symbols = mapping(source).map((one) => one.symbol);
-  return level.split('\n').flatMap((line, y) => [...line].flatMap((symbol, x) => (symbols.includes(symbol) ? [] : [{ code: 'unknown-symbol', severity: 'error', message: `\`${symbol}\` is not in the LevelMapping`, label: '', help: null, start: 0, end: 1, line: y + 1, column: x + 1, fixes: [], page: null }])));
+  return level.split('\n').flatMap((line, y) => [...`${line}\n`].flatMap((symbol, x) => ((start += 1), symbol === '\n' || symbols.includes(symbol) ? [] : [{ code: 'unknown-symbol', severity: 'error', message: `\`${symbol}\` is not in the LevelMapping`, label: '', help: null, start, end: start + 1, line: y + 1, column: x + 1, fixes: [{ title: 'Write `w`', edits: [{ start, end: start + 1, text: 'w' }] }], page: null }])));
 }
 const describe = () => 'How you play:\n  You are the moth: the arrow keys move you up, left, down and right.\n\nHow you win:\n  You win when no lamp is left.\n\nWhat happens when sprites meet:\n  You cannot enter the hedge.\n  The lamp disappears on touching you. You gain 1 point.\n';
 

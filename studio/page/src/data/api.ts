@@ -106,7 +106,7 @@ export async function* stream<T>(path: string, body: unknown, signal: AbortSigna
 
 /** The words for any failure. */
 export function words(error: unknown): string {
-  if (error instanceof Failure) return error.help ? `${error.message} ${error.help}` : error.message;
+  if (error instanceof Failure) return error.help ? `${error.message}${/[.!?]$/.test(error.message) ? '' : ';'} ${error.help}` : error.message;
   return error instanceof Error ? error.message : String(error);
 }
 

@@ -130,7 +130,7 @@ export class Run {
   start(): void {
     if (this.clock || this.closed) return;
     if (this.kind === 'replay' && this.atEnd) this.at = 0;
-    if (this.kind === 'live' && this.over) return;
+    if (this.kind === 'live' && (this.over || (this.turns && this.planner === null))) return;
     this.clock = true;
     this.timer = window.setTimeout(() => void this.tick(), 0);
     this.changed();

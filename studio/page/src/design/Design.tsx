@@ -8,13 +8,15 @@ import { Dialog } from '../parts/Dialog';
 import { Icon } from '../parts/Icon';
 import { Markdown, Words } from '../parts/Markdown';
 import { Player } from '../parts/Player';
+import { arrows } from '../parts/arrows';
 import { useTitle } from '../parts/hooks';
 import { go, leaving } from '../parts/route';
 import { isTurnBased } from '../views/Play';
 import { parse, widthOf } from './grid';
-import { LevelEditor } from './LevelEditor';
+import { LevelEditor, spanOf } from './LevelEditor';
 import { MorePanel } from './MorePanel';
-import { type EditorHandle, ProblemWords, RulesEditor } from './RulesEditor';
+import { Problems } from './Problems';
+import { type EditorHandle, RulesEditor } from './RulesEditor';
 import { VerdictPanel } from './VerdictPanel';
 
 /** A file as it is edited: its text now, and what was last saved or read. */
@@ -277,6 +279,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
 
   const grid = parse(now?.text ?? '');
   const problems = checked === source.text ? check.problems : [];
+  const levelProblems = check.levels[at]?.problems ?? [];
   return (
     <main class="design" data-pane={pane}>
       <div class="bar">
@@ -294,7 +297,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
             <button type="button" aria-pressed={pane === one} onClick={() => setPane(one)}>{one === 'panel' ? 'Verdict' : one === 'rules' ? 'Rules' : 'Board'}</button>
           ))}
         </div>
-        <p class={`said ${notice?.bad ? 'bad' : ''}`} role="status">{notice?.text}</p>
+        <p class={`said ${notice?.bad ? 'bad' : ''}`} role="status">{notice && <Words text={notice.text} />}</p>
         {run === null
           ? <button type="button" onClick={tryOut}><Icon name="play" /> Try it</button>
           : <button type="button" onClick={stopRun}>Back to painting</button>}
@@ -317,7 +320,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
           onSave={() => void save()}
           onPage={showPage}
         />
-        <Problems problems={problems} onShow={showProblem} onPage={showPage} onFix={(edits) => { if (checked === source.text) editor.current?.apply(edits); }} />
+        <Problems name="Problems" problems={problems} onShow={showProblem} onPage={showPage} onFix={(edits) => { if (checked === source.text) editor.current?.apply(edits); }} />
       </section>
 
       <section class="pane board-pane" aria-label={run ? runName : `Level ${at + 1}`}>
@@ -330,7 +333,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
             text={now.text}
             legend={check.legend}
             tiles={check.tiles}
-            problems={check.levels[at]?.problems ?? []}
+            problems={levelProblems}
             highlights={highlights}
             brush={brush}
             onBrush={setBrush}
@@ -343,12 +346,21 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         ) : (
           <p class="empty">This game has no level yet. <button type="button" onClick={() => addLevel('wwwwwwww\nw......w\nw......w\nwwwwwwww\n')}>Add one</button></p>
         )}
+        {run === null && now && (
+          <Problems
+            name="Problems of the level"
+            problems={levelProblems}
+            onShow={(problem) => showCells(spanOf(problem))}
+            onPage={showPage}
+            onFix={(edits) => edit(applied(now.text, edits), -2 - Math.random())}
+          />
+        )}
       </section>
 
       <section class="pane side-pane" aria-label="What the suite says">
-        <div class="tablist" role="tablist">
+        <div class="tablist" role="tablist" onKeyDown={arrows}>
           {([['verdict', 'Verdict'], ['words', 'In words'], ['more', 'More like this'], ...(page ? [['page', 'Manual']] : [])] as [Panel, string][]).map(([name, label]) => (
-            <button type="button" role="tab" aria-selected={panel === name} onClick={() => setPanel(name)}>{label}</button>
+            <button type="button" role="tab" tabIndex={panel === name ? 0 : -1} aria-selected={panel === name} onClick={() => setPanel(name)}>{label}</button>
           ))}
         </div>
         <div class="panel" role="tabpanel">
@@ -357,7 +369,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
             {now && <VerdictPanel source={source.text} level={now.text} levels={texts} onCells={showCells} onRule={showRule} onEpisode={watch} />}
           </div>
           {panel === 'words' && <Markdown text={check.describe || 'The rules do not compile yet.'} />}
-          {panel === 'more' && now && <MorePanel source={source.text} level={now.text} width={widthOf(grid)} height={grid.length} onUse={(text) => edit(text, -2 - saves.current - Math.random())} onAdd={addLevel} />}
+          {panel === 'more' && now && <MorePanel source={source.text} level={now.text} width={widthOf(grid)} height={grid.length} onUse={(text) => edit(text, -2 - Math.random())} onAdd={addLevel} />}
           {panel === 'page' && page && <Markdown text={page.markdown} />}
         </div>
       </section>
@@ -414,24 +426,13 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
   );
 }
 
-function draft(file: { name: string; text: string; digest: string }): Draft {
-  return { name: file.name, text: file.text, saved: file.text, base: file.digest };
+/** A text with edits made, whose places are those of the text before. */
+function applied(text: string, edits: Edit[]): string {
+  return [...edits].sort((a, b) => b.start - a.start).reduce((made, { start, end, text: put }) => made.slice(0, start) + put + made.slice(end), text);
 }
 
-/** The problems of the rules below the editor: each with its place, its words and its fixes. */
-function Problems({ problems, onShow, onPage, onFix }: { problems: Problem[]; onShow: (problem: Problem) => void; onPage: (name: string) => void; onFix: (edits: Edit[]) => void }) {
-  if (problems.length === 0) return null;
-  return (
-    <ul class="problems" aria-label="Problems">
-      {problems.map((problem) => (
-        <li class={problem.severity}>
-          <button type="button" class="link" onClick={() => onShow(problem)} aria-label={`Go to line ${problem.line}`}>{problem.line}</button>
-          <ProblemWords problem={problem} onPage={onPage} />
-          {problem.fixes.map((fix) => <button type="button" class="fix" onClick={() => onFix(fix.edits)}><Words text={fix.title} /></button>)}
-        </li>
-      ))}
-    </ul>
-  );
+function draft(file: { name: string; text: string; digest: string }): Draft {
+  return { name: file.name, text: file.text, saved: file.text, base: file.digest };
 }
 
 function ConflictDialog({ conflict, mine, onClose, onMine, onTheirs }: { conflict: Conflict; mine: string; onClose: () => void; onMine: () => void; onTheirs: () => void }) {

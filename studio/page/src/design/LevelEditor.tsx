@@ -5,6 +5,7 @@ import type { BoardAnswer, Frame, LegendEntry, Problem, Tile } from '../data/typ
 import { cellFor, colour, type Highlight, onScheme } from '../parts/Board';
 import { Icon } from '../parts/Icon';
 import { Words } from '../parts/Markdown';
+import { arrows } from '../parts/arrows';
 import { area, at, type EdgeName, type Grid, grow, line, paint, parse, print, shrink, widthOf } from './grid';
 
 interface Props {
@@ -146,7 +147,7 @@ export function LevelEditor(props: Props) {
       context.lineWidth = 3 * ratio;
       context.strokeRect(x * unit + 1.5 * ratio, y * unit + 1.5 * ratio, unit - 3 * ratio, unit - 3 * ratio);
     };
-    for (const problem of props.problems) ring(problem.column - 1, problem.line - 1, '--bad');
+    for (const problem of props.problems) for (const [x, y] of spanOf(problem)) ring(x, y, '--bad');
     for (const spot of highlights) ring(spot.x, spot.y, '--warm');
     if (cursor) {
       context.fillStyle = colour('--cursor');
@@ -262,11 +263,11 @@ export function LevelEditor(props: Props) {
           </div>
         </details>
       </div>
-      <div class="palette" role="radiogroup" aria-label="Palette">
+      <div class="palette" role="radiogroup" aria-label="Palette" onKeyDown={arrows}>
         {legend.map((entry) => {
           const tile = entry.tile === null ? undefined : tiles[entry.tile];
           return (
-            <button type="button" role="radio" aria-checked={entry.symbol === symbol} title={entry.label} aria-label={`${entry.types.join(', ')}, symbol ${entry.symbol}`} onClick={() => setBrush(entry.symbol)}>
+            <button type="button" role="radio" tabIndex={entry.symbol === symbol ? 0 : -1} aria-checked={entry.symbol === symbol} title={entry.label} aria-label={`${entry.types.join(', ')}, symbol ${entry.symbol}`} onClick={() => setBrush(entry.symbol)}>
               <span class="swatch">{tile ? <img src={address(tile)} alt="" width="28" height="28" /> : <b>{entry.symbol}</b>}</span>
               <span class="name">{entry.types.join(', ')}</span>
               <kbd>{entry.symbol}</kbd>
@@ -295,9 +296,15 @@ export function LevelEditor(props: Props) {
           />
         </div>
       )}
-      <p class="under" role="status"><Words text={said || error || props.problems[0]?.message || ' '} /></p>
+      <p class="under" role="status"><Words text={said || error || ' '} /></p>
     </div>
   );
+}
+
+/** The squares of a level's problem; none of those that are about the level as a whole. */
+export function spanOf(problem: Problem): [number, number][] {
+  const isWhole = problem.code === 'no-avatar' || problem.start === problem.end;
+  return isWhole ? [] : Array.from({ length: problem.end - problem.start }, (_, step) => [problem.column - 1 + step, problem.line - 1]);
 }
 
 /** The commonest symbol inside the border: what Delete leaves behind. */

@@ -12,8 +12,9 @@ import { useEffect, useImperativeHandle, useRef } from 'preact/hooks';
 import type { Ref } from 'preact';
 import { post } from '../data/api';
 import type { Edit, Problem } from '../data/types';
-import { Markdown, Words } from '../parts/Markdown';
+import { Markdown } from '../parts/Markdown';
 import { language } from './language';
+import { ProblemWords } from './Problems';
 
 /** What other parts of the view may ask of the editor. */
 export interface EditorHandle {
@@ -207,17 +208,6 @@ function diagnostic(problem: Problem, checked: string, latest: { current: Props 
       },
     })),
   };
-}
-
-export function ProblemWords({ problem, onPage }: { problem: Problem; onPage: (name: string) => void }) {
-  return (
-    <div class="problem-words">
-      <strong><Words text={problem.message} /></strong>
-      {problem.label && problem.label !== problem.message && <span><Words text={problem.label} /></span>}
-      {problem.help && <span class="soft"><Words text={problem.help} /></span>}
-      {problem.page && <button type="button" class="link" onClick={() => onPage(problem.page ?? '')}>explain</button>}
-    </div>
-  );
 }
 
 function rename(view: EditorView, call: (at: number, word: string) => void): void {

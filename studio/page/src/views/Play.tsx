@@ -22,6 +22,7 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
   const [run, setRun] = useState<Run | null>(null);
   const [error, setError] = useState<string | null>(null);
   const [seed, setSeed] = useState('play');
+  const [sown, setSown] = useState('play');
   const [budget, setBudget] = useState('400');
   const planners = useAsked<{ name: string; help: string }[]>((signal) => (live ? get('/api/planners', signal) : Promise.resolve([])), []);
   const file = useRef<HTMLInputElement>(null);
@@ -42,8 +43,10 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
     );
     return () => { dropped = true; };
   };
-  const begin = (): Promise<Run> =>
-    Run.begin(game.source.text, game.levels[shownLevel]?.text ?? '', seed, isTurnBased(game.card, game.describe));
+  const begin = (): Promise<Run> => {
+    setSown(seed);
+    return Run.begin(game.source.text, game.levels[shownLevel]?.text ?? '', seed, isTurnBased(game.card, game.describe));
+  };
   useEffect(() => {
     setRun((before) => { before?.close(); return null; });
     if (watch !== null && !witness) { setError(`${game.title} has no witness named ${watch}.`); return undefined; }
@@ -103,7 +106,10 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
         {run?.kind === 'live' && (
           <div class="group">
             <label class="check"><input type="checkbox" checked={run.turns} onChange={(event) => run.setTurns(event.currentTarget.checked)} /> Wait for me each turn</label>
-            <label class="field inline">Seed<input value={seed} onInput={(event) => setSeed(event.currentTarget.value)} onKeyDown={(event) => event.key === 'Enter' && hold(begin())} /></label>
+            <form class="row" onSubmit={(event) => { event.preventDefault(); hold(begin()); }}>
+              <label class="field inline">Seed<input class="medium" value={seed} onInput={(event) => setSeed(event.currentTarget.value)} /></label>
+              {seed !== sown && <button type="submit">Begin again</button>}
+            </form>
           </div>
         )}
         {run?.kind === 'live' && (
