@@ -103,7 +103,7 @@ fn tidied(mut fix: Fix, source: &str) -> Fix {
         };
         let kept = before.trim_end_matches([' ', '\t']);
         let indents = kept.is_empty() || kept.ends_with(['\n', '\r']);
-        let is_word = !source[edit.span.start..edit.span.end].starts_with([' ', '\t']);
+        let is_word = !source[edit.span.start..edit.span.end].starts_with(char::is_whitespace);
         let separated = after.is_empty() || after.starts_with([' ', '\t', '\n', '\r', '#']);
         if !indents && is_word && separated {
             edit.span.start = kept.len();
