@@ -29,7 +29,8 @@ impl Problem {
     }
 }
 
-/// The problems of a game's text, sorted by place: its errors, or if there are none, its warnings.
+/// The problems of a game's text, sorted by place: errors and warnings; those about the rules as a whole once there are no
+/// errors.
 pub fn problems(source: &str) -> Vec<Problem> {
     let found = match Game::from_source(source) {
         Ok(game) => game.warnings().to_vec(),

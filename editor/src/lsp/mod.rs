@@ -15,7 +15,7 @@ use std::sync::mpsc::{TryRecvError, sync_channel};
 use std::thread;
 
 /// The number of messages that are read ahead, so that of several changes only the last one is checked.
-const AHEAD: usize = 16;
+const AHEAD: usize = 8;
 
 /// Serves one client until it leaves. Returns `true` if it asked for the shutdown before.
 ///
