@@ -128,35 +128,83 @@ impl Frame {
     }
 }
 
-/// Replaces the marks of each frame but the first by the difference from the frame before. Cost: O(marks · changes).
-pub(crate) fn as_changes(frames: &mut [Frame]) {
-    let mut before: Option<Vec<Mark>> = None;
-    for frame in frames {
-        let Some(marks) = frame.marks.take() else { continue };
-        match &before {
-            None => frame.marks = Some(marks.clone()),
-            Some(before) => frame.change = Some(change(before, &marks)),
-        }
-        before = Some(marks);
-    }
-}
-
-/// The most marks of a list of frames that are sent as they are.
+/// The most marks of a list of frames that are sent as they are, and the most that a list has at all.
 const PLAIN: usize = 200_000;
+const MOST: usize = 3_000_000;
+/// The longest stretches that are compared mark by mark in any order: the cost grows with their product.
+const COMPARED: usize = 4_000;
 
-/// Writes a list of frames as changes if it is large.
-pub(crate) fn shortened(mut frames: Vec<Frame>) -> Vec<Frame> {
-    let marks: usize = frames.iter().map(|frame| frame.marks.as_ref().map_or(0, Vec::len)).sum();
-    if marks > PLAIN {
-        as_changes(&mut frames);
-    }
-    frames
+/// The frames of an episode: plain if they are few, and the differences from one to the next if they are many, so that neither
+/// memory nor answers grow with the board times the ticks.
+pub(crate) struct Frames {
+    all: Vec<Frame>,
+    last: Vec<Mark>,
+    /// Marks in the list.
+    marks: usize,
+    /// The marks after which differences are stored.
+    plain: usize,
 }
 
+impl Frames {
+    /// An empty list for an answer.
+    pub(crate) fn new() -> Frames {
+        Frames { all: Vec::new(), last: Vec::new(), marks: 0, plain: PLAIN }
+    }
+
+    /// An empty list for a file, whose frames but the first are differences.
+    pub(crate) fn of_changes() -> Frames {
+        Frames { plain: 0, ..Frames::new() }
+    }
+
+    /// Adds a frame; returns `false`, and adds nothing, if the list is full. Cost: O(marks · changes).
+    pub(crate) fn push(&mut self, mut frame: Frame) -> bool {
+        let marks = frame.marks.take().unwrap_or_default();
+        let change = (!self.all.is_empty() && self.marks + marks.len() > self.plain)
+            .then(|| change(&self.last, &marks));
+        let size = match &change {
+            Some(change) => change.iter().map(|(_, _, new)| new.len() + 1).sum(),
+            None => marks.len(),
+        };
+        if self.marks + size > MOST {
+            return false;
+        }
+        self.marks += size;
+        self.last.clone_from(&marks);
+        frame.marks = change.is_none().then_some(marks);
+        frame.change = change;
+        self.all.push(frame);
+        true
+    }
+
+    /// Returns the frames.
+    pub(crate) fn finish(self) -> Vec<Frame> {
+        self.all
+    }
+}
+
+/// Returns the splices that turn the marks of one frame into those of the next, from the end to the beginning.
 fn change(from: &[Mark], to: &[Mark]) -> Vec<Splice> {
-    let ops = capture_diff_slices(Algorithm::Myers, from, to);
-    let changed = ops.iter().rev().filter(|op| !matches!(op, DiffOp::Equal { .. }));
-    changed.map(|op| (op.old_range().start, op.old_range().len(), to[op.new_range()].to_vec())).collect()
+    let same = |(a, b): &(&Mark, &Mark)| a == b;
+    let start = from.iter().zip(to).take_while(same).count();
+    let end = from[start..].iter().rev().zip(to[start..].iter().rev()).take_while(same).count();
+    let (old, new) = (&from[start..from.len() - end], &to[start..to.len() - end]);
+    let splice = |at: usize, removed: usize, new: &[Mark]| (start + at, removed, new.to_vec());
+    if old.len().max(new.len()) <= COMPARED {
+        let ops = capture_diff_slices(Algorithm::Myers, old, new);
+        let changed = ops.iter().rev().filter(|op| !matches!(op, DiffOp::Equal { .. }));
+        return changed
+            .map(|op| splice(op.old_range().start, op.old_range().len(), &new[op.new_range()]))
+            .collect();
+    }
+    if old.len() != new.len() {
+        return vec![splice(0, old.len(), new)];
+    }
+    let differing: Vec<usize> = (0..old.len()).filter(|&at| old[at] != new[at]).collect();
+    let runs = differing.chunk_by(|one, other| one + 1 == *other);
+    let mut splices: Vec<Splice> =
+        runs.map(|run| splice(run[0], run.len(), &new[run[0]..=run[run.len() - 1]])).collect();
+    splices.reverse();
+    splices
 }
 
 fn marks(drawn: &Picture, cell: u32, tiles: &mut Tiles) -> Vec<Mark> {
@@ -219,24 +267,72 @@ pub(crate) fn action(name: &str) -> Result<Action, Refusal> {
 mod tests {
     use super::*;
 
+    fn mark(tile: usize, x: i32) -> Mark {
+        Mark { tile, place: [x, 0, 1000, 1000] }
+    }
+
+    #[track_caller]
+    fn check(from: &[Mark], to: &[Mark]) -> usize {
+        let (mut marks, change) = (from.to_vec(), change(from, to));
+        let size = change.iter().map(|(_, _, new)| new.len()).sum();
+        for (at, removed, new) in change {
+            marks.splice(at..at + removed, new);
+        }
+        assert_eq!(marks, to);
+        size
+    }
+
     #[test]
     fn changes_lead_from_frame_to_frame() {
-        let mark = |tile, x| Mark { tile, place: [x, 0, 1000, 1000] };
         let boards = [
             vec![],
             vec![mark(0, 0), mark(1, 1000), mark(2, 500)],
             vec![mark(0, 0), mark(1, 2000), mark(2, 500), mark(3, 0)],
             vec![mark(3, 0)],
             vec![mark(3, 0)],
+            vec![mark(3, 0), mark(3, 0), mark(3, 0)],
         ];
-        for pair in boards.windows(2) {
-            let mut marks = pair[0].clone();
-            for (at, removed, new) in change(&pair[0], &pair[1]) {
-                marks.splice(at..at + removed, new);
-            }
-            assert_eq!(marks, pair[1]);
+        for (from, to) in boards.iter().flat_map(|from| boards.iter().map(move |to| (from, to))) {
+            check(from, to);
         }
-        assert!(change(&boards[3], &boards[4]).is_empty());
         assert_eq!(serde_json::to_string(&boards[1][2]).unwrap(), "[2,0.5,0,1,1]");
+    }
+
+    #[test]
+    fn large_boards_change_by_little() {
+        let large: Vec<Mark> = (0..50_000).map(|at| mark(0, at)).collect();
+        let mut moved = large.clone();
+        for at in [7, 8, 20_000, 49_000] {
+            moved[at].tile = 1;
+        }
+        assert_eq!(check(&large, &moved), 4);
+        let mut shorter = moved.clone();
+        shorter.remove(30_000);
+        check(&large, &shorter);
+        check(&shorter, &large);
+    }
+
+    #[test]
+    fn lists_of_frames_have_bounds() {
+        let frame = |shift: i32, count: i32| Frame {
+            width: 1,
+            height: 1,
+            marks: Some((0..count).map(|at| mark(0, at + shift)).collect()),
+            change: None,
+            caption: Vec::new(),
+            tick: 0,
+            score: 0.0,
+            outcome: "playing",
+            actions: Vec::new(),
+        };
+        let (mut few, mut many) = (Frames::new(), Frames::new());
+        assert!((0..10).all(|at| few.push(frame(at, 10))));
+        assert!(few.finish().iter().all(|frame| frame.marks.is_some()));
+        // Every mark of every frame is another: the list ends before the memory does.
+        let pushed = (0..1000).take_while(|&at| many.push(frame(at * 50_000, 50_000))).count();
+        let frames = many.finish();
+        assert_eq!((frames.len(), pushed), (pushed, frames.len()));
+        assert!((50..=60).contains(&pushed), "{pushed}");
+        assert!(frames[0].marks.is_some() && frames[pushed - 1].change.is_some());
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::api::{game_of, release_of};
 use crate::compiled::Compiled;
-use crate::frames::{Frame, Tiles, action_name, as_changes};
+use crate::frames::{Frame, Frames, Tiles, action_name};
 use crate::refusal::Refusal;
 use crate::server::PAGE;
 use crate::studio::Studio;
@@ -106,14 +106,17 @@ fn witnesses(
     for witness in &entry.witnesses {
         let Some(level) = levels.get(witness.level) else { continue };
         let mut state = compiled.game.start(level, witness.episode.seed);
-        let mut frames = vec![Frame::of(compiled, &state, 0, tiles)?];
+        let mut frames = Frames::of_changes();
+        frames.push(Frame::of(compiled, &state, 0, tiles)?);
+        let mut actions = Vec::new();
         for &action in &witness.episode.actions {
             compiled.game.step(&mut state, action);
-            frames.push(Frame::of(compiled, &state, frames.len(), tiles)?);
+            if !frames.push(Frame::of(compiled, &state, actions.len() + 1, tiles)?) {
+                break;
+            }
+            actions.push(action_name(action));
         }
-        as_changes(&mut frames);
-        let actions: Vec<String> =
-            witness.episode.actions.iter().map(|&action| action_name(action)).collect();
+        let frames = frames.finish();
         shown.push(
             json!({ "name": witness.name, "level": witness.level, "frames": frames, "actions": actions }),
         );

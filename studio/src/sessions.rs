@@ -14,7 +14,7 @@ const MOST: usize = 32;
 const KEPT: usize = 64;
 const KEPT_BYTES: usize = 8 << 20;
 /// The most forward-model calls of a decision of a planner, and those of a planner without a number.
-const MOST_CALLS: u64 = 100_000;
+const MOST_CALLS: u64 = 10_000;
 const USUAL_CALLS: u64 = 400;
 
 /// A game in progress.

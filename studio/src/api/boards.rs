@@ -1,6 +1,6 @@
 //! Boards and recordings.
 
-use crate::frames::{Frame, Tiles, action_name, shortened};
+use crate::frames::{Frame, Frames, Tiles, action_name};
 use crate::positions;
 use crate::refusal::Refusal;
 use crate::studio::Studio;
@@ -48,27 +48,35 @@ pub(crate) struct Replay {
     episode: Episode,
 }
 
+/// The note on frames that are left out.
+pub(crate) const CUT: &str = "the boards change too much to be shown to the end";
+
 pub(crate) fn replay(studio: &Studio, asked: Replay) -> Result<Value, Refusal> {
     let compiled = studio.compiled.need(&asked.source)?;
     let level = compiled.level(&asked.level)?;
     let divergence = asked.episode.replay(&compiled.game, &level).err();
     let mut tiles = Tiles::default();
     let mut state = compiled.game.start(&level, asked.episode.seed);
-    let mut frames = vec![Frame::of(&compiled, &state, 0, &mut tiles)?];
+    let mut frames = Frames::new();
+    frames.push(Frame::of(&compiled, &state, 0, &mut tiles)?);
     let mut actions = Vec::new();
+    let mut note = divergence.as_ref().map(ToString::to_string);
     for &action in asked.episode.actions.iter().take(MAX_TICKS.unsigned_abs() as usize + 1) {
         if state.is_over() {
             break;
         }
         compiled.game.step(&mut state, action);
+        if !frames.push(Frame::of(&compiled, &state, actions.len() + 1, &mut tiles)?) {
+            note.get_or_insert_with(|| CUT.to_owned());
+            break;
+        }
         actions.push(action_name(action));
-        frames.push(Frame::of(&compiled, &state, actions.len(), &mut tiles)?);
     }
     Ok(json!({
         "tiles": tiles.fresh(),
-        "frames": shortened(frames),
+        "frames": frames.finish(),
         "actions": actions,
         "agrees": divergence.is_none(),
-        "note": divergence.map(|divergence| divergence.to_string()),
+        "note": note,
     }))
 }

@@ -1,6 +1,7 @@
 //! Results of evaluations: the episodes of each player, replayed with the words that were exchanged.
 
-use crate::frames::{Frame, Tiles, action_name, outcome, shortened};
+use super::boards::CUT;
+use crate::frames::{Frame, Frames, Tiles, action_name, outcome};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
 use engine::{Action, Outcome};
@@ -105,17 +106,22 @@ fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Value, Refusal> 
     let game = &task.subject.game;
     let mut state = game.start(&task.level.level, chance.unwrap_or_else(|| task.chance()));
     let mut tiles = Tiles::default();
-    let mut frames = vec![Frame::with_looks(&looks, &state, 0, &mut tiles)?];
+    let mut frames = Frames::new();
+    frames.push(Frame::with_looks(&looks, &state, 0, &mut tiles)?);
     let mut actions = Vec::new();
+    let mut note = None;
     let mut differs = None;
     for event in &log {
         let Event::Step { action, hash, .. } = event else { continue };
         game.step(&mut state, *action);
-        actions.push(action_name(*action));
         if differs.is_none() && state.state_hash() != *hash {
-            differs = Some(actions.len());
+            differs = Some(actions.len() + 1);
         }
-        frames.push(Frame::with_looks(&looks, &state, actions.len(), &mut tiles)?);
+        if !frames.push(Frame::with_looks(&looks, &state, actions.len() + 1, &mut tiles)?) {
+            note = Some(CUT.to_owned());
+            break;
+        }
+        actions.push(action_name(*action));
         if state.outcome() != Outcome::Ongoing {
             break;
         }
@@ -125,11 +131,11 @@ fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Value, Refusal> 
         "title": title,
         "player": evaluation.settings.entrant.name,
         "tiles": tiles.fresh(),
-        "frames": shortened(frames),
+        "frames": frames.finish(),
         "actions": actions,
         "talk": talks(&log),
         "agrees": differs.is_none(),
-        "note": differs.map(|tick| format!("the replay differs from the log after tick {tick}")),
+        "note": differs.map(|tick| format!("the replay differs from the log after tick {tick}")).or(note),
     }))
 }
 

@@ -297,7 +297,7 @@ mod tests {
                 2
             }
         };
-        let mut used = vec![0; 12];
+        let mut used = [0; 12];
         let mut combinations = std::collections::BTreeMap::new();
         let mut lower_left = 0;
         for [left, right] in &pairs {
