@@ -67,7 +67,7 @@ impl Server {
         format!("http://127.0.0.1:{}/?token={}", self.port, self.token())
     }
 
-    /// Answers until the returned function's counterpart is dropped: [`Server::run`] with a way to end it.
+    /// Returns a value whose drop ends the server, and the function that answers until then.
     pub fn stoppable(self) -> (Stop, impl FnOnce() -> io::Result<()> + Send) {
         let (stop, stopped) = oneshot::channel();
         let run = move || {

@@ -105,6 +105,9 @@ fn releases_are_shown_and_never_changed() {
     let inside = Running::start(home.path(), &["tiny/games"]);
     let games = inside.get("/api/workspace");
     assert!(games["games"].as_array().unwrap().iter().all(|game| game["writable"] == false));
+    // Cards and wins beside a game are shown, as those of games that were just generated.
+    let beside = inside.get(&format!("/api/games/{id}"));
+    assert_eq!((&beside["card"], &beside["witnesses"]), (&game["card"], &game["witnesses"]));
     // A release that does not verify is not shown.
     fs::write(root.join("games").join(&id).join("lvl0.txt"), "tampered").unwrap();
     let refused = run(home.path(), &["studio", "tiny", "--no-open"], 2);

@@ -84,25 +84,17 @@ fn candidate(input: &GameInput) -> Result<Option<Candidate>, Failure> {
 
 /// Returns the title of a game: that of its card, or else the name of its folder.
 fn title(input: &GameInput) -> Result<String, Failure> {
-    let Some(path) = &input.path else {
+    if input.path.is_none() {
         let corpus = embedded::corpus()?;
         let found = corpus.find(&input.title);
         return Ok(found.map_or_else(|| input.title.clone(), |game| game.card.title.clone()));
-    };
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let toml =
-        || input::read_text(&folder.join("CARD.toml"), engine::MAX_SOURCE).ok()?.parse::<toml::Table>().ok();
-    let json = || {
-        let text = input::read_text(&folder.join("card.json"), 1 << 22).ok()?;
-        serde_json::from_str::<serde_json::Value>(&text).ok()
-    };
-    let of_toml = toml().and_then(|card| Some(card.get("title")?.as_str()?.to_owned()));
-    let of_json = || json().and_then(|card| Some(card.get("title")?.as_str()?.to_owned()));
+    }
+    let of_card = open::card(input).and_then(|card| Some(card.get("title")?.as_str()?.to_owned()));
     let named = || {
         let name = Path::new(&input.title).file_name();
         name.map_or_else(|| input.title.clone(), |name| name.to_string_lossy().into_owned())
     };
-    Ok(of_toml.or_else(of_json).unwrap_or_else(named))
+    Ok(of_card.unwrap_or_else(named))
 }
 
 fn text(report: &Report) -> String {

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::{self, GameInput};
-use crate::{embedded, paths, protected};
+use crate::{embedded, episodes, paths, protected};
 use evaluation::Evaluation;
 use serde_json::json;
 use snapshots::MANIFEST_FILE;
@@ -117,7 +117,38 @@ fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
             .file_name()
             .map_or("game".to_owned(), |name| name.to_string_lossy().into_owned()),
     };
-    Ok(GameEntry { title: id.clone(), id, place, card: None, summary: String::new(), witnesses: Vec::new() })
+    let card = card(input);
+    let of_card = |field: &str| Some(card.as_ref()?.get(field)?.as_str()?.to_owned());
+    let title = of_card("title").unwrap_or_else(|| id.clone());
+    let summary = of_card("goal").unwrap_or_default();
+    let witnesses = match &place {
+        Place::Folder { folder, .. } => witnesses(folder, input.count()),
+        _ => Vec::new(),
+    };
+    Ok(GameEntry { id, title, place, summary, card, witnesses })
+}
+
+/// Returns the card beside a game, if there is one that can be read.
+pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
+    let folder = input.path.as_ref()?.parent()?;
+    let read = |name: &str| input::read_text(&folder.join(name), MAX_CARD).ok();
+    let of_toml = || serde_json::to_value(read("CARD.toml")?.parse::<toml::Table>().ok()?).ok();
+    let of_json = || serde_json::from_str(&read("card.json")?).ok();
+    of_toml().or_else(of_json)
+}
+
+/// The largest card that is read, in bytes.
+const MAX_CARD: usize = 1 << 22;
+
+/// Returns the wins that lie beside a game, as `arcade generate games` writes them.
+fn witnesses(folder: &Path, levels: usize) -> Vec<WitnessEntry> {
+    let read = |level: usize| {
+        let name = format!("lvl{level}");
+        let path = folder.join("witness").join(format!("{name}.json"));
+        let episode = path.is_file().then(|| episodes::read(&path).ok()).flatten()?;
+        Some(WitnessEntry { name, level, episode })
+    };
+    (0..levels).filter_map(read).collect()
 }
 
 fn corpus() -> Result<Vec<GameEntry>, Failure> {
