@@ -1,4 +1,5 @@
-//! Excerpts of the pages on the words of VGDL (`docs/ontology`), as Markdown.
+//! The pages on the words of VGDL (`docs/ontology`) and on the codes of problems (`docs/diagnostics`), and excerpts of
+//! them, as Markdown.
 
 use crate::values;
 use crate::words::Owner;
@@ -6,9 +7,15 @@ use engine::{ParameterKind, SPRITE_PARAMETERS, SpriteClass, effect_parameters};
 use include_dir::{Dir, include_dir};
 
 static ONTOLOGY: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/ontology");
+static DIAGNOSTICS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/diagnostics");
 
-/// The page of a sprite class, an effect or a termination, as Markdown.
-pub fn page(word: &str) -> Option<&'static str> {
+/// The page of a sprite class, an effect, a termination or the code of a problem, as Markdown.
+pub fn page(name: &str) -> Option<&'static str> {
+    let of_code = || DIAGNOSTICS.get_file(format!("{name}.md"))?.contents_utf8();
+    of_word(name).or_else(of_code)
+}
+
+fn of_word(word: &str) -> Option<&'static str> {
     ["sprites", "effects", "terminations"].into_iter().find_map(|folder| text(folder, word))
 }
 
@@ -18,7 +25,7 @@ fn text(folder: &str, name: &str) -> Option<&'static str> {
 
 /// The introduction of a word's page: its title, its first paragraph, and its parameters.
 pub(crate) fn introduction(word: &str) -> Option<String> {
-    let page = page(word)?;
+    let page = of_word(word)?;
     let mut markdown = format!("**{word}**\n\n{}\n", summary(word)?);
     let rows: Vec<&str> = page.lines().skip_while(|line| !line.starts_with("| parameter")).collect();
     let rows = rows.into_iter().take_while(|line| line.starts_with('|'));
@@ -31,7 +38,7 @@ pub(crate) fn introduction(word: &str) -> Option<String> {
 
 /// The first paragraph of a word's page, in one line.
 pub(crate) fn summary(word: &str) -> Option<String> {
-    let body = page(word)?.split_once('\n')?.1.trim_start();
+    let body = of_word(word)?.split_once('\n')?.1.trim_start();
     let paragraph = body.split("\n\n").next()?;
     Some(unlinked(&paragraph.lines().collect::<Vec<_>>().join(" ")))
 }
@@ -153,6 +160,17 @@ mod tests {
             missing.extend(without.map(|key| format!("{owner:?} {key}")));
         }
         assert!(missing.is_empty(), "{missing:#?}");
+    }
+
+    #[test]
+    fn codes_have_pages() {
+        let problems = crate::problems("BasicGame");
+        assert!(!problems.is_empty());
+        for problem in problems {
+            assert!(page(problem.code).is_some_and(|page| page.starts_with(&format!("# {}", problem.code))));
+        }
+        assert_eq!(page("nonsense"), None);
+        assert_eq!(page("../lsp"), None);
     }
 
     #[test]

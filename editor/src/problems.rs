@@ -30,7 +30,8 @@ impl Problem {
     }
 }
 
-/// The problems of a game's text, sorted by place: its errors, or if there are none, its warnings.
+/// The problems of a game's text, sorted by place: errors and warnings; those about the rules as a whole once there are no
+/// errors.
 pub fn problems(source: &str) -> Vec<Problem> {
     let found = match Game::from_source(source) {
         Ok(game) => game.warnings().to_vec(),
@@ -104,7 +105,7 @@ fn tidied(mut fix: Fix, source: &str) -> Fix {
         };
         let kept = before.trim_end_matches([' ', '\t']);
         let indents = kept.is_empty() || kept.ends_with(['\n', '\r']);
-        let is_word = !source[edit.span.start..edit.span.end].starts_with([' ', '\t']);
+        let is_word = !source[edit.span.start..edit.span.end].starts_with(char::is_whitespace);
         let separated = after.is_empty() || after.starts_with([' ', '\t', '\n', '\r', '#']);
         if !indents && is_word && separated {
             edit.span.start = kept.len();

@@ -16,11 +16,11 @@ use std::sync::Arc;
 const TOKEN: HeaderName = HeaderName::from_static("x-arcade-token");
 const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
-/// What the page may load: its own files, pictures made from data, and nothing else.
+/// The page's policy: it loads its own files, pictures made from data, and nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
                       connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// Who may ask.
+/// The names and the token of the askers that are answered.
 #[derive(Clone, Debug)]
 pub(crate) struct Guard {
     /// `127.0.0.1:PORT` and `localhost:PORT`.

@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, IsTerminal};
 
 /// Runs a language server for games and levels on standard input and output; editors start it.
 ///
@@ -13,13 +13,18 @@ use std::io::{self, BufReader};
 /// Example: hx --health vgdl, after setting command = "arcade" and args = ["lsp"]
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Accepted because some editors append it: the only transport is standard input and output
-    #[arg(long, hide = true)]
+    /// Changes nothing; for editors that name the transport: there is no other
+    #[arg(long)]
     stdio: bool,
 }
 
-pub(crate) fn run(args: &Args, _: &Console) -> Answer {
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let Args { stdio: _ } = args;
+    if io::stdin().is_terminal() {
+        console.remark(
+            "editors start this verb and talk to it; `arcade docs lsp` has their settings. Ctrl-D ends it",
+        );
+    }
     let input = BufReader::new(io::stdin());
     editor::lsp::serve(input, io::stdout())
         .map_err(|error| Failure::environment(error, "the connection to the editor fails"))

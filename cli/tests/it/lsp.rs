@@ -62,7 +62,7 @@ impl Client {
             let mut line = String::new();
             assert!(self.output.read_line(&mut line).unwrap() > 0, "the server has left");
             match line.trim_end().split_once(": ") {
-                Some((name, value)) if name == "Content-Length" => length = value.parse().unwrap(),
+                Some(("Content-Length", value)) => length = value.parse().unwrap(),
                 Some(_) => {}
                 None => break,
             }
@@ -423,5 +423,10 @@ fn a_client_that_leaves_without_a_word_is_status_1() {
     assert_eq!(client.process.wait().unwrap().code(), Some(1));
     let Client { mut process, input, .. } = Client::begin(home.path(), &[]);
     drop(input);
+    assert_eq!(process.wait().unwrap().code(), Some(1));
+    // One that no longer reads.
+    let Client { mut process, mut input, output, .. } = Client::begin(home.path(), &[]);
+    drop(output);
+    input.write_all(b"Content-Length: 1\r\n\r\n{").unwrap();
     assert_eq!(process.wait().unwrap().code(), Some(1));
 }

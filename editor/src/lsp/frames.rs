@@ -3,7 +3,7 @@
 use std::io::{self, BufRead, Read, Write};
 
 /// The largest message that is read, in bytes; of a larger one nothing is kept.
-const MAX_MESSAGE: u64 = 1 << 26;
+const MAX_MESSAGE: u64 = 1 << 25;
 /// The longest line of a header.
 const MAX_LINE: u64 = 1 << 12;
 

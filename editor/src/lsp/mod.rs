@@ -15,13 +15,25 @@ use std::sync::mpsc::{TryRecvError, sync_channel};
 use std::thread;
 
 /// The number of messages that are read ahead, so that of several changes only the last one is checked.
-const AHEAD: usize = 16;
+const AHEAD: usize = 8;
 
 /// Serves one client until it leaves. Returns `true` if it asked for the shutdown before.
 ///
 /// # Errors
-/// A stream that fails.
-pub fn serve(mut input: impl BufRead + Send + 'static, mut output: impl Write) -> io::Result<bool> {
+/// A stream that fails, but not one that the client has closed.
+pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Result<bool> {
+    let mut server = Server::default();
+    match converse(&mut server, input, output) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
+        _ => Ok(server.is_shut_down()),
+    }
+}
+
+fn converse(
+    server: &mut Server,
+    mut input: impl BufRead + Send + 'static,
+    mut output: impl Write,
+) -> io::Result<()> {
     let (sender, messages) = sync_channel(AHEAD);
     // The thread ends with the input, or with the process.
     thread::spawn(move || {
@@ -33,7 +45,6 @@ pub fn serve(mut input: impl BufRead + Send + 'static, mut output: impl Write) -
             }
         }
     });
-    let mut server = Server::default();
     loop {
         let frame = match messages.try_recv() {
             Ok(frame) => frame,
@@ -43,21 +54,21 @@ pub fn serve(mut input: impl BufRead + Send + 'static, mut output: impl Write) -
                 }
                 match messages.recv() {
                     Ok(frame) => frame,
-                    Err(_) => return Ok(server.is_shut_down()),
+                    Err(_) => return Ok(()),
                 }
             }
-            Err(TryRecvError::Disconnected) => return Ok(server.is_shut_down()),
+            Err(TryRecvError::Disconnected) => return Ok(()),
         };
         let answers = match frame? {
             Frame::Message(bytes) => server.receive(&bytes),
             Frame::Unread(reason) => vec![server::unreadable(&reason)],
-            Frame::End => return Ok(server.is_shut_down()),
+            Frame::End => return Ok(()),
         };
         for answer in answers {
             frames::write(&mut output, &answer)?;
         }
         if server.is_left() {
-            return Ok(server.is_shut_down());
+            return Ok(());
         }
     }
 }

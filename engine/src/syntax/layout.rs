@@ -16,6 +16,8 @@ pub(super) struct Line<'a> {
     pub(super) text: &'a str,
     /// The place of `text`.
     pub(super) span: Span,
+    /// The place of the whole line, without its terminator.
+    pub(super) whole: Span,
     /// Whole-line comments above.
     pub(super) above: Vec<&'a str>,
     /// The comment at the end.
@@ -65,6 +67,7 @@ pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
                 tabbed,
                 text,
                 span,
+                whole: Span::new(start, start + raw.len()),
                 above: std::mem::take(&mut above),
                 beside: comment,
             });

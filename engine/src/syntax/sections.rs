@@ -182,13 +182,28 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
 /// Moves single lines that are in the wrong section to the right one.
 fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut Vec<Diagnostic>) {
     let mut moved: Vec<(Section, &'b Line<'a>)> = Vec::new();
+    // The end of each section, by the lines that are surely its own, and their indent.
+    let ends: Vec<(Section, usize, usize)> = parts
+        .iter()
+        .map(|part| {
+            let own = part.body.iter().filter(|line| guess.section(line) == Some(part.section));
+            let last = own.clone().next_back().unwrap_or(&part.head);
+            let indent = own.map(|line| line.indent).min().unwrap_or(part.head.indent + 4);
+            (part.section, last.whole.end, indent)
+        })
+        .collect();
     for part in parts.iter_mut() {
         let section = part.section;
         part.body.retain(|line| {
             let Some(meant) = guess.section(line).filter(|&meant| meant != section) else { return true };
             let message = format!("this line is {}, but is in the {}", line_of(meant), section.name());
             let problem = Diagnostic::error("wrong-section", line.span, message);
-            problems.push(problem.help(format!("move it to the {}", meant.name())));
+            let problem = problem.help(format!("move it to the {}", meant.name()));
+            let end = ends.iter().find(|(section, ..)| *section == meant);
+            problems.push(match end {
+                Some(&(_, end, indent)) => move_to(problem, line, meant, end, indent),
+                None => problem,
+            });
             moved.push((meant, line));
             false
         });
@@ -200,6 +215,16 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
             part.body.push(line);
         }
     }
+}
+
+/// Adds the repair of moving a line behind the line that ends at `end`. A sprite becomes a type without a parent.
+fn move_to(problem: Diagnostic, line: &Line<'_>, section: Section, end: usize, indent: usize) -> Diagnostic {
+    let comment = line.beside.map_or(String::new(), |comment| format!("  # {comment}"));
+    let text = format!("\n{}{}{comment}", " ".repeat(indent), line.text);
+    let gone = Span::new(line.whole.start.saturating_sub(1), line.whole.end);
+    let mut edits = vec![Edit::new(Span::new(end, end), text), Edit::new(gone, "")];
+    edits.sort_by_key(|edit| edit.span);
+    problem.fix(format!("Move it to the {}", section.name()), edits)
 }
 
 fn lines_of(section: Section) -> &'static str {

@@ -1,4 +1,4 @@
-//! What an editor asks of the text of a game and its levels.
+//! Questions of an editor about the text of a game and its levels.
 
 use crate::compiled::Compiled;
 use crate::frames::Tiles;

@@ -70,7 +70,7 @@ fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Opt
 struct Talk {
     /// The frame that was seen.
     frame: usize,
-    /// What the player saw for the first time.
+    /// The messages that the player saw for the first time.
     prompt: String,
     /// Its answers.
     answer: String,

@@ -67,7 +67,7 @@ pub struct Side {
     pub measures: BTreeMap<String, f64>,
 }
 
-/// What a person said about a pair.
+/// The answers of a person about a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// The text of the seed that drew the pairs.

@@ -1,4 +1,4 @@
-//! What the studio shows: the corpus, games of the user, a release, results.
+//! The places that the studio opens: the corpus, games of the user, a release, results.
 
 use crate::failure::Failure;
 use crate::input::{self, GameInput};
