@@ -61,32 +61,26 @@ test('a wrong token is refused with the next move', async ({ page, studio }) => 
 async function inspect(page: Page, running: Studio, route: string): Promise<void> {
   await page.goto('about:blank');
   await open(page, running, route);
-  await page.waitForTimeout(500);
+  await page.waitForTimeout(300);
   const { violations } = await new AxeBuilder({ page }).analyze();
   expect.soft(violations.map((one) => `${route}: ${one.id}: ${one.nodes.map((node) => node.target.join(' ')).join(', ')}`)).toEqual([]);
   expect.soft(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), `${route} is wider than the screen`).toBeLessThanOrEqual(0);
 }
 
-for (const [width, height] of [[1280, 800], [375, 812]] as const) {
-  test(`every view of a game is named for screen readers and fits, at ${width} pixels`, async ({ page, studio }) => {
+// Each view at both sizes, and in both schemes.
+for (const [width, height, colorScheme] of [[1280, 800, 'light'], [375, 812, 'dark']] as const) {
+  test(`every view is named for screen readers and fits, at ${width} pixels, ${colorScheme}`, async ({ page, studio }) => {
     await page.setViewportSize({ width, height });
-    const running = await studio('games');
-    for (const scheme of ['light', 'dark'] as const) {
-      await page.emulateMedia({ colorScheme: scheme });
-      for (const route of ['', 'game/moth-and-lamps', 'play/moth-and-lamps/0', 'design/moth-and-lamps/0']) await inspect(page, running, route);
-    }
+    await page.emulateMedia({ colorScheme });
+    const games = await studio('games');
+    for (const route of ['', 'game/moth-and-lamps', 'play/moth-and-lamps/0', 'design/moth-and-lamps/0']) await inspect(page, games, route);
+    await inspect(page, await studio('snapshot'), 'release');
+    const results = await studio('results');
+    for (const route of ['results', 'results/0']) await inspect(page, results, route);
+    const judge = await studio('judge');
+    for (const route of ['judge', 'judge/report']) await inspect(page, judge, route);
   });
 }
-
-test('the views of a release, of results and of judging are named and fit as well', async ({ page, studio }) => {
-  for (const [mode, routes] of [['snapshot', ['', 'release']], ['results', ['results', 'results/0']], ['judge', ['judge', 'judge/report']]] as const) {
-    const running = await studio(mode);
-    for (const width of [1280, 375]) {
-      await page.setViewportSize({ width, height: 800 });
-      for (const route of routes) await inspect(page, running, route);
-    }
-  }
-});
 
 test('the time to the first paint is printed', async ({ page, studio }) => {
   await open(page, await studio('games'), '');

@@ -49,6 +49,9 @@ test('with the clock running a game goes on by itself, at the chosen pace', asyn
   await page.keyboard.press('p');
   await expect(page.locator('.tick')).toHaveText(/^([5-9]|\d\d)\//);
   await page.keyboard.press('p');
+  await expect(page.getByRole('button', { name: 'Run (P)' })).toBeVisible();
+  // A tick that was under way when the clock stopped still arrives.
+  await page.waitForTimeout(200);
   const stopped = await page.locator('.tick').textContent();
   await page.waitForTimeout(300);
   expect(await page.locator('.tick').textContent()).toBe(stopped);

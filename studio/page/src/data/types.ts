@@ -176,6 +176,8 @@ export interface ReleaseLevel {
   name: string;
   tier: string | null;
   difficulty: string | null;
+  /** The length of the recorded win. */
+  ticks?: number | null;
   width: number;
   height: number;
 }

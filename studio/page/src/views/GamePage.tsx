@@ -51,6 +51,7 @@ export function GamePage({ game, workspace, onCopied }: { game: Game; workspace:
               {intent && <p class="summary">{intent}</p>}
               <p class="facts">
                 {facts?.tier && <span class="chip">{facts.tier}</span>}
+                {facts?.ticks !== null && facts?.ticks !== undefined && <span class="soft">won in {facts.ticks} ticks</span>}
                 {facts?.difficulty && <span class="soft">{easeWords(facts.difficulty)}</span>}
                 {own.map((witness) => (
                   <a href={href('watch', game.id, witness.name)}>{own.length === 1 ? 'watch a win' : `watch ${witness.name}`}</a>
@@ -89,18 +90,22 @@ function LevelBoard({ game, index }: { game: Game; index: number }) {
   return live ? <a class="board-link" href={href('play', game.id, index)} aria-label={`Play level ${index + 1}`}>{board}</a> : board;
 }
 
-const SHOWN_ELSEWHERE = new Set(['title', 'description', 'goal', 'levels']);
+const SHOWN_ELSEWHERE = new Set(['title', 'description', 'goal', 'levels', 'rules', 'id']);
 
-/** The facts of a card that are plain words, numbers or lists of them. */
-function Facts({ card }: { card: Record<string, unknown> }) {
-  const rows = Object.entries(card).flatMap(([name, value]): [string, string][] => {
+/** The facts of a card that are plain words, numbers or lists of them; those of a part of a card with its name. */
+function plainFacts(card: object, part: string): [string, string][] {
+  return Object.entries(card).flatMap(([name, value]: [string, unknown]): [string, string][] => {
     if (SHOWN_ELSEWHERE.has(name) || value === null) return [];
-    const label = name.replaceAll('_', ' ');
+    const label = `${part}${name.replaceAll('_', ' ')}`;
     if (typeof value === 'boolean') return [[label, value ? 'yes' : 'no']];
     if (typeof value === 'string' || typeof value === 'number') return [[label, String(value)]];
-    if (Array.isArray(value) && value.every((one) => typeof one === 'string' || typeof one === 'number')) return [[label, value.join(', ')]];
-    return [];
+    if (Array.isArray(value)) return value.length > 0 && value.every((one) => typeof one === 'string' || typeof one === 'number') ? [[label, value.join(', ')]] : [];
+    return typeof value === 'object' && part === '' ? plainFacts(value, `${label}, `) : [];
   });
+}
+
+function Facts({ card }: { card: Record<string, unknown> }) {
+  const rows = plainFacts(card, '');
   if (rows.length === 0) return null;
   return (
     <>

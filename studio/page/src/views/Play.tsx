@@ -179,7 +179,8 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
 /** The sentence of a card on what a level asks. */
 export function intentOf(game: Game, level: number): string | null {
   const levels = game.card?.levels;
-  const intent: unknown = Array.isArray(levels) ? (levels[level] as { intent?: unknown } | undefined)?.intent : null;
+  const card = Array.isArray(levels) ? (levels[level] as { intent?: unknown; asks?: unknown } | undefined) : undefined;
+  const intent = card?.intent ?? card?.asks;
   return typeof intent === 'string' ? intent : null;
 }
 
