@@ -5,8 +5,8 @@ use crate::refusal::Refusal;
 use crate::studio::Studio;
 use axum::body::Body;
 use axum::extract::{Path, Request, State};
-use axum::http::StatusCode;
-use axum::response::{IntoResponse, Json, Response};
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
 use axum::routing::{MethodRouter, get, post, put};
 use evaluation::serve::Bounds;
 use evaluation::serve::loopback::{Bodies, Unread};
@@ -49,12 +49,12 @@ impl Serving {
         let studio = self.studio;
         let done = tokio::task::spawn_blocking(move || {
             // Written here too: it may be as much work as the rest.
-            let answer = work(&studio).map(|answer| serde_json::to_value(&answer));
+            let answer = work(&studio).map(|answer| serde_json::to_vec(&answer));
             drop(place);
             answer
         });
         match done.await {
-            Ok(Ok(Ok(document))) => Json(document).into_response(),
+            Ok(Ok(Ok(document))) => ([(header::CONTENT_TYPE, "application/json")], document).into_response(),
             Ok(Err(refusal)) => refusal.into_response(),
             Ok(Ok(Err(_))) | Err(_) => broken(),
         }

@@ -130,7 +130,7 @@ impl Frame {
 
 /// The most marks of a list of frames that are sent as they are, and the most that a list has at all.
 const PLAIN: usize = 200_000;
-const MOST: usize = 3_000_000;
+const MOST: usize = 1_000_000;
 /// The longest stretches that are compared mark by mark in any order: the cost grows with their product.
 const COMPARED: usize = 4_000;
 
@@ -332,7 +332,7 @@ mod tests {
         let pushed = (0..1000).take_while(|&at| many.push(frame(at * 50_000, 50_000))).count();
         let frames = many.finish();
         assert_eq!((frames.len(), pushed), (pushed, frames.len()));
-        assert!((50..=60).contains(&pushed), "{pushed}");
+        assert!((15..=20).contains(&pushed), "{pushed}");
         assert!(frames[0].marks.is_some() && frames[pushed - 1].change.is_some());
     }
 }

@@ -1,7 +1,7 @@
 //! Results of evaluations: the episodes of each player, replayed with the words that were exchanged.
 
 use super::boards::CUT;
-use crate::frames::{Frame, Frames, Tiles, action_name, outcome};
+use crate::frames::{Frame, Frames, TileSvg, Tiles, action_name, outcome};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
 use engine::{Action, Outcome};
@@ -83,7 +83,21 @@ struct Talk {
     validity: &'static str,
 }
 
-pub(crate) fn episode(studio: &Studio, index: &str) -> Result<Value, Refusal> {
+/// An episode, frame by frame, with the words exchanged.
+#[derive(Serialize)]
+pub(crate) struct Replayed {
+    title: String,
+    player: String,
+    tiles: Vec<TileSvg>,
+    frames: Vec<Frame>,
+    actions: Vec<String>,
+    talk: Vec<Talk>,
+    /// `true` if the game does what the log says.
+    agrees: bool,
+    note: Option<String>,
+}
+
+pub(crate) fn episode(studio: &Studio, index: &str) -> Result<Replayed, Refusal> {
     let unknown = || Refusal::missing("there is no such episode");
     let mut index: usize = index.parse().map_err(|_| unknown())?;
     for evaluation in &opened(studio)? {
@@ -96,7 +110,7 @@ pub(crate) fn episode(studio: &Studio, index: &str) -> Result<Value, Refusal> {
     Err(unknown())
 }
 
-fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Value, Refusal> {
+fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Replayed, Refusal> {
     let log = evaluation.events(task).map_err(Refusal::failed)?;
     let looks = Looks::of(&task.subject.analysis);
     let chance = log.iter().find_map(|event| match event {
@@ -127,16 +141,16 @@ fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Value, Refusal> 
         }
     }
     let title = format!("{}, level {}, run {}", task.subject.facts.title, task.level.number, task.run);
-    Ok(json!({
-        "title": title,
-        "player": evaluation.settings.entrant.name,
-        "tiles": tiles.fresh(),
-        "frames": frames.finish(),
-        "actions": actions,
-        "talk": talks(&log),
-        "agrees": differs.is_none(),
-        "note": differs.map(|tick| format!("the replay differs from the log after tick {tick}")).or(note),
-    }))
+    Ok(Replayed {
+        title,
+        player: evaluation.settings.entrant.name.clone(),
+        tiles: tiles.fresh(),
+        frames: frames.finish(),
+        actions,
+        talk: talks(&log),
+        agrees: differs.is_none(),
+        note: differs.map(|tick| format!("the replay differs from the log after tick {tick}")).or(note),
+    })
 }
 
 /// Returns the words at each decision that has some.
