@@ -42,7 +42,7 @@ pub use one_step::{OneStep, OneStepConfig};
 pub use open_loop::OpenLoop;
 pub use planner::{Budget, Planner};
 pub use play::{Limits, Play, play};
-pub use portfolio::{PortfolioConfig, Solution, Solved, solve};
+pub use portfolio::{PortfolioConfig, Solution, Solved, solve, solve_until};
 pub use random::Random;
 pub use random_search::{RandomSearch, RandomSearchConfig};
 pub use registry::{PLANNERS, PlannerSpec, Player, UnknownPlanner, planner};

@@ -33,9 +33,25 @@ pub fn play(
     seed: Seed,
     limits: Limits,
 ) -> Play {
+    play_until(game, level, planner, budget, seed, limits, &|| false)
+}
+
+/// Returns `true` once nobody waits for an answer any more. An answer that arrives before does not depend on it.
+pub(crate) type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// [`play`], until nobody waits for it.
+pub(crate) fn play_until(
+    game: &Game,
+    level: &Level,
+    planner: &mut dyn Planner,
+    budget: Budget,
+    seed: Seed,
+    limits: Limits,
+    stopped: Stopped<'_>,
+) -> Play {
     let (mut episode, mut state) = Episode::begin(game, level, seed);
     let mut calls = 0;
-    while !state.is_over() && episode.actions.len() < limits.ticks && calls < limits.calls {
+    while !state.is_over() && episode.actions.len() < limits.ticks && calls < limits.calls && !stopped() {
         let (action, cost) = planner.plan(game, &state, budget);
         calls += cost;
         episode.play(game, &mut state, action);

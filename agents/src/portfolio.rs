@@ -4,8 +4,8 @@ use crate::mcts::{Mcts, MctsConfig};
 use crate::mcts_guided::{GuidedMcts, GuidedMctsConfig};
 use crate::olets::{Olets, OletsConfig};
 use crate::planner::{Budget, Planner};
-use crate::play::{Limits, Play, play};
-use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
+use crate::play::{Limits, Play, Stopped, play_until};
+use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star_until, best_first_until};
 use crate::width::{Width, WidthConfig};
 use engine::{Action, Analysis, Episode, Level, Outcome, Seed};
 use rayon::prelude::*;
@@ -77,6 +77,18 @@ const FIRST_ROUND: u64 = 16;
 
 /// Looks for a win. The same configuration and seed give the same answer on any number of threads.
 pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed: Seed) -> Solved {
+    solve_until(analysis, level, config, seed, &|| false)
+}
+
+/// [`solve`] for someone who may not wait: once `stopped` returns `true`, the answer is unknown and comes soon. Until then it is
+/// the answer of [`solve`].
+pub fn solve_until(
+    analysis: &Analysis,
+    level: &Level,
+    config: &PortfolioConfig,
+    seed: Seed,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Solved {
     let game = analysis.game();
     let mut solved = Solved { solution: Solution::Unknown, calls: 0, plays: Vec::new() };
     let chance = seed.child("systematic", 0);
@@ -107,8 +119,11 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     let is_certain = analysis.is_deterministic_from(&start);
     if !start.is_over()
         && is_certain
-        && (take(&mut solved, a_star(analysis, &pushes, &start, share(config.shortest)))
-            || take(&mut solved, best_first(analysis, &pushes, &start, share(config.systematic))))
+        && (take(&mut solved, a_star_until(analysis, &pushes, &start, share(config.shortest), stopped))
+            || take(
+                &mut solved,
+                best_first_until(analysis, &pushes, &start, share(config.systematic), stopped),
+            ))
     {
         return solved;
     }
@@ -120,7 +135,7 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     for round in 0.. {
         if foresight > 0 && (played >= budget / 2 || round == MAX_ROUNDS) {
             foresight = 0;
-            let searched = best_first(analysis, &pushes, &start, share(config.foresight));
+            let searched = best_first_until(analysis, &pushes, &start, share(config.foresight), stopped);
             // By other chance the level may be won.
             if matches!(searched.answer, Answer::Impossible) {
                 solved.calls += searched.calls;
@@ -129,10 +144,11 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
             }
         }
         let left = budget.saturating_sub(played);
-        if left == 0 || round == MAX_ROUNDS {
+        if left == 0 || round == MAX_ROUNDS || stopped() {
             break;
         }
-        let plays = play_round(analysis, level, config, round_calls.min(left), seed.child("round", round));
+        let seed = seed.child("round", round);
+        let plays = play_round(analysis, level, config, round_calls.min(left), seed, stopped);
         let calls: u64 = plays.iter().map(|play| play.calls).sum();
         (played, solved.calls) = (played + calls, solved.calls + calls);
         let won = plays.iter().filter(|play| play.episode.outcome == Outcome::Won);
@@ -164,6 +180,7 @@ fn play_round(
     config: &PortfolioConfig,
     budget: u64,
     seed: Seed,
+    stopped: Stopped<'_>,
 ) -> Vec<Play> {
     let game = analysis.game();
     let players = config.depths.len() + 3;
@@ -189,7 +206,8 @@ fn play_round(
                 (None, 0) => config.decision,
                 (None, _) => affordable(USUAL_TICKS),
             };
-            play(game, level, planner.as_mut(), Budget(decision), seed.child("chance", 0), limits)
+            let chance = seed.child("chance", 0);
+            play_until(game, level, planner.as_mut(), Budget(decision), chance, limits, stopped)
         })
         .collect()
 }

@@ -27,6 +27,8 @@ pub(crate) struct GameInput {
     /// The game's text, under the name that messages use.
     pub(crate) source: Named,
     pub(crate) title: String,
+    /// The file of the game; none for a game of the corpus.
+    pub(crate) path: Option<PathBuf>,
     levels: Vec<LevelInput>,
 }
 
@@ -137,6 +139,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
         return Ok(GameInput {
             source: Named { name: name.to_owned(), text },
             title: name.to_owned(),
+            path: Some(path.to_owned()),
             levels,
         });
     }
@@ -156,12 +159,13 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     Ok(GameInput {
         source: Named { name: format!("{name}/game.vgdl"), text: found.source.clone() },
         title: name.to_owned(),
+        path: None,
         levels: found.levels.iter().enumerate().map(level).collect(),
     })
 }
 
 /// The word for all corpus games, if there is no folder of that name.
-const CORPUS: &str = "corpus";
+pub(crate) const CORPUS: &str = "corpus";
 
 /// Finds games: those that [`game`] finds, all games in a folder of such folders, and `corpus` for all games of the
 /// corpus.
@@ -246,7 +250,7 @@ fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
     let title =
         folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
     let source = Named { name: path.display().to_string(), text };
-    Ok(Some(GameInput { source, title, levels: level_files(folder)? }))
+    Ok(Some(GameInput { source, title, path: Some(path), levels: level_files(folder)? }))
 }
 
 /// Returns the first of these files that the folder has.
@@ -285,7 +289,7 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// The first bytes of a release's archive.
-const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
 /// Reads a text file of at most `limit` bytes; of a larger file no more is read.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {

@@ -30,6 +30,31 @@ pub enum Severity {
     Warning,
 }
 
+/// The replacement of a range of a text; an empty range is a place to insert at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edit {
+    /// The replaced bytes.
+    pub span: Span,
+    /// The text to put there.
+    pub text: String,
+}
+
+impl Edit {
+    /// `text` instead of the bytes of `span`.
+    pub fn new(span: Span, text: impl Into<String>) -> Edit {
+        Edit { span, text: text.into() }
+    }
+}
+
+/// A repair of a problem that a program can make: edits of disjoint ranges, which belong together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fix {
+    /// The name of the repair, a command: "Write `avatar`".
+    pub title: String,
+    /// The edits, sorted by place.
+    pub edits: Vec<Edit>,
+}
+
 /// One problem: a stable code, a place, a message and the next step.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnostic {
@@ -45,13 +70,16 @@ pub struct Diagnostic {
     pub label: String,
     /// The suggested next step, if there is one.
     pub help: Option<String>,
+    /// The repair that the help speaks of, where there is only one and its text is known.
+    #[serde(skip)]
+    pub fix: Option<Box<Fix>>,
 }
 
 impl Diagnostic {
     /// An error at `span`.
     pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Diagnostic {
         let (message, label) = (message.into(), String::new());
-        Diagnostic { code, severity: Severity::Error, message, span, label, help: None }
+        Diagnostic { code, severity: Severity::Error, message, span, label, help: None, fix: None }
     }
 
     /// A warning at `span`.
@@ -69,6 +97,26 @@ impl Diagnostic {
         Diagnostic { help: Some(help.into()), ..self }
     }
 
+    /// Sets the repair.
+    pub fn fix(self, title: impl Into<String>, edits: Vec<Edit>) -> Diagnostic {
+        Diagnostic { fix: Some(Box::new(Fix { title: title.into(), edits })), ..self }
+    }
+
+    /// Sets the repair of writing `text` instead of the bytes of `span`.
+    pub(crate) fn replace(self, span: Span, text: &str) -> Diagnostic {
+        self.fix(format!("Write `{text}`"), vec![Edit::new(span, text)])
+    }
+
+    /// Sets the repair of removing `name`, the bytes of `span`.
+    pub(crate) fn remove(self, span: Span, name: &str) -> Diagnostic {
+        self.fix(format!("Remove `{name}`"), vec![Edit::new(span, "")])
+    }
+
+    /// [`Diagnostic::remove`], unless there is a repair already.
+    pub(crate) fn or_remove(self, span: Span, name: &str) -> Diagnostic {
+        if self.fix.is_some() { self } else { self.remove(span, name) }
+    }
+
     /// [`Diagnostic::suggest`] for the problems of a list that will be shown; for the others nothing is looked up.
     pub(crate) fn suggest_after<'a>(
         self,
@@ -79,10 +127,15 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.suggest(wrong, candidates) } else { self }
     }
 
-    /// Adds "did you mean" if one of `candidates` is close to `wrong`.
+    /// Adds "did you mean" if one of `candidates` is close to `wrong`; if `wrong` is all that the problem marks, the name
+    /// instead of it is the repair.
     pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
         match nearest(wrong, candidates) {
-            Some(name) => self.help(format!("did you mean `{name}`?")),
+            Some(name) => {
+                let (span, problem) = (self.span, self.help(format!("did you mean `{name}`?")));
+                let is_all = span.end.saturating_sub(span.start) == wrong.len() && !wrong.is_empty();
+                if is_all { problem.replace(span, name) } else { problem }
+            }
             None => self,
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::Digest;
 use crate::compile::{Outline, outline};
-use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span};
 use crate::game::Game;
 use crate::limits::{MAX_ATTEMPTS, MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
 use crate::rules::SpriteType;
@@ -209,12 +209,17 @@ impl LevelReader<'_> {
         let second = others.next().filter(|&second| second != columns && lines.len() > 2);
         if let Some(second) = second.filter(|&second| others.all(|other| other == second)) {
             let span = Span::new(lines[0].0, lines[0].0 + lines[0].1.len());
+            let fill = Edit::new(Span::new(span.end, span.end), " ".repeat(second.saturating_sub(columns)));
             let message = format!("the first row has {columns} characters, all others have {second}");
             let others = if columns < second { "cut off" } else { "filled up with blanks" };
             let help = format!(
                 "the level is as wide as its first row, so the others are {others}: make it as long as they are"
             );
-            self.problems.push(Diagnostic::warning("ragged-level", span, message).help(help));
+            let problem = Diagnostic::warning("ragged-level", span, message).help(help);
+            self.problems.push(match columns < second {
+                true => problem.fix("Fill up the first row with blanks", vec![fill]),
+                false => problem,
+            });
             return;
         }
         for &(start, line) in lines.iter().filter(|(_, line)| length(line) != columns) {
@@ -225,7 +230,15 @@ impl LevelReader<'_> {
                 None => (0, "the rest counts as blank: fill up the row, with blanks if they are intended"),
             };
             let span = Span::new(start + from, start + line.len());
-            self.problems.push(Diagnostic::warning("ragged-level", span, message).help(help));
+            let problem = Diagnostic::warning("ragged-level", span, message).help(help);
+            let missing = columns.saturating_sub(length(line));
+            let fill = Edit::new(Span::new(span.end, span.end), " ".repeat(missing));
+            let is_blank = line[from..].bytes().all(|byte| byte == b' ');
+            self.problems.push(match missing {
+                0 if is_blank => problem.fix("Cut off the blanks", vec![Edit::new(span, "")]),
+                0 => problem,
+                _ => problem.fix("Fill up the row with blanks", vec![fill]),
+            });
         }
     }
 
@@ -237,6 +250,8 @@ impl LevelReader<'_> {
         let mut counts: BTreeMap<char, usize> = BTreeMap::new();
         undefined.iter().for_each(|(_, symbol, _)| *counts.entry(*symbol).or_default() += 1);
         let kinds = counts.len();
+        let mut places: BTreeMap<char, Vec<Span>> = BTreeMap::new();
+        undefined.iter().for_each(|(_, symbol, span)| places.entry(*symbol).or_default().push(*span));
         let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
         for (at, symbol, span) in undefined {
             // Each is reported at its first place.
@@ -245,16 +260,20 @@ impl LevelReader<'_> {
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
             let near = around(at, columns, cells).filter(|_| count == 1);
             let shown = symbol.escape_default();
-            let help = match (other_case.or(avatar), &unused[..], near) {
-                (Some(meant), ..) => format!("did you mean `{meant}`?"),
-                (None, [unused], _) if kinds == 1 && count > 1 => format!(
-                    "did you mean `{unused}`, which this level never uses? or is `{shown}` meant in the LevelMapping?"
+            let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
+                (Some(meant), ..) => (Some(meant), format!("did you mean `{meant}`?")),
+                (None, &[unused], _) if kinds == 1 && count > 1 => (
+                    Some(unused),
+                    format!(
+                        "did you mean `{unused}`, which this level never uses? or is `{shown}` meant in the LevelMapping?"
+                    ),
                 ),
-                (None, _, Some(near)) => format!("did you mean `{near}`, as around it?"),
-                _ if symbol.is_ascii_graphic() && symbol != '#' => {
-                    format!("add a line `{shown} > …` to the LevelMapping, or use a character that is in it")
-                }
-                _ => "use a character that is in the LevelMapping".to_owned(),
+                (None, _, Some(near)) => (Some(near), format!("did you mean `{near}`, as around it?")),
+                _ if symbol.is_ascii_graphic() && symbol != '#' => (
+                    None,
+                    format!("add a line `{shown} > …` to the LevelMapping, or use a character that is in it"),
+                ),
+                _ => (None, "use a character that is in the LevelMapping".to_owned()),
             };
             let message = match count {
                 _ if symbol == '#' => {
@@ -263,7 +282,23 @@ impl LevelReader<'_> {
                 1 => format!("`{shown}` is not in the LevelMapping"),
                 _ => format!("`{shown}` is not in the LevelMapping, and occurs {count} times in the level"),
             };
-            self.problems.push(Diagnostic::error("undefined-character", span, message).help(help));
+            let problem = Diagnostic::error("undefined-character", span, message).help(help);
+            let own = places.remove(&symbol).unwrap_or_default();
+            // Of several avatars all but one are errors.
+            let rules = &self.game.0;
+            let is_avatar =
+                |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
+            let plays = |meant: char| {
+                u8::try_from(meant).is_ok_and(|code| self.game.places(code).iter().any(is_avatar))
+            };
+            let fits = |meant: &char| !plays(*meant) || self.avatars.len() + count == 1;
+            self.problems.push(match meant.filter(fits) {
+                Some(meant) => problem.fix(
+                    format!("Write `{meant}`"),
+                    own.into_iter().map(|span| Edit::new(span, meant)).collect(),
+                ),
+                None => problem,
+            });
         }
     }
 

@@ -46,7 +46,7 @@ pub use compile::{
     Clauses, InteractionClause, Party, SPRITE_PARAMETERS, Term, TerminationClause, Terms, TypeClause,
 };
 pub use describe::describe;
-pub use diagnostic::{Diagnostic, Diagnostics, Severity, Span, line_and_column, nearest};
+pub use diagnostic::{Diagnostic, Diagnostics, Edit, Fix, Severity, Span, line_and_column, nearest};
 pub use digest::{Digest, NotHex};
 pub use episode::{Divergence, Episode};
 pub use game::Game;

@@ -61,7 +61,7 @@ pub use gif::Animation;
 pub use glyph::Glyph;
 pub use look::{Look, Looks};
 pub use observed::observed;
-pub use picture::{Picture, Place, Stamp, Tile};
+pub use picture::{Picture, Place, Stamp, Tile, sprite_tile};
 pub use pixels::{Image, Painter};
 pub use png::png;
 pub use shape::{Outline, Paint, Point, Segment, Shape};

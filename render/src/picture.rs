@@ -3,8 +3,9 @@
 use crate::art;
 use crate::colour::Colour;
 use crate::letters;
-use crate::look::Look;
+use crate::look::{Look, Looks};
 use crate::shape::{Outline, Paint, Point, Shape};
+use engine::SpriteType;
 use std::collections::BTreeMap;
 
 /// The width of a letter with its gap, in letter heights.
@@ -160,6 +161,11 @@ impl Picture {
             self.tiles.len() - 1
         })
     }
+}
+
+/// Returns the tile of a sprite type, facing nowhere: for legends and palettes.
+pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
+    Tile { shapes: art::tile(looks.look(stype), None), name: Some(looks.game().name(stype).to_owned()) }
 }
 
 /// Returns the width of a line of text, in pixels.

@@ -9,6 +9,9 @@ struct Library;
 #[doc = include_str!("../../engine/README.md")]
 struct Engine;
 
+#[doc = include_str!("../../editor/README.md")]
+struct Editor;
+
 #[doc = include_str!("../../agents/README.md")]
 struct Agents;
 

@@ -36,6 +36,7 @@ mod too_soon;
 mod verdict;
 mod well_formed;
 mod winnable;
+mod words;
 
 pub use ablation::RulesMatter;
 pub use board::Board;

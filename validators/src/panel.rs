@@ -238,6 +238,26 @@ impl Panel {
         }
     }
 
+    /// Like [`Panel::judge`], for someone who watches: `heard` gets each judgement when it is made, once more if it changes later, and
+    /// ends the judging by returning `false`. A known win can be given; the criterion `winnable` looks for one regardless.
+    pub fn judge_aloud(
+        &self,
+        game: &Game,
+        level: &Level,
+        witness: Option<Episode>,
+        seed: Seed,
+        heard: &mut dyn FnMut(&Judgement) -> bool,
+    ) -> Report {
+        match &self.bound {
+            None => self.run_aloud(game, level, witness, seed, false, heard),
+            Some((criteria, calls)) => {
+                let allowance = Allowance::of(*calls, game, [level]);
+                let panel = Panel::with_allowance(criteria, Some(allowance));
+                panel.run_aloud(game, level, witness, seed, false, heard)
+            }
+        }
+    }
+
     /// Runs the validators until one does not pass: for minting, where candidates are many.
     pub fn screen(&self, game: &Game, level: &Level, seed: Seed) -> Report {
         self.run(game, level, None, seed, true)
@@ -324,6 +344,18 @@ impl Panel {
     }
 
     fn run(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {
+        self.run_aloud(game, level, witness, seed, screen, &mut |_| true)
+    }
+
+    fn run_aloud(
+        &self,
+        game: &Game,
+        level: &Level,
+        witness: Option<Episode>,
+        seed: Seed,
+        screen: bool,
+        heard: &mut dyn FnMut(&Judgement) -> bool,
+    ) -> Report {
         let analysis = Analysis::of(game);
         let mut report = Report { judgements: Vec::new(), witness };
         let run = |stage: Stage, validator: &(dyn Validator + Send), witness: Option<&Episode>| {
@@ -346,7 +378,12 @@ impl Panel {
                 _ => None,
             };
             if let Some(why) = why {
-                report.judgements.push(Judgement { criterion: validator.name(), finding: skipped(why) });
+                let judgement = Judgement { criterion: validator.name(), finding: skipped(why) };
+                let goes_on = heard(&judgement);
+                report.judgements.push(judgement);
+                if !goes_on {
+                    return report;
+                }
                 continue;
             }
             let mut judgement = run(*stage, &**validator, report.witness.as_ref());
@@ -356,8 +393,9 @@ impl Panel {
             let passed = judgement.finding.verdict.is_pass();
             let is_decided = matches!(judgement.finding.verdict, Verdict::Fail { witness: Some(_), .. });
             let is_start = judgement.criterion == "well-formed" && is_decided;
+            let goes_on = heard(&judgement);
             report.judgements.push(judgement);
-            if screen && !passed {
+            if !goes_on || screen && !passed {
                 return report;
             }
             is_over |= is_start && is_over_at_once(game, level, seed);
@@ -372,7 +410,10 @@ impl Panel {
                         judged.finding.verdict = Verdict::Pass { witness: report.witness.clone() }
                     }
                     Stage::Win => *judged = run(*stage, &**validator, report.witness.as_ref()),
-                    _ => {}
+                    _ => continue,
+                }
+                if !heard(judged) {
+                    break;
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
+use crate::play::Stopped;
 use engine::State;
 use engine::analysis::Analysis;
 
@@ -11,7 +12,18 @@ use engine::analysis::Analysis;
 /// Proofs need a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost:
 /// at most the number of states times the number of actions, in calls; O(size of a state) for each call.
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
-    Tree::new(analysis, pushes, start, limits).search(|_, _| Buckets::default())
+    a_star_until(analysis, pushes, start, limits, &|| false)
+}
+
+/// [`a_star`], until nobody waits for its answer.
+pub(crate) fn a_star_until(
+    analysis: &Analysis,
+    pushes: &Pushes,
+    start: &State,
+    limits: SearchLimits,
+    stopped: Stopped<'_>,
+) -> Searched {
+    Tree::new(analysis, pushes, start, limits).until(stopped).search(|_, _| Buckets::default())
 }
 
 /// Open states by their estimate, a small number of ticks; of equals, the last one first.

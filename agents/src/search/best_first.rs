@@ -3,6 +3,7 @@
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
 use crate::features::{Atoms, Features};
+use crate::play::Stopped;
 use crate::progress::Progress;
 use engine::State;
 use engine::analysis::Analysis;
@@ -16,7 +17,18 @@ use std::collections::BTreeMap;
 /// Unlike in the paper, states that are not novel are not pruned, so the search is complete: without a win it proves
 /// that there is none. Conditions and costs are those of [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
-    Tree::new(analysis, pushes, start, limits).search(|tree, start| Queue {
+    best_first_until(analysis, pushes, start, limits, &|| false)
+}
+
+/// [`best_first`], until nobody waits for its answer.
+pub(crate) fn best_first_until(
+    analysis: &Analysis,
+    pushes: &Pushes,
+    start: &State,
+    limits: SearchLimits,
+    stopped: Stopped<'_>,
+) -> Searched {
+    Tree::new(analysis, pushes, start, limits).until(stopped).search(|tree, start| Queue {
         progress: Progress::of(analysis),
         features: Features::of(analysis, &tree.abstraction, start),
         seen: BTreeMap::new(),

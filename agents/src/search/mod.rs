@@ -11,7 +11,9 @@ mod pushes;
 mod tree;
 
 pub use a_star::a_star;
+pub(crate) use a_star::a_star_until;
 pub use best_first::best_first;
+pub(crate) use best_first::best_first_until;
 pub use pushes::Pushes;
 
 use engine::Action;

@@ -2,6 +2,7 @@
 //! generation of successors.
 
 use super::{Answer, Pushes, SearchLimits, Searched};
+use crate::play::Stopped;
 use crate::progress::Progress;
 use arrayvec::ArrayVec;
 use engine::analysis::{Analysis, StateAbstraction};
@@ -86,7 +87,12 @@ pub(super) struct Tree<'a> {
     packed: usize,
     /// Buffers for a state and its successor.
     buffers: Option<(State, State)>,
+    /// Tells when nobody waits for the answer any more.
+    stopped: Stopped<'a>,
 }
+
+/// The calls between two questions to [`Tree::stopped`].
+const STOP_STRIDE: u64 = 256;
 
 /// The result of an expansion.
 enum Expanded {
@@ -131,7 +137,13 @@ impl<'a> Tree<'a> {
             calls: 0,
             packed: 0,
             buffers: Some((start.clone(), start.clone())),
+            stopped: &|| false,
         }
+    }
+
+    /// Ends the search, with its calls spent, once nobody waits for its answer.
+    pub(super) fn until(self, stopped: Stopped<'a>) -> Tree<'a> {
+        Tree { stopped, ..self }
     }
 
     /// Expands states in the order of a frontier until one wins, none is open, or a limit is reached. Where chance plays a
@@ -214,7 +226,8 @@ impl<'a> Tree<'a> {
             if action != Action::Nil && !possible.contains(&action) {
                 continue;
             }
-            if self.calls >= self.limits.calls {
+            let is_stopped = self.calls.is_multiple_of(STOP_STRIDE) && (self.stopped)();
+            if self.calls >= self.limits.calls || is_stopped {
                 return Expanded::OutOfCalls;
             }
             child.clone_from(parent);

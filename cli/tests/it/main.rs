@@ -10,6 +10,7 @@ mod export;
 mod generate;
 mod generate_games;
 mod log;
+mod lsp;
 mod mailbox;
 mod marks;
 mod pictures;
@@ -22,6 +23,7 @@ mod served;
 #[path = "../../../evaluation/tests/it/server.rs"]
 mod server;
 mod shards;
+mod studio;
 mod tracks;
 mod trust;
 mod usage;

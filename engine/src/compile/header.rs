@@ -69,7 +69,8 @@ impl Header {
 
 /// The problem of a feature that neither policy supports.
 fn unsupported(param: &Param, message: String) -> Diagnostic {
-    Diagnostic::error("unsupported", param.span(), message).help(format!("remove `{}`", param.key.text))
+    let problem = Diagnostic::error("unsupported", param.span(), message);
+    problem.help(format!("remove `{}`", param.key.text)).remove(param.span(), &param.key.text)
 }
 
 fn listed(param: &Param, names: &str) -> Vec<Word> {

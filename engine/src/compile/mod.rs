@@ -18,7 +18,7 @@ pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Te
 pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
-use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, nearest};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::Draws;
@@ -190,6 +190,7 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
         for param in params {
             let key = param.key.text.as_str();
             let Some(earlier) = seen.insert(key, param) else { continue };
+            let span = earlier.span();
             let (earlier, last) = (&earlier.value.text, &param.value.text);
             let message = match earlier == last {
                 true => format!("`{key}` is given twice on this line"),
@@ -198,7 +199,8 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
                 }
             };
             let problem = Diagnostic::warning("duplicate-parameter", param.span(), message);
-            problems.push(problem.help(format!("keep one: `{key}={last}`, if the game plays as intended")));
+            let problem = problem.help(format!("keep one: `{key}={last}`, if the game plays as intended"));
+            problems.push(problem.fix(format!("Keep `{key}={last}`"), vec![Edit::new(span, "")]));
         }
     }
 }
@@ -259,7 +261,7 @@ fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnosti
             let message = format!("nothing names `{near}`, and `{name}` is not declared");
             Diagnostic::warning("unused-sprite", line.name.span, message)
         };
-        problems.push(problem.help(format!("did you mean `{name}`?")));
+        problems.push(problem.suggest(near, [name]));
     }
 }
 
@@ -367,7 +369,10 @@ impl<'a> Names<'a> {
             let problem = self.unknown(name, &[], problems.len());
             problems.push(match params::is_name(&name.text) {
                 true => problem,
-                false => problem.help(format!("write `{}=` and the name of a sprite", param.key.text)),
+                false => Diagnostic {
+                    fix: None,
+                    ..problem.help(format!("write `{}=` and the name of a sprite", param.key.text))
+                },
             });
         }
         found
@@ -382,7 +387,7 @@ impl<'a> Names<'a> {
         }
         let known = || self.types.iter().map(|info| info.name.as_str()).chain(others.iter().copied());
         match nearest(&name.text, known()) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            Some(near) => problem.suggest(&name.text, [near]),
             None if known().count() <= 12 => {
                 let all: Vec<&str> = known().collect();
                 problem.help(format!("declare it in the SpriteSet, or name one of {}", all.join(", ")))

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::geometry::Direction;
+use crate::limits::MAX_PROBLEMS;
 use crate::rules::class::SpriteClass;
 use crate::rules::constants::{COLORS, Constant, constant, direction_names};
 use crate::rules::traits::Traits;
@@ -89,12 +90,13 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
         _ => None,
     };
     let key = param.key.text.as_str();
-    problem.help(match fixed {
-        Some(fixed) => format!("write `{key}={fixed}`"),
-        None => {
-            format!("write `{key}=` and {}; the reference engine ignores any other value", expected.words())
-        }
-    })
+    match fixed {
+        Some(fixed) => problem.help(format!("write `{key}={fixed}`")).replace(param.value.span, &fixed),
+        None => problem.help(format!(
+            "write `{key}=` and {}; the reference engine ignores any other value",
+            expected.words()
+        )),
+    }
 }
 
 /// The problem of a missing parameter that names a thing which the subject needs.
@@ -170,7 +172,8 @@ pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize)
     let message = format!("{} has no parameter `{key}`", class.name());
     let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
     let problem = problem.help(format!("remove it: {} does nothing with it", class.name()));
-    problem.suggest_after(found, key, BASE.iter().copied().chain(class.parameters()))
+    let problem = problem.suggest_after(found, key, BASE.iter().copied().chain(class.parameters()));
+    if found < MAX_PROBLEMS { problem.or_remove(param.span(), key) } else { problem }
 }
 
 /// Sets one parameter of the class on the traits of a sprite type. The caller resolves sprite names (`stype`, `ammo`).
@@ -178,7 +181,8 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     let key = param.key.text.as_str();
     if BOOK_KEEPING.contains(&key) {
         let message = format!("`{key}` is set by the engine");
-        return Err(Diagnostic::error("bad-parameter", param.key.span, message).help("remove it"));
+        let problem = Diagnostic::error("bad-parameter", param.key.span, message).help("remove it");
+        return Err(problem.remove(param.span(), key));
     }
     let value = convert(key, &param.value.text);
     let fail = |expected| wrong_type(param, expected);
@@ -209,7 +213,8 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
             if !(0..=1).contains(&physics) {
                 let message = format!("`physicstype` takes GRID or CONT, not `{}`", param.value.text);
                 let problem = Diagnostic::error("wrong-type", param.value.span, message);
-                return Err(problem.help("write `physicstype=GRID`, or leave it out"));
+                let problem = problem.help("write `physicstype=GRID`, or leave it out");
+                return Err(problem.replace(param.value.span, "GRID"));
             }
         }
         "orientation" => traits.orientation = direction()?,

@@ -116,7 +116,8 @@ impl Subject<'_> {
         }
         if list != text {
             let message = format!("`{key}` ends with a comma");
-            problems.push(Diagnostic::error("wrong-type", param.value.span, message).help("remove it"));
+            let problem = Diagnostic::error("wrong-type", param.value.span, message).help("remove it");
+            problems.push(problem.replace(param.value.span, list));
         }
         let mut start = param.value.span.start;
         for text in list.split(',').filter(|_| !list.is_empty()) {

@@ -162,7 +162,11 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
                     false => Diagnostic::warning("ignored-class", own.span, message),
                 };
                 let help = "remove the class; or, to make it a type of its own, indent the line less, like";
-                problems.push(problem.help(format!("{help} `{parent}`")));
+                let problem = problem.help(format!("{help} `{parent}`"));
+                problems.push(match own.text == class.text {
+                    true => problem.remove(own.span, &own.text),
+                    false => problem,
+                });
             }
             (None, None) if !has_class_below(line) => {
                 let message = match line.children[..] {
@@ -263,7 +267,11 @@ fn type_info<'a>(
             let span = given.map(|param| param.value.span).unwrap_or_default();
             let message = format!("`{key}` is a number of cells above 0 and at most {}", MAX_REACH);
             let problem = Diagnostic::error("bad-parameter", span, message);
-            problems.push(problem.help(format!("leave it out to get `{key}=1`")));
+            let problem = problem.help(format!("leave it out to get `{key}=1`"));
+            problems.push(match given {
+                Some(given) => problem.remove(given.span(), key),
+                None => problem,
+            });
         }
     }
     traits.settle();

@@ -4,6 +4,7 @@ use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::keywords::TERMINATIONS;
+use crate::limits::MAX_PROBLEMS;
 use crate::rules::SpriteType;
 use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
@@ -89,7 +90,12 @@ impl<'a> Reader<'a> {
                 let known: Vec<&str> = common.iter().chain(own).copied().collect();
                 let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
                 let problem = problem.help(format!("its parameters are {}", known.join(", ")));
-                self.problems.push(problem.suggest_after(self.problems.len(), key, known));
+                let reported = self.problems.len();
+                let problem = problem.suggest_after(reported, key, known);
+                self.problems.push(match reported < MAX_PROBLEMS {
+                    true => problem.or_remove(param.span(), key),
+                    false => problem,
+                });
             }
         }
         let limit = self.int("limit", 0);

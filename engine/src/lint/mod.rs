@@ -94,8 +94,8 @@ impl Linter<'_> {
                 "`{first}` does not move, so this rule never moves it back, and nothing stops `{avatar}` there"
             );
             let problem = Diagnostic::warning("swapped-rule", span, message);
-            problems
-                .push(problem.help(format!("did you mean `{avatar} {} > stepBack`?", partners.join(" "))));
+            let meant = format!("{avatar} {} > stepBack", partners.join(" "));
+            problems.push(problem.help(format!("did you mean `{meant}`?")).replace(span, &meant));
         }
     }
 

@@ -99,9 +99,15 @@ pub(super) fn swapped_rule_warning(game: &Game) -> Option<(Diagnostic, Game)> {
     let message = "the game cannot be won with this rule as it stands, and may be won with its sides swapped";
     let meant: Vec<String> = repaired.iter().map(|line| format!("`{line}`")).collect();
     let help = format!("did you mean {}?", meant.join(" and "));
+    let written = &game.description().interactions[line];
+    let end = written.params.iter().map(|param| param.value.span.end).max().unwrap_or(span.end);
     let problem = Diagnostic::warning("swapped-rule", span, message)
         .label("acts on the sprite that is named first")
         .help(help);
+    let problem = match &repaired[..] {
+        [meant] => problem.replace(Span::new(span.start, end.max(span.end)), meant),
+        _ => problem,
+    };
     let mut description = game.description().clone();
     let lines = swapped(&description.interactions[line])?;
     description.interactions.splice(line..=line, lines);

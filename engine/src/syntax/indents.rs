@@ -2,7 +2,7 @@
 
 use super::description::Section;
 use super::layout::Line;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit};
 
 /// The most frequent indent; of several, the first one.
 pub(super) fn usual(indents: impl Iterator<Item = usize>) -> usize {
@@ -27,12 +27,24 @@ pub(super) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     }))
 }
 
+/// The repair that moves lines so that the first one is indented by `columns`, and keeps them as they are to each other.
+fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnostic {
+    let first = lines.first().map_or(0, |line| line.indent);
+    let moved = |line: &&Line<'_>| line.indented((line.indent + columns).saturating_sub(first));
+    let edits: Vec<Edit> = lines.iter().map(moved).collect();
+    problem.fix(format!("Indent {} by {columns} columns", them(lines.len())), edits)
+}
+
 /// Reports lines that are not indented deeper than the name of their section.
 pub(super) fn outside(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
-    for (first, count) in runs(lines, |_, line| (line.indent <= head).then_some(0)) {
-        let message = format!("{} not indented below {}{}", these(count), section.name(), of_tabs(first));
-        let problem = Diagnostic::error("stray-line", first.span, message);
-        problems.push(problem.help(format!("indent {} deeper than `{}`", them(count), section.name())));
+    let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
+    let inside = Some(usual(inside)).filter(|&indent| indent > head).unwrap_or(head + 4);
+    for run in runs(lines, |_, line| (line.indent <= head).then_some(0)) {
+        let message =
+            format!("{} not indented below {}{}", these(run.len()), section.name(), of_tabs(run[0]));
+        let problem = Diagnostic::error("stray-line", run[0].span, message);
+        let problem = problem.help(format!("indent {} deeper than `{}`", them(run.len()), section.name()));
+        problems.push(shifted(problem, run, inside));
     }
 }
 
@@ -41,11 +53,11 @@ pub(super) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let indent = usual(inside);
     let off = |line: &Line<'_>| line.indent > head && line.indent != indent;
-    for (first, count) in runs(lines, |_, line| off(line).then_some(line.indent)) {
-        let message = format!("{} indented unlike the others{}", these(count), of_tabs(first));
-        let problem = Diagnostic::error("stray-indent", first.span, message);
+    for run in runs(lines, |_, line| off(line).then_some(line.indent)) {
+        let message = format!("{} indented unlike the others{}", these(run.len()), of_tabs(run[0]));
+        let problem = Diagnostic::error("stray-indent", run[0].span, message);
         let help = format!("indent every line of {} by the same {indent} columns", section.name());
-        problems.push(problem.help(help));
+        problems.push(shifted(problem.help(help), run, indent));
     }
 }
 
@@ -70,35 +82,38 @@ pub(super) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     let Some(step) = steps.into_iter().rev().find(|&step| count(step) * 4 <= lines.len()) else {
         return false;
     };
-    for (first, count) in runs(lines, |at, line| off(step, at, line)) {
+    for run in runs(lines, |at, line| off(step, at, line)) {
+        let (first, count) = (run[0], run.len());
         let below = head + (first.indent - head) / step * step;
         let near = if below == head { below + step } else { below };
         let message = format!("{} indented unlike the others{}", these(count), of_tabs(first));
         let problem = Diagnostic::warning("uneven-indent", first.span, message);
         let it = if count == 1 { "it" } else { "the first of them" };
-        problems.push(problem.help(match near == below {
+        let problem = problem.help(match near == below {
             true => format!("indent {it} by {near} columns, or by {} below its parent", near + step),
             false => format!("indent {it} by {near} columns, like them"),
-        }));
+        });
+        let at = lines.iter().position(|line| line.span == first.span).unwrap_or(0);
+        let deepest = above[at].next_multiple_of(step) + step;
+        problems.push(if near - head <= deepest { shifted(problem, run, near) } else { problem });
     }
     true
 }
 
-/// The first line of each run of neighbours for which `off` returns the same value, and the length of the run.
-fn runs<'a, 'b>(
-    lines: &[&'b Line<'a>],
+/// The runs of neighbours for which `off` returns the same value; none is empty.
+fn runs<'a, 'b, 'c>(
+    lines: &'c [&'b Line<'a>],
     off: impl Fn(usize, &Line<'a>) -> Option<usize>,
-) -> Vec<(&'b Line<'a>, usize)> {
-    let mut runs: Vec<(&'b Line<'a>, usize)> = Vec::new();
-    let mut last = None;
-    for (at, &line) in lines.iter().enumerate() {
-        let own = off(at, line);
-        match runs.last_mut() {
-            Some((_, count)) if own.is_some() && own == last => *count += 1,
-            _ if own.is_some() => runs.push((line, 1)),
-            _ => {}
+) -> Vec<&'c [&'b Line<'a>]> {
+    let values: Vec<Option<usize>> = lines.iter().enumerate().map(|(at, line)| off(at, line)).collect();
+    let mut start = 0;
+    let mut runs = Vec::new();
+    for run in values.chunk_by(|one, other| one == other) {
+        let own = start..start + run.len();
+        start = own.end;
+        if run[0].is_some() {
+            runs.push(&lines[own]);
         }
-        last = own;
     }
     runs
 }

@@ -1,6 +1,6 @@
 //! The layout pass: splits a text into logical lines with an indent, and separates the comments (`spec/01` §1.1).
 
-use crate::diagnostic::Span;
+use crate::diagnostic::{Edit, Span};
 
 /// The character with which some editors start a file.
 pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
@@ -16,6 +16,8 @@ pub(super) struct Line<'a> {
     pub(super) text: &'a str,
     /// The place of `text`.
     pub(super) span: Span,
+    /// The place of the whole line, without its terminator.
+    pub(super) whole: Span,
     /// Whole-line comments above.
     pub(super) above: Vec<&'a str>,
     /// The comment at the end.
@@ -23,6 +25,16 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
+    /// The place of the indent; its characters have one byte each.
+    pub(super) fn indentation(&self) -> Span {
+        Span::new(self.span.start - self.indent, self.span.start)
+    }
+
+    /// The edit that indents the line by that many columns.
+    pub(super) fn indented(&self, columns: usize) -> Edit {
+        Edit::new(self.indentation(), " ".repeat(columns))
+    }
+
     /// The place of a part of `text`.
     pub(super) fn span_of(&self, part: &str) -> Span {
         let start = self.span.start + (part.as_ptr() as usize - self.text.as_ptr() as usize);
@@ -55,6 +67,7 @@ pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
                 tabbed,
                 text,
                 span,
+                whole: Span::new(start, start + raw.len()),
                 above: std::mem::take(&mut above),
                 beside: comment,
             });

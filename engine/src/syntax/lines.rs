@@ -10,7 +10,7 @@ use super::layout::Line;
 use super::parse::Reader;
 use super::repair;
 use super::tokens::{Token, span, word};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::keywords::{CLASSES, EFFECTS};
 use crate::limits::MAX_NESTING;
 use pest::Parser;
@@ -34,7 +34,8 @@ impl Reader {
                 let message = format!("this line is indented unlike its siblings{of_tabs}");
                 let problem = Diagnostic::warning("uneven-indent", line.span, message)
                     .help(format!("indent it by {indent} columns, like them"));
-                self.problems.push(problem);
+                let title = format!("Indent it by {indent} columns");
+                self.problems.push(problem.fix(title, vec![line.indented(indent)]));
             }
             let mut sprite = self.sprite(line);
             let children = &lines[at + 1..at + 1 + deeper];
@@ -95,7 +96,8 @@ impl Reader {
         };
         let span = line.span_of(word);
         let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is not ` > `: {shape}"));
-        self.problems.push(problem.help(format!("write ` {fixed} `, with blanks around the `>`")));
+        let problem = problem.help(format!("write ` {fixed} `, with blanks around the `>`"));
+        self.problems.push(problem.replace(span, &fixed));
         Some(fixed)
     }
 
@@ -217,7 +219,9 @@ impl Reader {
             };
             let message = "this termination has no class";
             let problem = Diagnostic::error("bad-termination", line.span, message);
-            self.problems.push(problem.help(format!("put its class first, maybe `{class}`")));
+            let insert = Edit::new(Span::new(line.span.start, line.span.start), format!("{class} "));
+            let problem = problem.help(format!("put its class first, maybe `{class}`"));
+            self.problems.push(problem.fix(format!("Put `{class}` first"), vec![insert]));
         } else {
             self.description.terminations.push(termination);
         }

@@ -9,7 +9,7 @@ use super::reference;
 use super::repair;
 use super::sections::{self, Part};
 use super::tokens::Token;
-use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span};
 
 /// Reads a game file as the reference does: faulty lines are dropped, with a message each; lines indented deeper than
 /// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostic is the fault on which the reference crashes,
@@ -66,12 +66,20 @@ impl Reader {
         if headless {
             let message = "the game has no first line `BasicGame`";
             let problem = Diagnostic::error("unknown-game-class", header.span, message);
-            self.problems.push(problem.help("add a line `BasicGame` above, indented less than the sections"));
+            let problem = problem.help("add a line `BasicGame` above, indented less than the sections");
+            let start = header.indentation().start;
+            let insert = Edit::new(Span::new(start, start), "BasicGame\n");
+            self.problems.push(match header.indent {
+                0 => problem,
+                _ => problem.fix("Add a line `BasicGame`", vec![insert]),
+            });
         } else {
             self.header(header);
         }
         let rest = if headless { &lines[..] } else { rest };
-        for part in self.mended_parts(header, rest) {
+        let parts = self.mended_parts(header, rest);
+        let heads: Vec<usize> = parts.iter().map(|part| part.head.indent).collect();
+        for part in parts {
             if let Some(has) = self.description.has.get_mut(part.section as usize) {
                 *has = true;
             }
@@ -85,7 +93,11 @@ impl Reader {
             if !has && !self.problems.iter().any(reported) {
                 let message = format!("the game has no {}", section.name());
                 let help = format!("add a line `{}`, indented below the first line", section.name());
-                self.problems.push(Diagnostic::error("missing-section", header.span, message).help(help));
+                let problem = Diagnostic::error("missing-section", header.span, message).help(help);
+                self.problems.push(problem.fix(
+                    format!("Add a line `{}`", section.name()),
+                    vec![missing_section(source, header, section, &heads)],
+                ));
             }
         }
     }
@@ -96,7 +108,7 @@ impl Reader {
         let Some((at, mark)) = line.text.match_indices("//").find(starts) else { return true };
         let span = Span::new(line.span.start + at, line.span.start + at + mark.len());
         let problem = Diagnostic::error("bad-comment", span, "`//` does not start a comment");
-        self.problems.push(problem.help("comments start with `#`"));
+        self.problems.push(problem.help("comments start with `#`").replace(span, "#"));
         line.text = line.text[..at].trim_end();
         line.span.end = line.span.start + line.text.len();
         !line.text.is_empty()
@@ -195,10 +207,25 @@ impl Reader {
         let message = format!("`{}` does not belong here: {rule}", word.text);
         let problem = Diagnostic::error("stray-word", word.span, message);
         self.problems.push(match repair::parameter(&word.text) {
-            Some(param) => problem.help(format!("did you mean `{param}`?")),
-            None => problem.help(format!("remove `{}`", word.text)),
+            Some(param) => problem.help(format!("did you mean `{param}`?")).replace(word.span, &param),
+            None => problem.help(format!("remove `{}`", word.text)).remove(word.span, &word.text),
         });
     }
+}
+
+/// The edit that adds a section without lines: the SpriteSet below the first line, because others need it, and all others
+/// at the end. `heads` are the indents of the sections that there are.
+fn missing_section(source: &str, header: &Line<'_>, section: Section, heads: &[usize]) -> Edit {
+    let below = heads.iter().copied().filter(|&indent| indent > header.indent);
+    let indent = if below.clone().next().is_some() { indents::usual(below) } else { header.indent + 4 };
+    let line = format!("{}{}", " ".repeat(indent), section.name());
+    let rest = &source[header.span.end..];
+    let end = match section {
+        Section::SpriteSet => header.span.end + rest.find(['\n', '\r']).unwrap_or(rest.len()),
+        _ => source.len(),
+    };
+    let text = if source[..end].ends_with(['\n', '\r']) { format!("{line}\n") } else { format!("\n{line}") };
+    Edit::new(Span::new(end, end), text)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use super::description::Section;
 use super::indents;
 use super::layout::Line;
-use crate::diagnostic::{Diagnostic, nearest};
+use crate::diagnostic::{Diagnostic, Edit, Span, nearest};
 use crate::keywords::{CLASSES, EFFECTS, TERMINATIONS};
 
 /// A section: the line of its name and the lines below it.
@@ -62,7 +62,8 @@ fn split<'a, 'b>(
                 None => format!("no section named `{}`", line.text),
             };
             let problem = Diagnostic::error("unknown-section", line.span, message);
-            problems.push(problem.help(format!("did you mean `{}`?", section.name())));
+            let problem = problem.help(format!("did you mean `{}`?", section.name()));
+            problems.push(problem.replace(line.span, section.name()));
         }
         parts.push(Part { section, head: line, indent: line.indent, body: Vec::new() });
     }
@@ -82,7 +83,8 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
         if meant != part.section && guesses.all(|other| other == meant) {
             let message = format!("the lines of this {} are {}", part.section.name(), lines_of(meant));
             let problem = Diagnostic::error("swapped-section", part.head.span, message);
-            problems.push(problem.help(format!("write `{}`", meant.name())));
+            let problem = problem.help(format!("write `{}`", meant.name()));
+            problems.push(problem.replace(part.head.span, meant.name()));
             part.section = meant;
         }
     }
@@ -96,10 +98,16 @@ fn missing<'a, 'b>(
     parts: &mut Vec<Part<'a, 'b>>,
     problems: &mut Vec<Diagnostic>,
 ) {
+    let heads = parts.iter().map(|part| part.head.indent).filter(|&indent| indent > header.indent);
+    let indent = heads.clone().next().map_or(header.indent + 1, |_| indents::usual(heads));
     let mut tell = |section: Section, line: &Line<'_>| {
         let message = format!("the game has no {}, and this line is {}", section.name(), line_of(section));
         let problem = Diagnostic::error("missing-section", line.span, message);
-        problems.push(problem.help(format!("add a line `{}` above it", section.name())));
+        let problem = problem.help(format!("add a line `{}` above it", section.name()));
+        let start = line.indentation().start;
+        let insert =
+            Edit::new(Span::new(start, start), format!("{}{}\n", " ".repeat(indent), section.name()));
+        problems.push(problem.fix(format!("Add a line `{}`", section.name()), vec![insert]));
     };
     for section in Section::ALL {
         if parts.iter().any(|part| part.section == section) {
@@ -160,7 +168,8 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
             true => Diagnostic::error("stray-indent", part.head.span, message),
             false => Diagnostic::warning("uneven-indent", part.head.span, message),
         };
-        problems.push(problem.help(format!("indent it by {usual} columns, like them")));
+        let problem = problem.help(format!("indent it by {usual} columns, like them"));
+        problems.push(problem.fix(format!("Indent it by {usual} columns"), vec![part.head.indented(usual)]));
     }
     if !below.is_empty() {
         for part in parts {
@@ -173,13 +182,28 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
 /// Moves single lines that are in the wrong section to the right one.
 fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut Vec<Diagnostic>) {
     let mut moved: Vec<(Section, &'b Line<'a>)> = Vec::new();
+    // The end of each section, by the lines that are surely its own, and their indent.
+    let ends: Vec<(Section, usize, usize)> = parts
+        .iter()
+        .map(|part| {
+            let own = part.body.iter().filter(|line| guess.section(line) == Some(part.section));
+            let last = own.clone().next_back().unwrap_or(&part.head);
+            let indent = own.map(|line| line.indent).min().unwrap_or(part.head.indent + 4);
+            (part.section, last.whole.end, indent)
+        })
+        .collect();
     for part in parts.iter_mut() {
         let section = part.section;
         part.body.retain(|line| {
             let Some(meant) = guess.section(line).filter(|&meant| meant != section) else { return true };
             let message = format!("this line is {}, but is in the {}", line_of(meant), section.name());
             let problem = Diagnostic::error("wrong-section", line.span, message);
-            problems.push(problem.help(format!("move it to the {}", meant.name())));
+            let problem = problem.help(format!("move it to the {}", meant.name()));
+            let end = ends.iter().find(|(section, ..)| *section == meant);
+            problems.push(match end {
+                Some(&(_, end, indent)) => move_to(problem, line, meant, end, indent),
+                None => problem,
+            });
             moved.push((meant, line));
             false
         });
@@ -191,6 +215,16 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
             part.body.push(line);
         }
     }
+}
+
+/// Adds the repair of moving a line behind the line that ends at `end`. A sprite becomes a type without a parent.
+fn move_to(problem: Diagnostic, line: &Line<'_>, section: Section, end: usize, indent: usize) -> Diagnostic {
+    let comment = line.beside.map_or(String::new(), |comment| format!("  # {comment}"));
+    let text = format!("\n{}{}{comment}", " ".repeat(indent), line.text);
+    let gone = Span::new(line.whole.start.saturating_sub(1), line.whole.end);
+    let mut edits = vec![Edit::new(Span::new(end, end), text), Edit::new(gone, "")];
+    edits.sort_by_key(|edit| edit.span);
+    problem.fix(format!("Move it to the {}", section.name()), edits)
 }
 
 fn lines_of(section: Section) -> &'static str {

@@ -79,7 +79,9 @@ impl Reader {
             let message = message(&whole.text);
             let problem = Diagnostic::error("bad-parameter", whole.span, message);
             self.problems.push(match whole.text.strip_suffix('=') {
-                Some("") => problem.help("remove it, or write a parameter as one word"),
+                Some("") => problem
+                    .help("remove it, or write a parameter as one word")
+                    .remove(whole.span, &whole.text),
                 Some(key) => problem.help(format!("write a value after `{key}=`, without a blank")),
                 None => problem.help(format!("write the parameter's name before `{}`", whole.text)),
             });
@@ -95,7 +97,8 @@ impl Reader {
         let span = Span::new(key.span.start, value.span.end);
         let written = &line.text[span.start - line.span.start..span.end - line.span.start];
         let problem = Diagnostic::error("bad-parameter", span, message(written));
-        self.problems.push(problem.help(format!("write `{}={}`", key.text, value.text)));
+        let problem = problem.help(format!("write `{}={}`", key.text, value.text));
+        self.problems.push(problem.replace(span, &format!("{}={}", key.text, value.text)));
         tokens.push(Token::Param(Param { key, value }));
     }
 }

@@ -17,5 +17,7 @@ engine::with_defaults! {
         pub head_time: Duration = Duration::from_secs(20),
         /// The time limit for a client to send the body of a request, including the wait for room.
         pub body_time: Duration = Duration::from_secs(60),
+        /// The maximum number of threads that work on answers at a time.
+        pub threads: usize = 512,
     }
 }

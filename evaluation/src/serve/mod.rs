@@ -5,6 +5,8 @@
 //! ([docs/serve-player.md](../../../docs/serve-player.md)). The same conversation always gets the same answer.
 
 mod bounds;
+#[doc(hidden)]
+pub mod loopback;
 mod origin;
 mod prompted;
 mod reflex;

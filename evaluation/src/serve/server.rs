@@ -1,31 +1,22 @@
 //! OpenAI-compatible chat completions, answered by a player.
 
 use super::bounds::Bounds;
+use super::loopback::{self, Bodies, Unread};
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Content, Role};
 use crate::error::EvaluationError;
 use axum::Router;
-use axum::body::{Body, Bytes, HttpBody};
+use axum::body::Body;
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Json, Response};
 use axum::routing::{get, post};
-use hyper::server::conn::http1;
-use hyper_util::rt::{TokioIo, TokioTimer};
-use hyper_util::service::TowerToHyperService;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::Duration;
-use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
-
-/// The pause after a failure to accept a connection because the system has too many open.
-const PAUSE: Duration = Duration::from_millis(100);
-
-/// The number of bytes of a request's body that one permit covers.
-const UNIT: usize = 1024;
+use tokio::sync::oneshot;
 
 /// A server that is bound to its port but does not answer yet.
 #[derive(Debug)]
@@ -42,8 +33,7 @@ impl Server {
     /// # Errors
     /// The port cannot be bound.
     pub fn bind(player: PromptPlayer, port: u16) -> Result<Server, EvaluationError> {
-        let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).and_then(|listener| {
-            listener.set_nonblocking(true)?;
+        let bound = loopback::bind(port).and_then(|listener| {
             let address = listener.local_addr()?;
             Ok(Server { player, bounds: Bounds::default(), listener, address })
         });
@@ -88,42 +78,10 @@ impl Server {
 
     fn run_until(self, stopped: impl Future<Output = ()> + Send + 'static) -> Result<(), EvaluationError> {
         let place = self.address.to_string();
-        let serve = || {
-            let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-            let router = router(self.player, self.bounds);
-            let answered = runtime.block_on(async {
-                let listener = tokio::net::TcpListener::from_std(self.listener)?;
-                tokio::select! {
-                    () = accept(listener, router, self.bounds) => {}
-                    () = stopped => {}
-                }
-                Ok(())
-            });
-            // Do not wait for a player that is still thinking.
-            runtime.shutdown_background();
-            answered
-        };
-        serve().map_err(EvaluationError::io("listen on", place.as_ref()))
-    }
-}
-
-/// Answers every connection, up to the bounds. Connections beyond them wait in the queue of the operating system.
-async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
-    let places = Arc::new(Semaphore::new(bounds.connections));
-    loop {
-        let place = places.clone().acquire_owned().await.expect("it is never closed");
-        let Ok((stream, _)) = listener.accept().await else {
-            tokio::time::sleep(PAUSE).await;
-            continue;
-        };
-        let service = TowerToHyperService::new(router.clone());
-        tokio::spawn(async move {
-            let mut http = http1::Builder::new();
-            http.timer(TokioTimer::new()).header_read_timeout(bounds.head_time);
-            // A client that disconnects, or is too slow, is not an error of the server.
-            let _ = http.serve_connection(TokioIo::new(stream), service).await;
-            drop::<OwnedSemaphorePermit>(place);
-        });
+        let router = router(self.player, self.bounds);
+        // A player that is still thinking is not waited for.
+        let answered = loopback::answer(self.listener, router, self.bounds, stopped);
+        answered.map_err(EvaluationError::io("listen on", place.as_ref()))
     }
 }
 
@@ -168,19 +126,13 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .fallback(no_route)
         .method_not_allowed_fallback(no_method)
         .layer(axum::middleware::from_fn(origin::check))
-        .with_state(Arc::new(Serving {
-            player,
-            bounds,
-            body_memory: Arc::new(Semaphore::new(bounds.bodies / UNIT)),
-        }))
+        .with_state(Arc::new(Serving { player, bodies: Bodies::new(bounds) }))
 }
 
 /// The state needed for an answer.
 struct Serving {
     player: PromptPlayer,
-    bounds: Bounds,
-    /// The memory left for bodies that are being read or answered, in permits.
-    body_memory: Arc<Semaphore>,
+    bodies: Bodies,
 }
 
 /// The relevant fields of a request. Sampling parameters are ignored.
@@ -208,9 +160,9 @@ async fn models(State(serving): State<Arc<Serving>>) -> Json<Value> {
 }
 
 async fn complete(State(serving): State<Arc<Serving>>, body: Body) -> Response {
-    let (body, taken) = match read(&serving, body).await {
+    let (body, taken) = match serving.bodies.read(body).await {
         Ok(read) => read,
-        Err(refusal) => return *refusal,
+        Err(why) => return unreadable(&why),
     };
     let answered = tokio::task::spawn_blocking(move || {
         let answered = completion(&serving.player, &body);
@@ -224,55 +176,14 @@ async fn complete(State(serving): State<Arc<Serving>>, body: Body) -> Response {
     }
 }
 
-/// Reads a body within the bounds. Room for its stated size, or else for the maximum, is reserved first.
-async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePermit), Box<Response>> {
-    let Bounds { body: most, bodies, body_time, .. } = serving.bounds;
-    let most = most.min(bodies);
-    let too_large = || {
-        let message = format!("a request has at most {most} bytes");
-        Box::new(refusal(StatusCode::PAYLOAD_TOO_LARGE, "unreadable_body", &message))
+/// Returns the answer to a request whose body could not be read.
+fn unreadable(why: &Unread) -> Response {
+    let (status, code) = match why {
+        Unread::TooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "unreadable_body"),
+        Unread::CutOff(_) => (StatusCode::BAD_REQUEST, "unreadable_body"),
+        Unread::Late => (StatusCode::REQUEST_TIMEOUT, "request_timeout"),
     };
-    // The stated length is reliable: the body has no more bytes than that.
-    let stated = HttpBody::size_hint(&body).upper();
-    let size = match stated.map(usize::try_from) {
-        Some(Ok(size)) if size <= most => size,
-        Some(_) => {
-            // A client that is still sending could not read the answer.
-            let _ = tokio::time::timeout(body_time, discard(body, 2 * most)).await;
-            return Err(too_large());
-        }
-        None => most,
-    };
-    let read = async {
-        let units = u32::try_from(size.div_ceil(UNIT)).expect("no body is that large");
-        let memory = serving.body_memory.clone();
-        let taken = memory.acquire_many_owned(units).await.expect("it is never closed");
-        (axum::body::to_bytes(body, size).await, taken)
-    };
-    match tokio::time::timeout(body_time, read).await {
-        Ok((Ok(bytes), taken)) => Ok((bytes, taken)),
-        Ok((Err(_), _)) if stated.is_none() => Err(too_large()),
-        Ok((Err(error), _)) => {
-            let message = format!("the request was cut off: {error}");
-            Err(Box::new(refusal(StatusCode::BAD_REQUEST, "unreadable_body", &message)))
-        }
-        Err(_) => {
-            let message =
-                "the request was not received in time, or too many others are in progress; try again";
-            Err(Box::new(refusal(StatusCode::REQUEST_TIMEOUT, "request_timeout", message)))
-        }
-    }
-}
-
-/// Reads and discards up to `most` bytes of a body.
-async fn discard(body: Body, most: usize) {
-    let (mut body, mut left) = (std::pin::pin!(body), most);
-    while let Some(Ok(frame)) = std::future::poll_fn(|context| body.as_mut().poll_frame(context)).await {
-        left = left.saturating_sub(frame.data_ref().map_or(0, Bytes::len));
-        if left == 0 {
-            return;
-        }
-    }
+    refusal(status, code, &why.to_string())
 }
 
 fn completion(player: &PromptPlayer, body: &[u8]) -> Result<Value, Box<Response>> {

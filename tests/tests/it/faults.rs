@@ -16,11 +16,11 @@ struct Sound {
 }
 
 /// A file with one fault.
-struct Fault {
-    game: String,
-    level: String,
+pub(crate) struct Fault {
+    pub(crate) game: String,
+    pub(crate) level: String,
     /// `true` if the fault is in the level.
-    in_level: bool,
+    pub(crate) in_level: bool,
     /// Acceptable lines, from 1.
     lines: Vec<usize>,
     /// Repairs, of which the help must name one.
@@ -40,11 +40,9 @@ const KINDS: [(&str, FaultMaker); 6] = [
     ("wrong character", wrong_character),
 ];
 
-#[test]
-fn faults_are_reported_at_their_line_with_a_repair() {
+/// Makes [`EACH`] faults of each kind.
+pub(crate) fn each(mut see: impl FnMut(&'static str, &Fault)) {
     let corpus = corpus();
-    let (mut placed, mut repaired, mut all) = (0, 0, 0);
-    let mut untold = String::new();
     for (name, kind) in KINDS {
         let mut made = 0;
         for draw in 0.. {
@@ -52,33 +50,39 @@ fn faults_are_reported_at_their_line_with_a_repair() {
             let sound = sampler.choose(&corpus);
             let Some(fault) = kind(sound, &mut sampler) else { continue };
             made += 1;
-            let problems = problems(&fault);
-            let text = if fault.in_level { &fault.level } else { &fault.game };
-            let at_line: Vec<&(bool, Diagnostic)> = problems
-                .iter()
-                .filter(|(in_level, problem)| {
-                    *in_level == fault.in_level
-                        && fault.lines.contains(&line_and_column(text, problem.span.start).0)
-                })
-                .collect();
-            let helps = |(_, problem): &&(bool, Diagnostic)| {
-                problem
-                    .help
-                    .as_ref()
-                    .is_some_and(|help| fault.repairs.iter().any(|repair| help.contains(repair)))
-            };
-            let (place, help) = (!at_line.is_empty(), at_line.iter().any(helps));
-            placed += u64::from(place);
-            repaired += u64::from(help);
-            all += 1;
-            if !help {
-                untold += &told(name, &fault, &problems);
-            }
+            see(name, &fault);
             if made == EACH {
                 break;
             }
         }
     }
+}
+
+#[test]
+fn faults_are_reported_at_their_line_with_a_repair() {
+    let (mut placed, mut repaired, mut all) = (0, 0, 0);
+    let mut untold = String::new();
+    each(|name, fault| {
+        let problems = problems(fault);
+        let text = if fault.in_level { &fault.level } else { &fault.game };
+        let at_line: Vec<&(bool, Diagnostic)> = problems
+            .iter()
+            .filter(|(in_level, problem)| {
+                *in_level == fault.in_level
+                    && fault.lines.contains(&line_and_column(text, problem.span.start).0)
+            })
+            .collect();
+        let helps = |(_, problem): &&(bool, Diagnostic)| {
+            problem.help.as_ref().is_some_and(|help| fault.repairs.iter().any(|repair| help.contains(repair)))
+        };
+        let (place, help) = (!at_line.is_empty(), at_line.iter().any(helps));
+        placed += u64::from(place);
+        repaired += u64::from(help);
+        all += 1;
+        if !help {
+            untold += &told(name, fault, &problems);
+        }
+    });
     assert!(placed * 100 >= all * 95, "only {placed} of {all} faults are told at their line\n{untold}");
     assert!(
         repaired * 100 >= all * 80,

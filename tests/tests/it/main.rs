@@ -1,6 +1,7 @@
 //! Properties that span crates, and the tidiness of the tree.
 
 extern crate infinite_arcade_agents as agents;
+extern crate infinite_arcade_editor as editor;
 extern crate infinite_arcade_engine as engine;
 extern crate infinite_arcade_generators as generators;
 extern crate infinite_arcade_render as render;
@@ -11,6 +12,7 @@ mod analysis;
 mod batch;
 mod corpus;
 mod faults;
+mod fixes;
 mod game_measures;
 mod hostile;
 mod limits;

@@ -178,6 +178,24 @@ fn pages(folder: &'static str) -> impl Iterator<Item = String> {
     files.filter(move |file| file.starts_with(folder) && file.ends_with(".md"))
 }
 
+/// Returns the strictly loaded games and the levels of the pages of a folder: the page, the game, and the level if there
+/// is one.
+pub(crate) fn examples(folder: &'static str) -> Vec<(String, String, Option<String>)> {
+    let mut examples = Vec::new();
+    for page in pages(folder) {
+        let mut game = String::new();
+        for block in blocks(&read(&page)) {
+            if block.info == "vgdl" {
+                game.clone_from(&block.text);
+                examples.push((page.clone(), block.text, None));
+            } else if block.info.starts_with("level") {
+                examples.push((page.clone(), game.clone(), Some(block.text)));
+            }
+        }
+    }
+    examples
+}
+
 fn games(page: &str) -> impl Iterator<Item = &str> {
     page.split("```vgdl").skip(1).filter_map(|rest| rest.split("```").next())
 }

@@ -27,7 +27,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
     let together = document
         .judgements
         .iter()
-        .find(|judgement| !judgement.finding.verdict.is_pass() && !is_skipped(&judgement.finding));
+        .find(|judgement| !judgement.finding.verdict.is_pass() && !judgement.is_skipped());
     let of_game = match together {
         Some(judgement) => format!("; {}", obstacle(judgement, source)),
         None => String::new(),
@@ -79,7 +79,8 @@ fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
 }
 
 /// Returns the reason why a criterion is not passed, in one line, with the place of the rule that it quotes.
-fn obstacle(Judgement { criterion, finding }: &Judgement, source: &Named) -> String {
+fn obstacle(judgement: &Judgement, source: &Named) -> String {
+    let Judgement { criterion, finding } = judgement;
     match &finding.verdict {
         Verdict::Fail { reason, .. } => {
             let rules = finding.evidence.iter().filter_map(|seen| seen.rule.as_ref());
@@ -89,7 +90,7 @@ fn obstacle(Judgement { criterion, finding }: &Judgement, source: &Named) -> Str
             let place = line.map_or(String::new(), |line| format!(" ({}:{line})", source.name));
             format!("FAILS {criterion}: {}{place}", reason.0)
         }
-        _ => format!("not shown to pass {criterion}: {}", answer(criterion, finding)),
+        _ => format!("not shown to pass {criterion}: {}", judgement.answer()),
     }
 }
 
@@ -99,10 +100,10 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let mark = match &finding.verdict {
         Verdict::Pass { .. } => "pass",
         Verdict::Fail { .. } => "FAIL",
-        Verdict::Unknown { .. } if is_skipped(finding) => "-",
+        Verdict::Unknown { .. } if judgement.is_skipped() => "-",
         Verdict::Unknown { .. } => "?",
     };
-    let words = answer(criterion, finding);
+    let words = judgement.answer();
     let measured = finding.measured.as_ref().filter(|rate| rate.plays > 0).map_or(String::new(), rate);
     let comma = if words.is_empty() || measured.is_empty() { "" } else { "; " };
     let optimal = match (&finding.verdict, finding.optimal) {
@@ -139,50 +140,6 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     advice.dedup();
     for advice in advice.iter().take(2) {
         let _ = writeln!(text, "       try: {advice}");
-    }
-}
-
-/// Returns `true` if a criterion was skipped because it does not apply.
-fn is_skipped(finding: &validators::Finding) -> bool {
-    finding.evidence.first().is_some_and(|seen| seen.text.starts_with("skipped"))
-}
-
-fn is_budget_note(seen: &Evidence) -> bool {
-    seen.text.ends_with("by the budget")
-}
-
-/// Returns the text of a verdict beside its mark.
-fn answer(criterion: &str, finding: &validators::Finding) -> String {
-    match &finding.verdict {
-        Verdict::Pass { witness: Some(witness) } => {
-            format!("the witness wins in {} ticks, score {}", witness.actions.len(), witness.score)
-        }
-        Verdict::Pass { witness: None } => String::new(),
-        Verdict::Fail { reason, .. } => reason.0.clone(),
-        Verdict::Unknown { .. } if is_skipped(finding) => finding.evidence[0].text.clone(),
-        Verdict::Unknown { spent: 0 } if criterion == "winnable" => {
-            "no win found: the budget allows no search".to_owned()
-        }
-        Verdict::Unknown { spent: 0 } => "needs a win, and none was found".to_owned(),
-        // Work that the budget broke off comes first.
-        Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_budget_note) => {
-            finding.evidence[0].text.clone()
-        }
-        Verdict::Unknown { spent } => match criterion {
-            "winnable" => format!("no win found with {spent} forward-model calls; a win may still exist"),
-            "early-death" => {
-                format!("no play found that survives the first ticks, with {spent} forward-model calls")
-            }
-            "skill" => "too few wins for a verdict".to_owned(),
-            _ => {
-                let first = finding.evidence.first().map_or("not shown", |seen| seen.text.as_str());
-                let others = finding.evidence.iter().filter(|seen| seen.advice.is_some()).count();
-                match others {
-                    0 | 1 => first.to_owned(),
-                    _ => format!("{first}, and {} more", others - 1),
-                }
-            }
-        },
     }
 }
 

@@ -62,7 +62,11 @@ impl<'a> Reader<'a> {
                 format!("`{key}` takes a list of whole numbers, an entry for each counter, not `{value}`");
             let problem = Diagnostic::error("wrong-type", param.value.span, message);
             let list = format!("write `{key}={value},{value}`: the reference engine ignores a single number");
-            self.problems.push(problem.help(list));
+            let problem = problem.help(list);
+            self.problems.push(match value.parse::<i32>() {
+                Ok(_) => problem.replace(param.value.span, &format!("{value},{value}")),
+                Err(_) => problem,
+            });
             return nothing.collect();
         };
         let entries: Vec<Option<i32>> =

@@ -4,6 +4,7 @@ use super::super::{Names, Policy, Setting};
 use super::arguments::number_of;
 use crate::diagnostic::Diagnostic;
 use crate::keywords;
+use crate::limits::MAX_PROBLEMS;
 use crate::rules::effects::{self, Arguments};
 use crate::rules::{Counting, EffectInfo, Timed};
 use crate::syntax::{InteractionLine, Param, Word};
@@ -84,7 +85,8 @@ impl<'a> Reader<'a> {
         if in_batch && !batches {
             let message = "`inBatch=True` switches an effect off that has no batch form";
             let span = self.param("inBatch").map(Param::span).unwrap_or_default();
-            self.problems.push(Diagnostic::error("bad-parameter", span, message).help("remove it"));
+            let problem = Diagnostic::error("bad-parameter", span, message).help("remove it");
+            self.problems.push(problem.remove(span, "inBatch"));
         }
         if self.has_clock() {
             self.used.extend(["timer", "nextExecution", "repeating"]);
@@ -167,7 +169,7 @@ impl<'a> Reader<'a> {
                 let problem = Diagnostic::warning("ignored-parameter", param.span(), message);
                 self.problems.push(match key.starts_with("count") {
                     true => problem.help("give the game counters: `no_counters=1` on its first line"),
-                    false => problem.help("remove it"),
+                    false => problem.help("remove it").remove(param.span(), key),
                 });
                 continue;
             }
@@ -180,7 +182,11 @@ impl<'a> Reader<'a> {
                 _ => format!("remove it, or write one of its own: {}", own.join(", ")),
             });
             let reported = self.reported + self.problems.len();
-            self.problems.push(problem.suggest_after(reported, key, known));
+            let problem = problem.suggest_after(reported, key, known);
+            self.problems.push(match reported < MAX_PROBLEMS {
+                true => problem.or_remove(param.span(), key),
+                false => problem,
+            });
         }
     }
 

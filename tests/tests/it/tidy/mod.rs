@@ -21,6 +21,7 @@ use toml::de::{DeTable, DeValue};
 /// Our crates by folder, each with its allowed dependencies. Imports point one way only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("engine", &[]),
+    ("editor", &["engine"]),
     ("statistics", &[]),
     ("agents", &["engine"]),
     ("generators", &["engine"]),
@@ -32,9 +33,25 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("render", &["engine"]),
     ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
     (
+        "studio",
+        &[
+            "engine",
+            "editor",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "statistics",
+            "render",
+            "evaluation",
+        ],
+    ),
+    (
         "cli",
         &[
             "engine",
+            "editor",
             "agents",
             "generators",
             "validators",
@@ -45,6 +62,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "statistics",
             "render",
             "evaluation",
+            "studio",
         ],
     ),
     ("xtask", &["engine", "agents", "generators", "validators", "forge", "report", "render", "statistics"]),

@@ -1,0 +1,66 @@
+//! `arcade gallery`: a release as a page of static files.
+
+use super::export::unsound;
+use super::studio::open;
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::verbs::release::in_pool;
+use crate::{protected, version};
+use rayon::prelude::*;
+use serde_json::json;
+use snapshots::released::Released;
+use std::path::PathBuf;
+use studio::{Gallery, Studio};
+
+/// Writes a release as a page that needs no server: its games, cards and boards, and every recorded win to be watched.
+///
+/// The release is verified first. The folder can be opened from the disk, or put on any web server. It has all solutions, as
+/// the release has. It is complete or absent.
+///
+/// Exit status 0: written. 1: the release does not verify. 2: there is no such release. 3: environment failure.
+///
+/// Example: arcade gallery releases/starter --out starter-gallery
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The release: a folder or an archive
+    #[arg(value_name = "SNAPSHOT")]
+    snapshot: PathBuf,
+    /// The folder of the page: absent or empty
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    // A folder that is taken is reported before the work.
+    let draft = protected::draft(&args.out)?;
+    let released = match in_pool(args.jobs, || Released::read(&args.snapshot))? {
+        Ok(released) => released,
+        Err(error) => return unsound(error, console),
+    };
+    let workspace = open::of_release(&args.snapshot, released, PathBuf::new());
+    let studio = Studio::new(workspace, version::version(), |_| None);
+    let gallery = Gallery::of(&studio);
+    let games = gallery.games();
+    let bar = console.progress(games.len() as u64, "games");
+    let written = in_pool(args.jobs, || {
+        games.par_iter().try_for_each(|id| {
+            let (path, content) = gallery.game(id).map_err(Failure::malformed)?;
+            draft.write(&path, &content)?;
+            bar.inc(1);
+            Ok::<(), Failure>(())
+        })
+    });
+    written??;
+    bar.finish_and_clear();
+    for (path, content) in gallery.page().map_err(Failure::malformed)? {
+        draft.write(&path, &content)?;
+    }
+    draft.commit()?;
+    let page = args.out.join("index.html");
+    console.document(&json!({ "page": page.display().to_string(), "games": games }))?;
+    console.say(format_args!("{} games in {}", games.len(), page.display()));
+    Ok(true)
+}

@@ -1,0 +1,109 @@
+//! `arcade studio`: games on a page of this machine.
+
+mod browser;
+mod judge;
+pub(super) mod open;
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::{manual, version};
+use serde_json::json;
+use std::path::PathBuf;
+use studio::judging::MOST_PAIRS;
+use studio::{Kind, Server, Stop, Studio, Workspace};
+
+/// Opens a page on this machine to write, check, play and browse games, until Ctrl-C.
+///
+/// Without an argument it shows the games that this program carries. Of a folder of games it edits every one; a game of the
+/// corpus or of a release is copied first. The first line of output is the address of the page. Only this machine can reach
+/// it, and only with the token in the address; see `arcade docs studio`. With --judge, it shows pairs of games instead, without
+/// telling where each is from, and records what people say of them.
+///
+/// Example: arcade studio my-game/
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// A game or a folder of games, a release (folder or archive), or the results of an evaluation
+    #[arg(value_name = "PLACE")]
+    place: Option<String>,
+    /// The port; 0 takes any free one
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    port: u16,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    no_open: bool,
+    /// The folder that copies of games go to; by default the opened folder of games, or the current one. With --judge, the file
+    /// that judgements are added to
+    #[arg(long, value_name = "PATH")]
+    out: Option<PathBuf>,
+    /// A release to compare the opened one with
+    #[arg(long, value_name = "SNAPSHOT")]
+    against: Option<PathBuf>,
+    /// Games to judge in pairs, blindly: a folder of games, a release, or `corpus`. Given twice or more
+    #[arg(long, value_name = "GAMES", conflicts_with = "place")]
+    judge: Vec<String>,
+    /// Text that draws the pairs and their sides
+    #[arg(long, value_name = "TEXT", default_value = "judge", requires = "judge")]
+    seed: String,
+    /// The number of pairs
+    #[arg(long, value_name = "N", default_value_t = 20, requires = "judge", value_parser = clap::value_parser!(u64).range(1..=MOST_PAIRS as u64))]
+    pairs: u64,
+    /// Print the results of a file of judgements, and open no page
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["place", "judge", "out", "against"])]
+    judge_report: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    if let Some(file) = &args.judge_report {
+        return judge::report(file, console);
+    }
+    let page = |name: &str| manual::page(name).ok().map(|page| page.text.to_owned());
+    if !args.judge.is_empty() {
+        let pairs = usize::try_from(args.pairs).unwrap_or(MOST_PAIRS);
+        let judging = judge::session(&args.judge, &args.seed, pairs, args.out.as_deref(), console)?;
+        // The page shows the pairs only: a list of games would tell where they are from.
+        let workspace = Workspace::new(Kind::Games, "pairs to judge", PathBuf::new(), Vec::new());
+        return serve(Studio::new(workspace, version::version(), page).judging(judging), args, console);
+    }
+    let workspace = open::workspace(args.place.as_deref(), args.out.as_deref(), args.against.as_deref())?;
+    serve(Studio::new(workspace, version::version(), page), args, console)
+}
+
+fn serve(studio: Studio, args: &Args, console: &Console) -> Answer {
+    let server = Server::bind(studio, args.port)
+        .map_err(|error| Failure::environment(error, "the studio cannot be started"))?;
+    let url = server.url();
+    if console.is_json() {
+        console.line(&json!({ "url": url, "port": server.port() }));
+    } else {
+        console.say(&url);
+    }
+    console.remark("serving this machine until Ctrl-C");
+    // Dropped at the end, which removes it.
+    let opened = if args.no_open { None } else { browser::open(&url) };
+    let (stop, run) = server.stoppable();
+    end_on_signal(stop);
+    let served = run().map_err(|error| Failure::environment(error, "the studio has stopped"));
+    drop(opened);
+    served.map(|()| true)
+}
+
+/// Ends the server, and with it the program, at the first of SIGINT, SIGTERM and SIGHUP.
+#[cfg(unix)]
+fn end_on_signal(stop: Stop) {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    // Without it, a signal ends the program as usual.
+    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
+        std::mem::forget(stop);
+        return;
+    };
+    std::thread::spawn(move || {
+        signals.forever().next();
+        drop(stop);
+    });
+}
+
+/// Lets the system end the program.
+#[cfg(not(unix))]
+fn end_on_signal(stop: Stop) {
+    std::mem::forget(stop);
+}

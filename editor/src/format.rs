@@ -1,0 +1,29 @@
+//! The canonical print of a game, as `arcade fmt` prints it.
+
+use crate::problems::{Problem, problems};
+use engine::{Diagnostics, syntax};
+
+/// The text in canonical form: sections in order, an indent of four blanks, comments kept.
+///
+/// # Errors
+/// The problems of a text with lines that cannot be read: printing the others would lose them.
+pub fn format(source: &str) -> Result<String, Vec<Problem>> {
+    let (description, found) = syntax::parse(source);
+    if Diagnostics::has_errors(&found) {
+        return Err(problems(source));
+    }
+    Ok(syntax::print(&description))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_cannot_be_read_are_not_lost() {
+        let source = "BasicGame\n SpriteSet\n   a > Immovable # stone\n LevelMapping\n InteractionSet\n TerminationSet\n";
+        assert!(format(source).is_ok_and(|text| text.contains("        a > Immovable  # stone\n")));
+        let faulty = source.replace("a > Imm", "a Imm");
+        assert!(format(&faulty).is_err_and(|problems| problems[0].code == "missing-arrow"));
+    }
+}

@@ -1,0 +1,28 @@
+//! Answers to the questions of editors about VGDL games and levels: problems with repairs, hover texts, completions, renaming.
+//!
+//! Every function takes a text as it is being written, which need not compile, and places are bytes of it;
+//! [`positions`] converts them to what editors count in. The same text always gives the same answer. [`lsp`] is a language
+//! server made of these functions.
+
+mod complete;
+mod format;
+mod hover;
+pub mod lsp;
+mod navigate;
+mod outline;
+mod pages;
+pub mod positions;
+mod problems;
+mod rename;
+mod values;
+mod words;
+
+pub use complete::{Completion, Item, ItemKind, complete};
+pub use engine::{Edit, Fix, Severity, Span};
+pub use format::format;
+pub use hover::{Hover, hover, level_hover};
+pub use navigate::{definition, level_definition, references};
+pub use outline::{Entry, EntryKind, outline};
+pub use pages::page;
+pub use problems::{LevelRules, Problem, applied, level_problems, problems};
+pub use rename::{RenameError, renamable, rename, rename_in_level};

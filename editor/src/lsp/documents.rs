@@ -1,0 +1,212 @@
+//! The open documents, and the files beside them.
+
+use super::uri;
+use crate::positions::{Lines, Position, Unit};
+use engine::{MAX_LEVEL_TEXT, MAX_SOURCE, Span};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// The kind of a document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A game.
+    Game,
+    /// A level.
+    Level,
+    /// Anything else.
+    Other,
+}
+
+impl Kind {
+    /// The kind of a document with that name and, if the client says one, language.
+    fn of(uri: &str, language: &str) -> Kind {
+        let name = uri::path(uri).unwrap_or_else(|| PathBuf::from(uri));
+        let name = name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        match name {
+            name if is_level(name) => Kind::Level,
+            name if name.ends_with(".vgdl") || name == "game.txt" || language == "vgdl" => Kind::Game,
+            _ => Kind::Other,
+        }
+    }
+}
+
+fn is_level(name: &str) -> bool {
+    let number = name.strip_prefix("lvl").and_then(|rest| rest.strip_suffix(".txt"));
+    number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+/// A text with its lines.
+#[derive(Clone, Debug)]
+pub(super) struct Text {
+    pub(super) text: String,
+    lines: Lines,
+}
+
+impl Text {
+    pub(super) fn new(text: String) -> Text {
+        let lines = Lines::of(&text);
+        Text { text, lines }
+    }
+
+    /// The byte of a position as the protocol writes it.
+    pub(super) fn byte(&self, position: &Value, unit: Unit) -> Option<usize> {
+        let count = |name: &str| {
+            position.get(name)?.as_u64().map(|count| usize::try_from(count).unwrap_or(usize::MAX))
+        };
+        let position = Position { line: count("line")?, column: count("character")? };
+        Some(self.lines.byte(&self.text, position, unit))
+    }
+
+    /// A span of bytes as a range of the protocol.
+    pub(super) fn range(&self, span: Span, unit: Unit) -> Value {
+        let position = |at: usize| {
+            let Position { line, column } = self.lines.position(&self.text, at, unit);
+            json!({ "line": line, "character": column })
+        };
+        json!({ "start": position(span.start), "end": position(span.end) })
+    }
+
+    /// The bytes of a range of the protocol.
+    pub(super) fn span(&self, range: &Value, unit: Unit) -> Option<Span> {
+        let (start, end) = (self.byte(range.get("start")?, unit)?, self.byte(range.get("end")?, unit)?);
+        Some(Span::new(start.min(end), start.max(end)))
+    }
+
+    /// Makes a change of the protocol: a text instead of a range, or of everything.
+    fn change(&mut self, change: &Value, unit: Unit) -> Option<()> {
+        let text = change.get("text")?.as_str()?;
+        match change.get("range") {
+            None | Some(Value::Null) => self.text = text.to_owned(),
+            Some(range) => {
+                let span = self.span(range, unit)?;
+                self.text.replace_range(span.start..span.end, text);
+            }
+        }
+        self.lines = Lines::of(&self.text);
+        Some(())
+    }
+}
+
+/// An open document.
+#[derive(Clone, Debug)]
+pub(super) struct Document {
+    pub(super) kind: Kind,
+    pub(super) text: Text,
+    pub(super) version: Value,
+    /// `true` if its problems have to be published.
+    pub(super) is_changed: bool,
+}
+
+/// The open documents by URI.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Documents(pub(super) BTreeMap<String, Document>);
+
+impl Documents {
+    pub(super) fn open(&mut self, item: &Value) -> Option<()> {
+        let uri = item.get("uri")?.as_str()?;
+        let language = item.get("languageId").and_then(Value::as_str).unwrap_or_default();
+        let text = Text::new(item.get("text")?.as_str()?.to_owned());
+        let version = item.get("version").cloned().unwrap_or(Value::Null);
+        let document = Document { kind: Kind::of(uri, language), text, version, is_changed: true };
+        self.0.insert(uri.to_owned(), document);
+        self.touch_levels(uri);
+        Some(())
+    }
+
+    pub(super) fn change(&mut self, params: &Value, unit: Unit) -> Option<()> {
+        let uri = params.pointer("/textDocument/uri")?.as_str()?;
+        let document = self.0.get_mut(uri)?;
+        for change in params.get("contentChanges")?.as_array()? {
+            document.text.change(change, unit)?;
+        }
+        document.version = params.pointer("/textDocument/version").cloned().unwrap_or(Value::Null);
+        document.is_changed = true;
+        self.touch_levels(uri);
+        Some(())
+    }
+
+    /// Marks the levels of a game as changed.
+    pub(super) fn touch_levels(&mut self, game: &str) {
+        let folder = uri::path(game).and_then(|path| path.parent().map(Path::to_owned));
+        let levels = self.0.iter_mut().filter(|(_, document)| document.kind == Kind::Level);
+        for (level, document) in levels {
+            let own = uri::path(level).and_then(|path| path.parent().map(Path::to_owned));
+            document.is_changed |= own.is_some() && own == folder;
+        }
+    }
+
+    /// The game of a level, with its URI: the open document, or the file on disk.
+    pub(super) fn game_of(&self, level: &str) -> Option<(String, Text)> {
+        let folder = uri::path(level)?.parent()?.to_owned();
+        ["game.vgdl", "game.txt"].into_iter().find_map(|name| self.text_at(&folder.join(name), MAX_SOURCE))
+    }
+
+    /// The levels of a game, with their URIs: those that are open, and those on disk.
+    pub(super) fn levels_of(&self, game: &str) -> Vec<(String, Text)> {
+        let Some(path) = uri::path(game) else { return Vec::new() };
+        let is_whole = path.file_stem().is_some_and(|stem| stem == "game");
+        let Some(folder) = path.parent().filter(|_| is_whole) else { return Vec::new() };
+        let is_of_game = |path: &PathBuf| {
+            path.parent() == Some(folder)
+                && path.file_name().and_then(|name| name.to_str()).is_some_and(is_level)
+        };
+        let open = self.0.keys().filter_map(|uri| uri::path(uri));
+        let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let mut paths: Vec<PathBuf> = open.chain(files).filter(is_of_game).collect();
+        paths.sort();
+        paths.dedup();
+        paths.iter().filter_map(|path| self.text_at(path, MAX_LEVEL_TEXT)).collect()
+    }
+
+    /// The text of a file: of the open document, or what is on disk.
+    fn text_at(&self, path: &Path, most: usize) -> Option<(String, Text)> {
+        let open = self.0.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
+        if let Some((uri, document)) = open {
+            return Some((uri.clone(), document.text.clone()));
+        }
+        if !path.is_file() {
+            return None;
+        }
+        // One byte more than is read as a game, so that a larger one is told as such.
+        let mut bytes = Vec::new();
+        File::open(path).ok()?.take(most as u64 + 1).read_to_end(&mut bytes).ok()?;
+        Some((uri::of_path(path), Text::new(String::from_utf8(bytes).ok()?)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn documents_are_told_apart_by_their_names() {
+        for (uri, language, kind) in [
+            ("file:///a/game.vgdl", "", Kind::Game),
+            ("file:///a/game.txt", "plaintext", Kind::Game),
+            ("file:///a/lvl12.txt", "vgdl", Kind::Level),
+            ("file:///a/lvl.txt", "", Kind::Other),
+            ("file:///a/notes.txt", "plaintext", Kind::Other),
+            ("untitled:Untitled-1", "vgdl", Kind::Game),
+            ("nonsense", "", Kind::Other),
+        ] {
+            assert_eq!(Kind::of(uri, language), kind, "{uri}");
+        }
+    }
+
+    #[test]
+    fn changes_are_made_in_order() {
+        let mut text = Text::new("a😀b\n".to_owned());
+        let range = |start: usize, end: usize| json!({ "start": { "line": 0, "character": start }, "end": { "line": 0, "character": end } });
+        assert_eq!(text.change(&json!({ "range": range(1, 3), "text": "" }), Unit::Utf16), Some(()));
+        assert_eq!(text.text, "ab\n");
+        // A range that is the wrong way round, and too long.
+        assert_eq!(text.change(&json!({ "range": range(99, 1), "text": "cd" }), Unit::Utf16), Some(()));
+        assert_eq!(text.text, "acd\n");
+        assert_eq!(text.change(&json!({ "text": "x" }), Unit::Byte), Some(()));
+        assert_eq!(text.text, "x");
+        assert_eq!(text.change(&json!({ "range": 5, "text": "x" }), Unit::Byte), None);
+    }
+}

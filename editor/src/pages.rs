@@ -1,0 +1,181 @@
+//! The pages on the words of VGDL (`docs/ontology`) and on the codes of problems (`docs/diagnostics`), and excerpts of
+//! them, as Markdown.
+
+use crate::values;
+use crate::words::Owner;
+use engine::{ParameterKind, SPRITE_PARAMETERS, SpriteClass, effect_parameters};
+use include_dir::{Dir, include_dir};
+
+static ONTOLOGY: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/ontology");
+static DIAGNOSTICS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/diagnostics");
+
+/// The page of a sprite class, an effect, a termination or the code of a problem, as Markdown.
+pub fn page(name: &str) -> Option<&'static str> {
+    let of_code = || DIAGNOSTICS.get_file(format!("{name}.md"))?.contents_utf8();
+    of_word(name).or_else(of_code)
+}
+
+fn of_word(word: &str) -> Option<&'static str> {
+    ["sprites", "effects", "terminations"].into_iter().find_map(|folder| text(folder, word))
+}
+
+fn text(folder: &str, name: &str) -> Option<&'static str> {
+    ONTOLOGY.get_file(format!("{folder}/{name}.md"))?.contents_utf8()
+}
+
+/// The introduction of a word's page: its title, its first paragraph, and its parameters.
+pub(crate) fn introduction(word: &str) -> Option<String> {
+    let page = of_word(word)?;
+    let mut markdown = format!("**{word}**\n\n{}\n", summary(word)?);
+    let rows: Vec<&str> = page.lines().skip_while(|line| !line.starts_with("| parameter")).collect();
+    let rows = rows.into_iter().take_while(|line| line.starts_with('|'));
+    let table: String = rows.map(|row| format!("{}\n", unlinked(row))).collect();
+    if !table.is_empty() {
+        markdown += &format!("\n{table}");
+    }
+    Some(markdown)
+}
+
+/// The first paragraph of a word's page, in one line.
+pub(crate) fn summary(word: &str) -> Option<String> {
+    let body = of_word(word)?.split_once('\n')?.1.trim_start();
+    let paragraph = body.split("\n\n").next()?;
+    Some(unlinked(&paragraph.lines().collect::<Vec<_>>().join(" ")))
+}
+
+/// The row of a parameter: its default, and its meaning.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Row {
+    pub(crate) default: String,
+    pub(crate) meaning: String,
+}
+
+/// The row of a parameter of a line: on the page of the line's word, of those that it extends, or of all of its kind.
+pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
+    let found = |folder: &str, name: &str| text(folder, name).and_then(|page| row_of(page, key));
+    match owner {
+        Owner::Sprite(class) => class
+            .and_then(|class| {
+                let mut extended = SpriteClass::ALL.iter().rev().filter(|other| class.is_a(**other));
+                found("sprites", class.name())
+                    .or_else(|| extended.find_map(|other| found("sprites", other.name())))
+            })
+            .or_else(|| found("sprites", "README")),
+        Owner::Effect(keyword, planned) => found("effects", keyword)
+            .or_else(|| planned.and_then(|planned| found("effects", planned)))
+            .or_else(|| found("effects", "README")),
+        Owner::Termination(class) => found("terminations", class).or_else(|| found("terminations", "README")),
+        Owner::Game | Owner::Parameter | Owner::Nobody => None,
+    }
+}
+
+/// The row of a table whose first column names a parameter.
+fn row_of(page: &str, key: &str) -> Option<Row> {
+    let named = format!("`{key}`");
+    page.lines().filter(|line| line.starts_with('|')).find_map(|line| {
+        let mut columns = line.trim_matches('|').splitn(3, '|').map(str::trim);
+        let (name, default, meaning) = (columns.next()?, columns.next()?, columns.next()?);
+        name.split(", ")
+            .any(|name| name == named)
+            .then(|| Row { default: unlinked(default), meaning: unlinked(meaning) })
+    })
+}
+
+/// The parameters that a line takes, its own first.
+pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
+    let mut keys: Vec<&'static str> = match owner {
+        Owner::Game => values::HEADER.to_vec(),
+        Owner::Sprite(class) => {
+            let own = class.map_or(Vec::new(), SpriteClass::parameters);
+            own.into_iter().chain(SPRITE_PARAMETERS.iter().copied()).collect()
+        }
+        Owner::Effect(keyword, planned) => {
+            let own = [Some(keyword), planned].into_iter().flatten().flat_map(effect_parameters);
+            // The number of a type is for the reference only.
+            let own = own.filter(|(_, kind)| *kind != ParameterKind::TypeNumber).map(|(key, _)| key);
+            let clock: &[&str] = if keyword == "addTimer" { &values::OF_CLOCKS } else { &[] };
+            own.chain(clock.iter().copied()).chain(values::OF_EFFECTS).collect()
+        }
+        Owner::Termination(class) => {
+            values::of_termination(class).iter().copied().chain(values::OF_TERMINATIONS).collect()
+        }
+        Owner::Parameter => values::OF_PARAMETERS.to_vec(),
+        Owner::Nobody => Vec::new(),
+    };
+    let mut seen = Vec::new();
+    keys.retain(|key| {
+        !seen.contains(key) && {
+            seen.push(*key);
+            true
+        }
+    });
+    keys
+}
+
+/// Markdown with its links replaced by their texts: they lead to files that an editor does not have.
+fn unlinked(markdown: &str) -> String {
+    let mut out = String::with_capacity(markdown.len());
+    let mut rest = markdown;
+    while let Some(open) = rest.find('[') {
+        let link = rest[open..].find("](").and_then(|middle| {
+            let middle = open + middle;
+            let close = middle + rest[middle..].find(')')?;
+            (!rest[open + 1..middle].contains('[')).then_some((middle, close))
+        });
+        let Some((middle, close)) = link else {
+            out.push_str(&rest[..=open]);
+            rest = &rest[open + 1..];
+            continue;
+        };
+        out.push_str(&rest[..open]);
+        out.push_str(&rest[open + 1..middle]);
+        rest = &rest[close + 1..];
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_has_an_introduction() {
+        let classes = SpriteClass::ALL.iter().map(|class| class.name());
+        for word in classes.chain(engine::EFFECTS.iter().copied()).chain(engine::TERMINATIONS.iter().copied())
+        {
+            let introduction = introduction(word).unwrap();
+            assert!(introduction.len() > word.len() + 20, "{introduction}");
+            assert!(!introduction.contains(".md"), "{introduction}");
+        }
+    }
+
+    #[test]
+    fn every_parameter_has_a_row() {
+        let mut missing = Vec::new();
+        let classes = SpriteClass::ALL.iter().map(|&class| Owner::Sprite(Some(class)));
+        let effects = engine::EFFECTS.iter().map(|&keyword| Owner::Effect(keyword, None));
+        let terminations = engine::TERMINATIONS.iter().map(|&class| Owner::Termination(class));
+        for owner in classes.chain(effects).chain(terminations) {
+            let without = parameters(owner).into_iter().filter(|key| row(owner, key).is_none());
+            missing.extend(without.map(|key| format!("{owner:?} {key}")));
+        }
+        assert!(missing.is_empty(), "{missing:#?}");
+    }
+
+    #[test]
+    fn codes_have_pages() {
+        let problems = crate::problems("BasicGame");
+        assert!(!problems.is_empty());
+        for problem in problems {
+            assert!(page(problem.code).is_some_and(|page| page.starts_with(&format!("# {}", problem.code))));
+        }
+        assert_eq!(page("nonsense"), None);
+        assert_eq!(page("../lsp"), None);
+    }
+
+    #[test]
+    fn links_become_their_texts() {
+        assert_eq!(unlinked("a [b](c.md) [d] [e](f)"), "a b [d] e");
+        assert_eq!(unlinked("[[x](y)"), "[x");
+    }
+}

@@ -1,0 +1,153 @@
+//! The problems of a text, each with the repairs that a program can make.
+
+use engine::{Diagnostic, Edit, Fix, Game, LevelMapping, Severity, Span};
+
+/// A problem of a game or a level.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The stable code, which is also the name of a page of the manual: `unknown-sprite`.
+    pub code: &'static str,
+    /// Error or warning.
+    pub severity: Severity,
+    /// The message, which names the faulty word; lower-case, no full stop.
+    pub message: String,
+    /// A note on the place; may be empty.
+    pub label: String,
+    /// The suggested next step, if there is one.
+    pub help: Option<String>,
+    /// The place.
+    pub span: Span,
+    /// The repairs, the most likely first.
+    pub fixes: Vec<Fix>,
+}
+
+impl Problem {
+    /// The problem that the engine found in a text.
+    pub fn of(problem: Diagnostic, source: &str) -> Problem {
+        let Diagnostic { code, severity, message, span, label, help, fix } = problem;
+        let fixes = fix.map(|fix| tidied(*fix, source)).into_iter().collect();
+        Problem { code, severity, message, label, help, span, fixes }
+    }
+}
+
+/// The problems of a game's text, sorted by place: errors and warnings; those about the rules as a whole once there are no
+/// errors.
+pub fn problems(source: &str) -> Vec<Problem> {
+    let found = match Game::from_source(source) {
+        Ok(game) => game.warnings().to_vec(),
+        Err(problems) => problems.0,
+    };
+    found.into_iter().map(|problem| Problem::of(problem, source)).collect()
+}
+
+/// The problems of a level's text under a game's; of a game with errors only those that are certain whatever is wrong
+/// with it. For several levels of one game, [`LevelRules`] reads the game once.
+pub fn level_problems(source: &str, level: &str) -> Vec<Problem> {
+    LevelRules::of(source).problems(level)
+}
+
+/// The rules of a game for its levels, as far as its text can be read.
+#[derive(Clone, Debug)]
+pub struct LevelRules(Rules);
+
+#[derive(Clone, Debug)]
+enum Rules {
+    Game(Game),
+    Mapping(LevelMapping),
+    Unknown,
+}
+
+impl LevelRules {
+    /// The rules of a game's text.
+    pub fn of(source: &str) -> LevelRules {
+        LevelRules(match Game::from_source(source) {
+            Ok(game) => Rules::Game(game),
+            Err(_) => LevelMapping::of_source(source).map_or(Rules::Unknown, Rules::Mapping),
+        })
+    }
+
+    /// The problems of a level's text, sorted by place.
+    pub fn problems(&self, level: &str) -> Vec<Problem> {
+        let found = match &self.0 {
+            Rules::Game(game) => {
+                game.level(level).map_or_else(|problems| problems.0, |level| level.warnings().to_vec())
+            }
+            Rules::Mapping(mapping) => mapping.problems(level),
+            Rules::Unknown => Vec::new(),
+        };
+        found.into_iter().map(|problem| Problem::of(problem, level)).collect()
+    }
+}
+
+/// The text after the edits, whose ranges must be disjoint; those outside the text, or inside a character, are left out.
+pub fn applied(text: &str, edits: &[Edit]) -> String {
+    let mut sorted: Vec<&Edit> = edits.iter().collect();
+    sorted.sort_by_key(|edit| edit.span);
+    let (mut out, mut done) = (String::with_capacity(text.len()), 0);
+    for edit in sorted {
+        let Some(before) = text.get(done..edit.span.start) else { continue };
+        if text.get(edit.span.start..edit.span.end).is_none() {
+            continue;
+        }
+        out.push_str(before);
+        out.push_str(&edit.text);
+        done = edit.span.end;
+    }
+    out.push_str(&text[done..]);
+    out
+}
+
+/// The fix with the blanks before a removed word removed as well, unless they indent the line or separate words.
+fn tidied(mut fix: Fix, source: &str) -> Fix {
+    for edit in fix.edits.iter_mut().filter(|edit| edit.text.is_empty()) {
+        let (Some(before), Some(after)) = (source.get(..edit.span.start), source.get(edit.span.end..)) else {
+            continue;
+        };
+        let kept = before.trim_end_matches([' ', '\t']);
+        let indents = kept.is_empty() || kept.ends_with(['\n', '\r']);
+        let is_word = !source[edit.span.start..edit.span.end].starts_with(char::is_whitespace);
+        let separated = after.is_empty() || after.starts_with([' ', '\t', '\n', '\r', '#']);
+        if !indents && is_word && separated {
+            edit.span.start = kept.len();
+        }
+    }
+    fix
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GAME: &str = "BasicGame\n    SpriteSet\n        nut > Immovable size=3\n        hero > MovingAvatar\n    LevelMapping\n        n > nut\n        h > hero\n    InteractionSet\n        nut hero > killSprite\n    TerminationSet\n        SpriteCounter stype=nut win=True\n        Timeout limit=99\n";
+
+    #[test]
+    fn a_repair_removes_its_problem() {
+        let found = problems(GAME);
+        assert_eq!((found.len(), found[0].code), (1, "unknown-parameter"));
+        let repaired = applied(GAME, &found[0].fixes[0].edits);
+        assert!(repaired.contains("nut > Immovable\n"), "{repaired}");
+        assert_eq!(problems(&repaired), []);
+    }
+
+    #[test]
+    fn levels_are_checked_under_faulty_games_too() {
+        assert_eq!(
+            level_problems(GAME, "nxh\n").iter().map(|p| p.code).collect::<Vec<_>>(),
+            ["undefined-character"]
+        );
+        assert_eq!(level_problems("", "nxh\n"), []);
+        let short = level_problems(&GAME.replace(" size=3", ""), "hn\nn\n");
+        assert_eq!(applied("hn\nn\n", &short[0].fixes[0].edits), "hn\nn \n");
+    }
+
+    #[test]
+    fn edits_outside_the_text_are_left_out() {
+        let edits = [
+            Edit::new(Span::new(1, 2), "x"),
+            Edit::new(Span::new(0, 1), "y"),
+            Edit::new(Span::new(7, 9), "z"),
+        ];
+        assert_eq!(applied("abc", &edits), "yxc");
+        assert_eq!(applied("é", &[Edit::new(Span::new(1, 2), "x")]), "é");
+    }
+}

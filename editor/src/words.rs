@@ -1,0 +1,468 @@
+//! The words of a game text and their parts in the game, line by line: a line that is half written costs only its own
+//! words, and a word is known before the game compiles.
+
+use crate::values;
+use engine::limits::MAX_LINE;
+use engine::syntax::Section;
+use engine::{EFFECTS, MAX_SOURCE, Span, SpriteClass, TERMINATIONS, nearest};
+use std::collections::BTreeSet;
+
+/// The sprite types that every game has, declared or not, with their classes.
+pub(crate) const BUILT_IN: [(&str, SpriteClass); 2] =
+    [("wall", SpriteClass::Immovable), ("avatar", SpriteClass::MovingAvatar)];
+
+/// The words that stand for no sprite in interactions.
+pub(crate) const EDGES: [&str; 2] = ["EOS", "TIME"];
+
+/// All sections, in canonical order.
+pub(crate) const SECTIONS: [Section; 5] = [
+    Section::ParameterSet,
+    Section::SpriteSet,
+    Section::LevelMapping,
+    Section::InteractionSet,
+    Section::TerminationSet,
+];
+
+/// The place of a line in the game.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// The first line.
+    Header,
+    /// The name of a section.
+    Head(Section),
+    /// A line of a section.
+    Body(Section),
+    /// Before all sections.
+    Outside,
+}
+
+/// The part that a word has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// `BasicGame` or `GameSpace`.
+    GameClass,
+    /// The name of a section.
+    Section(Section),
+    /// The name of a sprite type, where it is declared.
+    Declaration,
+    /// The name of a sprite type, elsewhere.
+    Sprite,
+    /// A sprite class.
+    Class,
+    /// The keyword of an effect.
+    Effect,
+    /// `EOS` or `TIME`.
+    Edge,
+    /// A termination class.
+    Termination,
+    /// A level character, where it is declared.
+    Symbol,
+    /// The name of a parameter.
+    Key,
+    /// The value of a parameter that names neither a sprite nor an effect.
+    Value,
+    /// The name of a parameter of a `GameSpace`, where it is declared.
+    Parameter,
+    /// The name of such a parameter as a value.
+    ParameterUse,
+    /// A `>`.
+    Arrow,
+    /// A word that belongs nowhere.
+    Stray,
+}
+
+/// The owner of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Owner<'a> {
+    /// The first line.
+    Game,
+    /// A sprite type with that class, inherited or its own.
+    Sprite(Option<SpriteClass>),
+    /// An effect, by keyword, and the one that it plans.
+    Effect(&'a str, Option<&'a str>),
+    /// A termination, by class.
+    Termination(&'a str),
+    /// A parameter of a `GameSpace`.
+    Parameter,
+    /// A line that lacks its subject.
+    Nobody,
+}
+
+/// A word, an entry of a list of names, or a half of a parameter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Word<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) span: Span,
+    pub(crate) role: Role,
+    pub(crate) owner: Owner<'a>,
+    /// The parameter that the word is a value of.
+    pub(crate) key: Option<&'a str>,
+}
+
+/// A line that is not blank.
+#[derive(Clone, Debug)]
+pub(crate) struct Line<'a> {
+    pub(crate) place: Place,
+    /// The line without indent, comment and trailing blanks.
+    pub(crate) span: Span,
+    pub(crate) words: Vec<Word<'a>>,
+}
+
+/// A line of the SpriteSet.
+#[derive(Clone, Debug)]
+pub(crate) struct Sprite<'a> {
+    pub(crate) name: &'a str,
+    /// The class that the sprites have: an inherited one beats the written one.
+    pub(crate) class: Option<SpriteClass>,
+    /// The index of the parent.
+    pub(crate) parent: Option<usize>,
+    /// The parameters that the line names.
+    pub(crate) params: Vec<(&'a str, &'a str)>,
+}
+
+/// A game text, split into words.
+#[derive(Clone, Debug)]
+pub(crate) struct Words<'a> {
+    pub(crate) lines: Vec<Line<'a>>,
+    pub(crate) sprites: Vec<Sprite<'a>>,
+}
+
+/// Tests whether a character separates words, as the engine does.
+pub(crate) fn is_blank(c: char) -> bool {
+    c <= ' '
+}
+
+/// The text of a line before its comment: `#`, or the `//` of other languages.
+pub(crate) fn code(raw: &str) -> &str {
+    let code = raw.split('#').next().unwrap_or_default();
+    let foreign = |&(at, _): &(usize, &str)| code[..at].chars().next_back().is_none_or(is_blank);
+    match code.match_indices("//").find(foreign) {
+        Some((at, _)) => &code[..at],
+        None => code,
+    }
+}
+
+/// The section that a line names, misspelt or not.
+fn section(text: &str) -> Option<Section> {
+    let exact = SECTIONS.into_iter().find(|section| section.name() == text);
+    exact.or_else(|| {
+        let is_word = !text.contains(|c: char| is_blank(c) || c == '=') && !TERMINATIONS.contains(&text);
+        let name = nearest(text, SECTIONS.map(Section::name)).filter(|_| is_word)?;
+        SECTIONS.into_iter().find(|section| section.name() == name)
+    })
+}
+
+impl<'a> Words<'a> {
+    /// The words of a text; none of one that is too long to be read, and none of its lines that are.
+    pub(crate) fn of(source: &'a str) -> Words<'a> {
+        if source.len() > MAX_SOURCE {
+            return Words { lines: Vec::new(), sprites: Vec::new() };
+        }
+        let mut raw = Vec::new();
+        let mut start = 0;
+        let mut place = Place::Outside;
+        for line in source.split(['\n', '\r']) {
+            let own = start;
+            start += line.len() + 1;
+            let marked = line.starts_with('\u{feff}') && own == 0;
+            let skipped = if marked { '\u{feff}'.len_utf8() } else { 0 };
+            let code = code(&line[skipped..]);
+            let text = code.trim_matches(is_blank);
+            if text.is_empty() || text.len() > MAX_LINE {
+                continue;
+            }
+            let at = own + skipped + (code.len() - code.trim_start_matches(is_blank).len());
+            let found = section(text);
+            place = match (found, place) {
+                (Some(section), _) => Place::Head(section),
+                (None, Place::Outside) if raw.is_empty() => Place::Header,
+                (None, Place::Header | Place::Outside) => Place::Outside,
+                (None, Place::Head(section) | Place::Body(section)) => Place::Body(section),
+            };
+            raw.push((place, at - own - skipped, at, text));
+        }
+        let sprites = sprites(raw.iter().filter(|line| line.0 == Place::Body(Section::SpriteSet)));
+        let in_space = |line: &&(Place, usize, usize, &'a str)| line.0 == Place::Body(Section::ParameterSet);
+        let parameters: BTreeSet<&str> =
+            raw.iter().filter(in_space).filter_map(|line| line.3.split(is_blank).next()).collect();
+        let mut declared = sprites.iter();
+        let lines = raw.iter().map(|&(place, _, at, text)| {
+            let class = match place {
+                Place::Body(Section::SpriteSet) => declared.next().and_then(|sprite| sprite.class),
+                _ => None,
+            };
+            let reader = Reader { place, class, parameters: &parameters };
+            Line { place, span: Span::new(at, at + text.len()), words: reader.words(at, text) }
+        });
+        Words { lines: lines.collect(), sprites }
+    }
+
+    /// All words, in order.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Word<'a>> {
+        self.lines.iter().flat_map(|line| &line.words)
+    }
+
+    /// The word at a byte, or the one that ends there.
+    pub(crate) fn at(&self, at: usize) -> Option<&Word<'a>> {
+        let mut around = self.all().filter(|word| word.span.start <= at && at <= word.span.end);
+        let first = around.next()?;
+        Some(around.next().filter(|next| next.span.start == at).unwrap_or(first))
+    }
+
+    /// The first sprite line with a name.
+    pub(crate) fn sprite(&self, name: &str) -> Option<&Sprite<'a>> {
+        self.sprites.iter().find(|sprite| sprite.name == name)
+    }
+
+    /// The sprite types above a type, its parent first.
+    pub(crate) fn ancestors<'b>(&'b self, sprite: &'b Sprite<'a>) -> impl Iterator<Item = &'b Sprite<'a>> {
+        std::iter::successors(Some(sprite), |sprite| self.sprites.get(sprite.parent?)).skip(1)
+    }
+
+    /// The parameters of a type, its own and then those that it inherits; `true` for inherited ones.
+    pub(crate) fn params(&self, sprite: &Sprite<'a>) -> Vec<(&'a str, &'a str, bool)> {
+        let mut seen = BTreeSet::new();
+        let own = sprite.params.iter().map(|&(key, value)| (key, value, false));
+        let above = self.ancestors(sprite).flat_map(|above| &above.params);
+        let all = own.chain(above.map(|&(key, value)| (key, value, true)));
+        all.filter(|(key, ..)| seen.insert(*key)).collect()
+    }
+
+    /// The names of all sprite types, in order, each once.
+    pub(crate) fn sprite_names(&self) -> Vec<&'a str> {
+        let mut seen = BTreeSet::new();
+        let declared = self.sprites.iter().map(|sprite| sprite.name);
+        declared.chain(BUILT_IN.map(|(name, _)| name)).filter(|name| seen.insert(*name)).collect()
+    }
+
+    /// The lines of the LevelMapping: the character, and the names that it places.
+    pub(crate) fn mapping(&self) -> impl Iterator<Item = (&Word<'a>, impl Iterator<Item = &'a str>)> {
+        let own = self.lines.iter().filter(|line| line.place == Place::Body(Section::LevelMapping));
+        own.filter_map(|line| {
+            let symbol = line.words.first().filter(|word| word.role == Role::Symbol)?;
+            let names = line.words.iter().filter(|word| word.role == Role::Sprite).map(|word| word.text);
+            Some((symbol, names))
+        })
+    }
+}
+
+/// The sprites of the lines of a SpriteSet.
+fn sprites<'a, 'b>(lines: impl Iterator<Item = &'b (Place, usize, usize, &'a str)>) -> Vec<Sprite<'a>>
+where
+    'a: 'b,
+{
+    let mut sprites: Vec<Sprite<'a>> = Vec::new();
+    // Indices of the ancestors, each with its indent and the class that its subtypes inherit.
+    let mut above: Vec<(usize, usize, Option<&'a str>)> = Vec::new();
+    for &(_, indent, _, text) in lines {
+        while above.last().is_some_and(|&(_, outer, _)| outer >= indent) {
+            above.pop();
+        }
+        let parent = above.last().copied();
+        let mut words = text.split(is_blank).filter(|word| !word.is_empty());
+        let name =
+            words.clone().next().filter(|word| *word != ">" && !word.contains('=')).unwrap_or_default();
+        let written = words.clone().skip_while(|word| *word != ">").skip(1).find(|word| !word.contains('='));
+        let params: Vec<(&str, &str)> = words
+            .by_ref()
+            .filter_map(|word| word.split_once('='))
+            .filter(|(key, _)| !key.is_empty())
+            .collect();
+        let inherited = parent.and_then(|(_, _, class)| class);
+        above.push((sprites.len(), indent, written.or(inherited)));
+        sprites.push(Sprite {
+            name,
+            class: inherited.or(written).and_then(SpriteClass::from_name),
+            parent: parent.map(|(parent, ..)| parent),
+            params,
+        });
+    }
+    sprites
+}
+
+/// Gives the words of a line their parts.
+struct Reader<'b> {
+    place: Place,
+    /// The class of the line's sprite type.
+    class: Option<SpriteClass>,
+    /// The names of the parameters of a `GameSpace`.
+    parameters: &'b BTreeSet<&'b str>,
+}
+
+impl Reader<'_> {
+    fn words<'a>(&self, start: usize, text: &'a str) -> Vec<Word<'a>> {
+        let mut at = start;
+        let mut tokens = Vec::new();
+        for token in text.split(is_blank) {
+            if !token.is_empty() {
+                tokens.push((at, token));
+            }
+            // A blank has one byte.
+            at += token.len() + 1;
+        }
+        let is_arrow = |&(_, token): &(usize, &str)| token == ">";
+        let symbol = self.place == Place::Body(Section::LevelMapping);
+        let arrow =
+            tokens.iter().skip(usize::from(symbol)).position(is_arrow).map(|at| at + usize::from(symbol));
+        let plain = |(at, token): (usize, &'a str)| (!token.contains('=')).then_some((at, token));
+        let after =
+            |arrow: usize| tokens[arrow + 1..].iter().copied().find_map(plain).map(|(_, token)| token);
+        let key = |key: &str| {
+            tokens.iter().filter_map(|(_, token)| token.split_once('=')).find(|(own, _)| *own == key)
+        };
+        let owner = match self.place {
+            Place::Header => Owner::Game,
+            Place::Body(Section::SpriteSet) => Owner::Sprite(self.class),
+            Place::Body(Section::InteractionSet) => match arrow.and_then(after) {
+                Some(effect) => Owner::Effect(effect, key("ftype").map(|(_, planned)| planned)),
+                None => Owner::Nobody,
+            },
+            Place::Body(Section::TerminationSet) => tokens
+                .iter()
+                .copied()
+                .find_map(plain)
+                .map_or(Owner::Nobody, |(_, class)| Owner::Termination(class)),
+            Place::Body(Section::ParameterSet) => Owner::Parameter,
+            Place::Body(Section::LevelMapping) | Place::Head(_) | Place::Outside => Owner::Nobody,
+        };
+        let mut words = Vec::new();
+        let mut seen = [0; 2];
+        for (index, &(at, token)) in tokens.iter().enumerate() {
+            let is_past = arrow.is_some_and(|arrow| index > arrow);
+            let word =
+                |role| Word { text: token, span: Span::new(at, at + token.len()), role, owner, key: None };
+            if arrow == Some(index) {
+                words.push(word(Role::Arrow));
+                continue;
+            }
+            if let Some((key, value)) = token.split_once('=').filter(|_| !(symbol && index == 0)) {
+                self.param(at, key, value, owner, &mut words);
+                continue;
+            }
+            let count = &mut seen[usize::from(is_past)];
+            let role = self.role(token, is_past, *count);
+            *count += 1;
+            words.push(word(role));
+        }
+        words
+    }
+
+    /// The part of a word; `count` others stand before it on the same side of the arrow.
+    fn role(&self, token: &str, is_past: bool, count: usize) -> Role {
+        use Section as S;
+        match (self.place, is_past, count) {
+            (Place::Header, false, 0) => Role::GameClass,
+            (Place::Head(section), ..) => Role::Section(section),
+            (Place::Body(S::SpriteSet), false, 0) => Role::Declaration,
+            (Place::Body(S::SpriteSet), true, 0) => Role::Class,
+            (Place::Body(S::LevelMapping), false, 0) => Role::Symbol,
+            (Place::Body(S::LevelMapping), true, _) => Role::Sprite,
+            (Place::Body(S::InteractionSet), true, 0) => Role::Effect,
+            (Place::Body(S::InteractionSet), false, _) if EDGES.contains(&token) => Role::Edge,
+            // The arrow is not written yet.
+            (Place::Body(S::InteractionSet), false, 2..) if EFFECTS.contains(&token) => Role::Effect,
+            (Place::Body(S::InteractionSet), false, _) => Role::Sprite,
+            (Place::Body(S::TerminationSet), _, 0) => Role::Termination,
+            (Place::Body(S::ParameterSet), false, 0) => Role::Parameter,
+            _ => Role::Stray,
+        }
+    }
+
+    fn param<'a>(
+        &self,
+        at: usize,
+        key: &'a str,
+        value: &'a str,
+        owner: Owner<'a>,
+        words: &mut Vec<Word<'a>>,
+    ) {
+        let span = Span::new(at, at + key.len());
+        words.push(Word { text: key, span, role: Role::Key, owner, key: None });
+        let mut start = span.end + 1;
+        let kind = values::kind(owner, key);
+        let role = match kind {
+            Some(values::Kind::Sprites) => Role::Sprite,
+            Some(values::Kind::Effect) => Role::Effect,
+            _ if self.parameters.contains(value) => Role::ParameterUse,
+            _ => Role::Value,
+        };
+        let parts = if role == Role::Sprite { value.split(',').collect() } else { vec![value] };
+        for part in parts {
+            let span = Span::new(start, start + part.len());
+            start = span.end + 1;
+            if !part.is_empty() {
+                words.push(Word { text: part, span, role, owner, key: Some(key) });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn roles(source: &str) -> Vec<(&str, Role)> {
+        Words::of(source).all().map(|word| (word.text, word.role)).collect()
+    }
+
+    #[test]
+    fn every_word_has_its_part() {
+        let source = "\u{feff}BasicGame obs=a,b # game\n SpriteSet\n  den > SpawnPoint stype=fox color=RED\n LevelMapping\n  = > den\n InteractionSet\n  fox EOS > addTimer ftype=killAll stype=den\n TerminationSet\n  Timeout limit=5\n";
+        use Role as R;
+        assert_eq!(
+            roles(source),
+            [
+                ("BasicGame", R::GameClass),
+                ("obs", R::Key),
+                ("a", R::Sprite),
+                ("b", R::Sprite),
+                ("SpriteSet", R::Section(Section::SpriteSet)),
+                ("den", R::Declaration),
+                (">", R::Arrow),
+                ("SpawnPoint", R::Class),
+                ("stype", R::Key),
+                ("fox", R::Sprite),
+                ("color", R::Key),
+                ("RED", R::Value),
+                ("LevelMapping", R::Section(Section::LevelMapping)),
+                ("=", R::Symbol),
+                (">", R::Arrow),
+                ("den", R::Sprite),
+                ("InteractionSet", R::Section(Section::InteractionSet)),
+                ("fox", R::Sprite),
+                ("EOS", R::Edge),
+                (">", R::Arrow),
+                ("addTimer", R::Effect),
+                ("ftype", R::Key),
+                ("killAll", R::Effect),
+                ("stype", R::Key),
+                ("den", R::Sprite),
+                ("TerminationSet", R::Section(Section::TerminationSet)),
+                ("Timeout", R::Termination),
+                ("limit", R::Key),
+                ("5", R::Value),
+            ]
+        );
+        for word in Words::of(source).all() {
+            assert_eq!(&source[word.span.start..word.span.end], word.text);
+        }
+    }
+
+    #[test]
+    fn subtypes_inherit_classes_and_parameters() {
+        let source = "BasicGame\n SpriteSet\n  beast > Missile speed=2 color=RED\n   fox > RandomNPC color=BLUE\n  rock > Immovable\n";
+        let words = Words::of(source);
+        let fox = words.sprite("fox").unwrap();
+        assert_eq!(fox.class, Some(SpriteClass::Missile));
+        assert_eq!(words.params(fox), [("color", "BLUE", false), ("speed", "2", true)]);
+        assert_eq!(words.sprite("rock").unwrap().parent, None);
+    }
+
+    #[test]
+    fn half_written_lines_have_words_too() {
+        let source = "BasicGame\n SpritSet\n  fox > \n InteractionSet\n  fox wall";
+        let found = roles(source);
+        assert_eq!(found[2], ("fox", Role::Declaration));
+        assert_eq!(found[5..], [("fox", Role::Sprite), ("wall", Role::Sprite)]);
+    }
+}

@@ -1,0 +1,144 @@
+//! HTTP on a port of this machine within bounds: connections, time, and the memory of bodies.
+
+use super::bounds::Bounds;
+use axum::Router;
+use axum::body::{Body, Bytes, HttpBody};
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use std::io;
+use std::net::{Ipv4Addr, TcpListener};
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+
+/// The pause after a failure to accept a connection because the system has too many open.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// The number of bytes of a request's body that one permit covers.
+const UNIT: usize = 1024;
+
+/// Binds a port of 127.0.0.1; any free one for 0. Only this machine can reach it.
+///
+/// # Errors
+/// The port cannot be bound.
+pub fn bind(port: u16) -> io::Result<TcpListener> {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
+    listener.set_nonblocking(true)?;
+    Ok(listener)
+}
+
+/// Answers connections on one thread until `stopped` is ready; work that handlers give to blocking threads is not waited for.
+///
+/// # Errors
+/// The runtime cannot be started.
+pub fn answer(
+    listener: TcpListener,
+    router: Router,
+    bounds: Bounds,
+    stopped: impl Future<Output = ()> + Send,
+) -> io::Result<()> {
+    let mut runtime = tokio::runtime::Builder::new_current_thread();
+    let runtime = runtime.enable_all().max_blocking_threads(bounds.threads).build()?;
+    let answered = runtime.block_on(async {
+        let listener = tokio::net::TcpListener::from_std(listener)?;
+        tokio::select! {
+            () = accept(listener, router, bounds) => {}
+            () = stopped => {}
+        }
+        Ok(())
+    });
+    runtime.shutdown_background();
+    answered
+}
+
+/// Answers every connection, up to the bounds. Connections beyond them wait in the queue of the operating system.
+async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
+    let places = Arc::new(Semaphore::new(bounds.connections));
+    loop {
+        let place = places.clone().acquire_owned().await.expect("it is never closed");
+        let Ok((stream, _)) = listener.accept().await else {
+            tokio::time::sleep(PAUSE).await;
+            continue;
+        };
+        let service = TowerToHyperService::new(router.clone());
+        tokio::spawn(async move {
+            let mut http = http1::Builder::new();
+            http.timer(TokioTimer::new()).header_read_timeout(bounds.head_time);
+            // A client that disconnects, or is too slow, is not an error of the server.
+            let _ = http.serve_connection(TokioIo::new(stream), service).await;
+            drop::<OwnedSemaphorePermit>(place);
+        });
+    }
+}
+
+/// The reasons for not having the body of a request.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unread {
+    /// It is larger than this number of bytes.
+    #[error("a request has at most {0} bytes")]
+    TooLarge(usize),
+    /// The connection broke.
+    #[error("the request was cut off: {0}")]
+    CutOff(String),
+    /// The client was too slow, or the memory for bodies was taken for too long.
+    #[error("the request was not received in time, or too many others are in progress; try again")]
+    Late,
+}
+
+/// The memory for bodies that are being read or answered.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    bounds: Bounds,
+    memory: Arc<Semaphore>,
+}
+
+impl Bodies {
+    /// Memory within these bounds.
+    pub fn new(bounds: Bounds) -> Bodies {
+        Bodies { bounds, memory: Arc::new(Semaphore::new(bounds.bodies / UNIT)) }
+    }
+
+    /// Reads a body within the bounds. Room for its stated size, or else for the maximum, is reserved first, until the permit is
+    /// dropped.
+    ///
+    /// # Errors
+    /// It is too large, too slow or cut off.
+    pub async fn read(&self, body: Body) -> Result<(Bytes, OwnedSemaphorePermit), Unread> {
+        let Bounds { body: most, bodies, body_time, .. } = self.bounds;
+        let most = most.min(bodies);
+        // The stated length is reliable: the body has no more bytes than that.
+        let stated = HttpBody::size_hint(&body).upper();
+        let size = match stated.map(usize::try_from) {
+            Some(Ok(size)) if size <= most => size,
+            Some(_) => {
+                // A client that is still sending could not read the answer.
+                let _ = tokio::time::timeout(body_time, discard(body, 2 * most)).await;
+                return Err(Unread::TooLarge(most));
+            }
+            None => most,
+        };
+        let read = async {
+            let units = u32::try_from(size.div_ceil(UNIT)).expect("no body is that large");
+            let taken = self.memory.clone().acquire_many_owned(units).await.expect("it is never closed");
+            (axum::body::to_bytes(body, size).await, taken)
+        };
+        match tokio::time::timeout(body_time, read).await {
+            Ok((Ok(bytes), taken)) => Ok((bytes, taken)),
+            Ok((Err(_), _)) if stated.is_none() => Err(Unread::TooLarge(most)),
+            Ok((Err(error), _)) => Err(Unread::CutOff(error.to_string())),
+            Err(_) => Err(Unread::Late),
+        }
+    }
+}
+
+/// Reads and discards up to `most` bytes of a body.
+async fn discard(body: Body, most: usize) {
+    let (mut body, mut left) = (std::pin::pin!(body), most);
+    while let Some(Ok(frame)) = std::future::poll_fn(|context| body.as_mut().poll_frame(context)).await {
+        left = left.saturating_sub(frame.data_ref().map_or(0, Bytes::len));
+        if left == 0 {
+            return;
+        }
+    }
+}

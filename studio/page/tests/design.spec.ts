@@ -1,0 +1,158 @@
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Page } from '@playwright/test';
+import { expect, open, test } from './studio';
+
+const VIEW = 'design/moth-and-lamps/0';
+
+/** Clicks a square of the level. */
+async function paint(page: Page, x: number, y: number): Promise<void> {
+  const canvas = page.locator('.paint canvas');
+  const box = await canvas.boundingBox();
+  if (!box) throw new Error('the level is not shown');
+  const cell = box.width / 8;
+  await canvas.click({ position: { x: (x + 0.5) * cell, y: (y + 0.5) * cell } });
+}
+
+/** Misspells the sprite in the line that collects lamps. */
+async function misspell(page: Page): Promise<void> {
+  await page.locator('.cm-line', { hasText: 'lamp moth' }).click();
+  await page.keyboard.press('Home');
+  for (let letter = 0; letter < 4; letter += 1) await page.keyboard.press('Delete');
+  await page.keyboard.type('lmap', { delay: 20 });
+  await page.keyboard.press('Escape');
+}
+
+test('a level that cannot be won says why, and can be won again after an undo', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await page.getByRole('radio', { name: /^hedge/ }).click();
+  await paint(page, 2, 3);
+  await paint(page, 4, 3);
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
+  await expect(page.getByRole('heading', { name: 'Out of reach' })).toBeVisible();
+  await page.locator('.verdict .evidence button').first().click();
+  await page.locator('.paint canvas').focus();
+  await page.keyboard.press('Control+z');
+  await expect(page.getByText(/^Can be won in/)).toBeVisible();
+  await page.keyboard.press('Control+Shift+Z');
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
+});
+
+test('a level is painted with the keyboard alone, and the cursor is announced', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await page.locator('.paint canvas').focus();
+  for (const key of ['ArrowDown', 'ArrowRight', 'ArrowRight', 'ArrowDown', 'ArrowDown', 'ArrowDown']) await page.keyboard.press(key);
+  await expect(page.locator('.under')).toContainText('Column 3, row 4: floor');
+  await page.keyboard.press('w');
+  await expect(page.locator('.under')).toContainText('Column 3, row 4: hedge');
+  await expect(page.getByText('Can be won in 6 ticks')).toBeVisible();
+});
+
+test('a misspelt name is underlined, and a click repairs it', async ({ page, studio }) => {
+  const running = await studio('games');
+  await open(page, running, VIEW);
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await misspell(page);
+  const problem = page.getByRole('list', { name: 'Problems' }).getByRole('listitem').filter({ hasText: 'lmap' }).first();
+  await expect(problem).toBeVisible();
+  await expect(page.locator('.cm-lintRange-error').first()).toBeVisible();
+  await problem.getByRole('button', { name: /lamp/ }).click();
+  await expect(page.locator('.cm-line', { hasText: 'lamp moth' })).toBeVisible();
+  await expect(page.getByRole('list', { name: 'Problems' })).toBeHidden();
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+
+  await misspell(page);
+  await expect(problem).toBeVisible();
+  await page.keyboard.press('Control+.');
+  await expect(page.getByRole('list', { name: 'Problems' })).toBeHidden();
+});
+
+test('names are renamed everywhere, completed and explained', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await page.locator('.cm-line', { hasText: 'lamp moth' }).click();
+  await page.keyboard.press('Home');
+  await page.keyboard.press('F2');
+  await page.getByLabel('New name').fill('lantern');
+  await page.getByRole('button', { name: 'Rename everywhere' }).click();
+  await expect(page.locator('.cm-line', { hasText: 'lantern' })).toHaveCount(4);
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await page.locator('.cm-line', { hasText: 'lantern moth' }).getByText('killSprite').hover();
+  await expect(page.locator('.cm-tooltip-hover')).toContainText(/\w/);
+  await page.mouse.move(1, 1);
+  await expect(page.locator('.cm-tooltip-hover')).toBeHidden();
+  await page.locator('.cm-line', { hasText: 'moth hedge' }).click();
+  await page.keyboard.press('End');
+  await page.keyboard.press('Enter');
+  await page.keyboard.type('lantern hedge > kill', { delay: 30 });
+  await expect(page.locator('.cm-tooltip-autocomplete')).toContainText('killSprite');
+});
+
+test('files are saved, and what another program wrote is not overwritten', async ({ page, studio }) => {
+  const running = await studio('games');
+  const file = join(running.folder, 'moth-and-lamps/lvl0.txt');
+  await open(page, running, VIEW);
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await page.getByRole('radio', { name: /^hedge/ }).click();
+  await paint(page, 1, 3);
+  await page.keyboard.press('Control+s');
+  await expect(page.getByText('Saved lvl0.txt.')).toBeVisible();
+  expect(readFileSync(file, 'utf8').split('\n')[3]).toBe('ww.l.w.w');
+
+  await paint(page, 4, 3);
+  const outside = readFileSync(file, 'utf8').replace('wa', 'w.').replace('.....w', '....aw');
+  writeFileSync(file, outside);
+  await expect(page.getByText(/lvl0.txt changed outside, and here too/)).toBeVisible();
+  await page.keyboard.press('Control+s');
+  await expect(page.getByRole('dialog')).toContainText('changed outside');
+  await page.getByRole('button', { name: 'Keep mine' }).click();
+  await page.keyboard.press('Control+s');
+  await expect(page.getByText('Saved lvl0.txt.')).toBeVisible();
+  expect(readFileSync(file, 'utf8').split('\n')[3]).toBe('ww.lww.w');
+
+  writeFileSync(file, outside);
+  await expect(page.getByText('lvl0.txt changed outside and was read again.')).toBeVisible();
+});
+
+test('a made level is inserted, and evidence plays in the board', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await page.getByRole('button', { name: 'Watch' }).click();
+  await expect(page.locator('.tick')).toHaveText(/\/4$/);
+  await page.getByRole('button', { name: 'Back to painting' }).click();
+  await page.getByRole('tab', { name: 'More like this' }).click();
+  await page.getByRole('button', { name: 'Make six' }).click();
+  const second = page.locator('.more canvas').nth(1);
+  await second.scrollIntoViewIfNeeded({ timeout: 20_000 });
+  await expect.poll(() => second.evaluate((canvas: HTMLCanvasElement) => canvas.getContext('2d')?.getImageData(0, 0, 1, 1).data[3])).toBe(255);
+  await page.getByRole('button', { name: 'Add', exact: true }).first().click();
+  await expect(page.getByRole('navigation', { name: 'Levels' }).getByRole('link')).toHaveCount(3);
+  await page.getByRole('tab', { name: 'Verdict' }).click();
+  await expect(page.getByText(/^Can be won in/)).toBeVisible();
+});
+
+test('a level with a fault says what is wrong and offers the repair', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await page.getByRole('button', { name: 'Text', exact: true }).click();
+  const text = page.getByLabel('Level as text');
+  await text.fill((await text.inputValue()).replace('..l.w', '..lXw'));
+  const problem = page.getByRole('list', { name: 'Problems of the level' }).getByRole('listitem').filter({ hasText: 'not in the LevelMapping' });
+  await expect(problem).toBeVisible();
+  await problem.locator('.fix').first().click();
+  await expect(problem).toBeHidden();
+});
+
+test('fingers paint on a phone, and the verdict is a tap away', async ({ browser, studio }) => {
+  const running = await studio('games');
+  const context = await browser.newContext({ viewport: { width: 375, height: 812 }, hasTouch: true, isMobile: true });
+  const page = await context.newPage();
+  await open(page, running, VIEW);
+  await page.getByRole('radio', { name: /^hedge/ }).tap();
+  const box = await page.locator('.paint canvas').boundingBox();
+  if (!box) throw new Error('the level is not shown');
+  for (const x of [2.5, 4.5]) await page.touchscreen.tap(box.x + (x * box.width) / 8, box.y + (3.5 * box.width) / 8);
+  await page.getByRole('button', { name: 'Verdict', exact: true }).tap();
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
+  await context.close();
+});

@@ -1,0 +1,164 @@
+//! From requests to answers: bodies are read within bounds, and the work is done by a bounded number of threads.
+
+use crate::lines::{Ended, Lines};
+use crate::refusal::Refusal;
+use crate::studio::Studio;
+use axum::body::Body;
+use axum::extract::{Path, Request, State};
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{MethodRouter, get, post, put};
+use evaluation::serve::Bounds;
+use evaluation::serve::loopback::{Bodies, Unread};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::sync::Arc;
+use tokio::sync::Semaphore;
+
+/// Threads for short answers, and for those that arrive line by line.
+const SHORT: usize = 6;
+const LONG: usize = 6;
+/// All threads that work on answers.
+pub(crate) const THREADS: usize = SHORT + LONG;
+
+/// The state of the server.
+#[derive(Clone)]
+pub(crate) struct Serving {
+    studio: Arc<Studio>,
+    bodies: Bodies,
+    short: Arc<Semaphore>,
+    long: Arc<Semaphore>,
+}
+
+impl Serving {
+    pub(crate) fn new(studio: Studio, bounds: Bounds) -> Serving {
+        Serving {
+            studio: Arc::new(studio),
+            bodies: Bodies::new(bounds),
+            short: Arc::new(Semaphore::new(SHORT)),
+            long: Arc::new(Semaphore::new(LONG)),
+        }
+    }
+
+    /// Does some work on a thread for it.
+    async fn answer<O: Serialize>(
+        self,
+        work: impl FnOnce(&Studio) -> Result<O, Refusal> + Send + 'static,
+    ) -> Response {
+        let Ok(place) = self.short.acquire_owned().await else { return broken() };
+        let studio = self.studio;
+        let done = tokio::task::spawn_blocking(move || {
+            // Written here too: it may be as much work as the rest.
+            let answer = work(&studio).map(|answer| serde_json::to_vec(&answer));
+            drop(place);
+            answer
+        });
+        match done.await {
+            Ok(Ok(Ok(document))) => ([(header::CONTENT_TYPE, "application/json")], document).into_response(),
+            Ok(Err(refusal)) => refusal.into_response(),
+            Ok(Ok(Err(_))) | Err(_) => broken(),
+        }
+    }
+
+    async fn read<I: DeserializeOwned>(&self, body: Body) -> Result<I, Refusal> {
+        let (bytes, _taken) = self.bodies.read(body).await.map_err(|why| {
+            let status = match why {
+                Unread::TooLarge(_) => StatusCode::PAYLOAD_TOO_LARGE,
+                Unread::CutOff(_) => StatusCode::BAD_REQUEST,
+                Unread::Late => StatusCode::REQUEST_TIMEOUT,
+            };
+            Refusal::new(status, why)
+        })?;
+        let bytes: &[u8] = if bytes.is_empty() { b"{}" } else { &bytes };
+        serde_json::from_slice(bytes)
+            .map_err(|error| Refusal::bad(format_args!("the request is not as expected: {error}")))
+    }
+}
+
+/// The answer when the work itself broke: a fault of ours.
+fn broken() -> Response {
+    Refusal::failed("the studio failed at this").help("please report it, with the game").into_response()
+}
+
+/// A question without a body.
+pub(crate) fn told<O: Serialize + 'static>(work: fn(&Studio) -> Result<O, Refusal>) -> MethodRouter<Serving> {
+    get(move |State(serving): State<Serving>| serving.answer(work))
+}
+
+/// A question about a game.
+pub(crate) fn of_game<O: Serialize + 'static>(
+    work: fn(&Studio, &str) -> Result<O, Refusal>,
+) -> MethodRouter<Serving> {
+    get(move |State(serving): State<Serving>, Path(id): Path<String>| {
+        serving.answer(move |studio| work(studio, &id))
+    })
+}
+
+/// A question about a part of a game.
+pub(crate) fn of_part<O: Serialize + 'static>(
+    work: fn(&Studio, &str, &str) -> Result<O, Refusal>,
+) -> MethodRouter<Serving> {
+    get(move |State(serving): State<Serving>, Path((id, part)): Path<(String, String)>| {
+        serving.answer(move |studio| work(studio, &id, &part))
+    })
+}
+
+/// A change of a part of a game.
+pub(crate) fn put_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
+    work: fn(&Studio, &str, &str, I) -> Result<O, Refusal>,
+) -> MethodRouter<Serving> {
+    let answer = move |State(serving): State<Serving>,
+                       Path((id, part)): Path<(String, String)>,
+                       body: Body| async move {
+        match serving.read(body).await {
+            Ok(asked) => serving.answer(move |studio| work(studio, &id, &part, asked)).await,
+            Err(refusal) => refusal.into_response(),
+        }
+    };
+    put(answer)
+}
+
+/// A question with a body.
+pub(crate) fn asked<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
+    work: fn(&Studio, I) -> Result<O, Refusal>,
+) -> MethodRouter<Serving> {
+    let answer = move |State(serving): State<Serving>, body: Body| async move {
+        match serving.read(body).await {
+            Ok(asked) => serving.answer(move |studio| work(studio, asked)).await,
+            Err(refusal) => refusal.into_response(),
+        }
+    };
+    post(answer)
+}
+
+/// A question whose answer arrives line by line; `page` names the page that asks, if it says so.
+pub(crate) struct Asked<I> {
+    pub(crate) body: I,
+    pub(crate) page: Option<String>,
+}
+
+/// A question with a body whose answer arrives line by line.
+pub(crate) fn streamed<I: DeserializeOwned + Send + 'static>(
+    work: fn(&Studio, Asked<I>, &Lines) -> Result<(), Ended>,
+) -> MethodRouter<Serving> {
+    let answer = move |State(serving): State<Serving>, request: Request| async move {
+        let page =
+            request.headers().get("x-arcade-page").and_then(|page| page.to_str().ok()).map(str::to_owned);
+        let body = match serving.read(request.into_body()).await {
+            Ok(body) => body,
+            Err(refusal) => return refusal.into_response(),
+        };
+        let Ok(place) = serving.long.clone().try_acquire_owned() else {
+            return Refusal::new(StatusCode::TOO_MANY_REQUESTS, "too much is being worked out at a time")
+                .help("wait until some of it is done")
+                .into_response();
+        };
+        let (lines, response) = Lines::new();
+        tokio::task::spawn_blocking(move || {
+            lines.finish(|lines| work(&serving.studio, Asked { body, page }, lines));
+            drop(place);
+        });
+        response
+    };
+    post(answer)
+}

@@ -1,0 +1,175 @@
+//! Questions of an editor about the text of a game and its levels.
+
+use crate::compiled::Compiled;
+use crate::frames::Tiles;
+use crate::positions;
+use crate::refusal::Refusal;
+use crate::studio::Studio;
+use editor::Hover;
+use editor::positions::byte_of_utf16;
+use engine::{Diagnostics, LevelMapping, describe};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// The text of a game, and its levels.
+#[derive(Deserialize)]
+pub(crate) struct Check {
+    source: String,
+    #[serde(default)]
+    levels: Vec<String>,
+}
+
+pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
+    let Check { source, levels } = asked;
+    let listed = |text: &str, problems: &[engine::Diagnostic]| -> Vec<Value> {
+        problems.iter().map(|problem| positions::problem(text, problem)).collect()
+    };
+    match studio.compiled.find(&source) {
+        Ok(compiled) => {
+            let of_level = |level: &String| match compiled.game.level(level) {
+                Ok(found) => json!({ "problems": listed(level, found.warnings()) }),
+                Err(Diagnostics(problems)) => json!({ "problems": listed(level, &problems) }),
+            };
+            let mut tiles = Tiles::default();
+            let legend = legend(&compiled, &mut tiles);
+            Ok(json!({
+                "problems": listed(&source, compiled.game.warnings()),
+                "levels": levels.iter().map(of_level).collect::<Vec<_>>(),
+                "describe": describe(&compiled.game),
+                "legend": legend,
+                "tiles": tiles.fresh(),
+            }))
+        }
+        Err(Diagnostics(problems)) => {
+            let mapping = LevelMapping::of_source(&source);
+            let of_level = |level: &String| {
+                let problems = mapping.as_ref().map_or(Vec::new(), |mapping| mapping.problems(level));
+                json!({ "problems": listed(level, &problems) })
+            };
+            Ok(json!({
+                "problems": listed(&source, &problems),
+                "levels": levels.iter().map(of_level).collect::<Vec<_>>(),
+                "describe": "",
+                "legend": [],
+                "tiles": [],
+            }))
+        }
+    }
+}
+
+/// Returns the characters of levels, with what each places and looks like.
+fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
+    let Compiled { game, looks, .. } = compiled;
+    let order = game.drawing_order();
+    let entry = |symbol: u8| {
+        let types = game.places(symbol);
+        let visible = types.iter().filter(|&&stype| looks.is_visible(stype));
+        let on_top = visible.max_by_key(|stype| order.iter().position(|&at| at == stype.0));
+        let tile = on_top.map(|&stype| tiles.number(&render::sprite_tile(looks, stype)));
+        let names: Vec<&str> = types.iter().map(|&stype| game.name(stype)).collect();
+        let label = on_top.map_or("", |&stype| looks.meaning(stype));
+        json!({ "symbol": char::from(symbol), "types": names, "label": label, "tile": tile })
+    };
+    // Those that the game maps, in its order, then those that are mapped by default.
+    let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());
+    let mut symbols: Vec<u8> = written.collect();
+    let by_default = (b'!'..=b'~').filter(|symbol| !symbols.contains(symbol));
+    symbols.extend(by_default.collect::<Vec<u8>>());
+    symbols.retain(|&symbol| !game.places(symbol).is_empty());
+    symbols.into_iter().map(entry).collect()
+}
+
+/// A place in the text of a game, in UTF-16 code units.
+#[derive(Deserialize)]
+pub(crate) struct At {
+    source: String,
+    at: usize,
+}
+
+pub(crate) fn hover(_: &Studio, At { source, at }: At) -> Result<Value, Refusal> {
+    let found = editor::hover(&source, byte_of_utf16(&source, at));
+    Ok(json!(found.map(|Hover { span, markdown }| {
+        let (start, end) = positions::range(&source, span);
+        json!({ "start": start, "end": end, "markdown": markdown })
+    })))
+}
+
+pub(crate) fn complete(_: &Studio, At { source, at }: At) -> Result<Value, Refusal> {
+    let found = editor::complete(&source, byte_of_utf16(&source, at));
+    let (start, end) = positions::range(&source, found.span);
+    let items = found.items.into_iter().map(|item| {
+        json!({ "label": item.label, "detail": item.detail, "markdown": item.markdown, "insert": item.insert })
+    });
+    Ok(json!({ "start": start, "end": end, "items": items.collect::<Vec<Value>>() }))
+}
+
+pub(crate) fn definition(_: &Studio, At { source, at }: At) -> Result<Value, Refusal> {
+    let found = editor::definition(&source, byte_of_utf16(&source, at));
+    Ok(json!(found.map(|span| {
+        let (start, end) = positions::range(&source, span);
+        json!({ "start": start, "end": end })
+    })))
+}
+
+/// A new name for what is at a place.
+#[derive(Deserialize)]
+pub(crate) struct Rename {
+    source: String,
+    at: usize,
+    name: String,
+    /// The levels, in which a character may have to change too.
+    #[serde(default)]
+    levels: Vec<String>,
+}
+
+pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
+    let Rename { source, at, name, levels } = asked;
+    let byte = byte_of_utf16(&source, at);
+    let edits = editor::rename(&source, byte, &name).map_err(Refusal::bad)?;
+    // A level character is a single one, and the same in the levels.
+    let old = editor::renamable(&source, byte).ok().and_then(|span| source.get(span.start..span.end));
+    let is_symbol = editor::definition(&source, byte).is_some_and(|span| in_mapping(&source, span.start));
+    let single = |text: &str| {
+        let mut characters = text.chars();
+        characters.next().filter(|_| characters.next().is_none())
+    };
+    let symbols = old.filter(|_| is_symbol).and_then(single).zip(single(&name));
+    let of_level = |level: &String| -> Vec<Value> {
+        let edits = symbols.map_or(Vec::new(), |(old, new)| editor::rename_in_level(level, old, new));
+        edits.iter().map(|made| positions::edit(level, made)).collect()
+    };
+    let edits: Vec<Value> = edits.iter().map(|made| positions::edit(&source, made)).collect();
+    Ok(json!({ "edits": edits, "levels": levels.iter().map(of_level).collect::<Vec<_>>() }))
+}
+
+/// Tests whether a byte of a game is the character of a line of its LevelMapping.
+fn in_mapping(source: &str, byte: usize) -> bool {
+    let (description, _) = engine::syntax::parse(source);
+    description.mapping.iter().any(|line| line.span.start == byte)
+}
+
+/// The text of a game.
+#[derive(Deserialize)]
+pub(crate) struct Source {
+    source: String,
+}
+
+pub(crate) fn format(_: &Studio, Source { source }: Source) -> Result<Value, Refusal> {
+    let refused = |problems: Vec<editor::Problem>| {
+        let first = problems.first().map_or("", |problem| problem.message.as_str());
+        Refusal::bad(format_args!("the game has errors: {first}")).help("repair them first")
+    };
+    Ok(json!({ "text": editor::format(&source).map_err(refused)? }))
+}
+
+/// The name of a page of the manual.
+#[derive(Deserialize)]
+pub(crate) struct Page {
+    name: String,
+}
+
+pub(crate) fn page(studio: &Studio, asked: Page) -> Result<Value, Refusal> {
+    let of_word = || editor::page(&asked.name).map(str::to_owned);
+    let text = (studio.manual)(&asked.name).or_else(of_word);
+    Ok(json!({ "markdown": text.ok_or_else(|| Refusal::missing("the manual has no such page"))? }))
+}

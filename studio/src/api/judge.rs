@@ -1,0 +1,24 @@
+//! Judging pairs of games.
+
+use crate::judging::{Asked, Judging, Report};
+use crate::refusal::Refusal;
+use crate::studio::Studio;
+use serde_json::{Value, json};
+
+fn opened(studio: &Studio) -> Result<&Judging, Refusal> {
+    let missing = || Refusal::missing("nothing is to be judged").help("name folders of games with --judge");
+    studio.judging.as_deref().ok_or_else(missing)
+}
+
+pub(crate) fn next(studio: &Studio) -> Result<Value, Refusal> {
+    Ok(opened(studio)?.next())
+}
+
+pub(crate) fn add(studio: &Studio, asked: Asked) -> Result<Value, Refusal> {
+    opened(studio)?.add(asked)?;
+    Ok(json!({}))
+}
+
+pub(crate) fn report(studio: &Studio) -> Result<Report, Refusal> {
+    Ok(opened(studio)?.report())
+}

@@ -1,0 +1,160 @@
+//! Answers that arrive line by line: the verdict on a level, the criteria of a game, new levels.
+
+use crate::answers::Asked;
+use crate::frames::{Frame, Tiles};
+use crate::lines::{Ended, Lines};
+use crate::positions;
+use crate::refusal::Refusal;
+use crate::studio::Studio;
+use crate::verdict::{Subject, criterion};
+use engine::{Diagnostic, Diagnostics, Level, Seed};
+use forge::levels::{LevelOrder, Method, make_levels};
+use generators::levels::{Examples, LevelConfig};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::sync::Arc;
+use validators::{Criteria, Difficulty, GATES, Panel, Report};
+
+/// A level to judge.
+#[derive(Deserialize)]
+pub(crate) struct Judge {
+    source: String,
+    level: String,
+    budget: Option<u64>,
+    seed: Option<String>,
+}
+
+fn problems(place: &str, text: &str, problems: &[Diagnostic]) -> Vec<Value> {
+    let listed = problems.iter().map(|found| {
+        let mut found = positions::problem(text, found);
+        found["in"] = json!(place);
+        found
+    });
+    listed.collect()
+}
+
+pub(crate) fn verdict(studio: &Studio, asked: Asked<Judge>, lines: &Lines) -> Result<(), Ended> {
+    let _running = studio.verdicts.begin(asked.page, lines);
+    let Judge { source, level, budget, seed } = asked.body;
+    let send = |problems: Vec<Value>| lines.send(&json!({ "stage": "problems", "problems": problems }));
+    let compiled = match studio.compiled.find(&source) {
+        Ok(compiled) => compiled,
+        Err(Diagnostics(found)) => return Ok(send(problems("source", &source, &found))?),
+    };
+    let mut found = problems("source", &source, compiled.game.warnings());
+    let checked = match compiled.game.level(&level) {
+        Ok(checked) => checked,
+        Err(Diagnostics(of_level)) => {
+            found.extend(problems("level", &level, &of_level));
+            return Ok(send(found)?);
+        }
+    };
+    found.extend(problems("level", &level, checked.warnings()));
+    send(found)?;
+    let seed = Seed::from_text(seed.as_deref().unwrap_or("studio")).child(&checked.digest().to_string(), 0);
+    Subject { compiled: &compiled, level: &checked, seed, budget }.judge(lines)
+}
+
+/// A game to judge over all its levels.
+#[derive(Deserialize)]
+pub(crate) struct Necessity {
+    source: String,
+    levels: Vec<String>,
+}
+
+/// Forward-model calls for each level, and for the game over all its levels.
+const CALLS: u64 = 300_000;
+
+pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
+    let compiled = studio.compiled.need(&asked.body.source)?;
+    let texts = asked.body.levels.iter();
+    let levels: Vec<Level> = texts.map(|text| compiled.level(text)).collect::<Result<_, Refusal>>()?;
+    if levels.is_empty() {
+        return Err(Refusal::bad("the game has no level").help("draw one first").into());
+    }
+    let mut criteria = Criteria { budget: CALLS, ..Criteria::full() };
+    criteria.ask.extend(GATES.iter().map(|gate| (*gate).to_owned()));
+    criteria.ask.sort_unstable();
+    criteria.ask.dedup();
+    let panel = Panel::bounded(&criteria, CALLS).map_err(Refusal::failed)?;
+    let seed = Seed::from_text("studio");
+    let mut reports: Vec<Report> = Vec::new();
+    for (number, level) in levels.iter().enumerate() {
+        lines.send(&json!({ "stage": "judging", "level": number, "of": levels.len() }))?;
+        let own = seed.child(&level.digest().to_string(), 0);
+        let goes_on = &mut |_: &validators::Judgement| lines.check().is_ok();
+        reports.push(panel.judge_aloud(&compiled.game, level, None, own, goes_on));
+        lines.check()?;
+    }
+    for judged in panel.judge_together(&compiled.game, &levels, &reports, seed) {
+        lines.send(&criterion(&judged, &compiled.source))?;
+    }
+    Ok(())
+}
+
+/// Levels to make.
+#[derive(Deserialize)]
+pub(crate) struct More {
+    source: String,
+    /// A level that the new ones should resemble.
+    level: Option<String>,
+    method: String,
+    width: Option<usize>,
+    height: Option<usize>,
+    difficulty: Option<String>,
+    #[serde(default)]
+    seed: String,
+    count: u32,
+}
+
+/// The most levels of a request.
+const MOST_LEVELS: u32 = 20;
+
+pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result<(), Ended> {
+    let More { source, level, method, width, height, difficulty, seed, count } = asked.body;
+    let compiled = studio.compiled.need(&source)?;
+    let method: Method = method.parse().map_err(Refusal::bad)?;
+    let example = level.and_then(|text| compiled.game.level(&text).ok());
+    let config = example.and_then(|level| Examples::of(&compiled.game, &[level]));
+    let mut config =
+        config.map_or_else(LevelConfig::default, |examples| LevelConfig::like(Arc::new(examples)));
+    if let Some(width) = width {
+        config.columns = (width, width);
+    }
+    if let Some(height) = height {
+        config.rows = (height, height);
+    }
+    let asked_for = difficulty.filter(|label| !label.is_empty());
+    let difficulty: Option<Difficulty> =
+        asked_for.map(|label| label.parse()).transpose().map_err(Refusal::bad)?;
+    let seed = Seed::from_text(&seed).child(method.name(), 0);
+    let mut tiles = Tiles::default();
+    // One after the other, so that each arrives when it is made.
+    for number in 0..count.min(MOST_LEVELS) {
+        lines.check()?;
+        let order = LevelOrder { difficulty, ..LevelOrder::new(method, 1, config.clone()) };
+        let made = make_levels(&compiled.game, &order, seed.child("level", u64::from(number)), &());
+        let set = match made {
+            Ok(set) => set,
+            Err(error) => {
+                lines.send(&json!({ "stage": "none", "text": error.to_string() }))?;
+                continue;
+            }
+        };
+        for made in set.levels {
+            let state = compiled.game.start(&made.level, Seed::from_text("board"));
+            let frame = Frame::of(&compiled, &state, 0, &mut tiles)?;
+            let witness = made.report.as_ref().and_then(|report| report.witness.as_ref());
+            lines.send(&json!({
+                "stage": "level",
+                "level": made.level.to_string(),
+                "tiles": tiles.fresh(),
+                "frame": frame,
+                "ticks": witness.map(|witness| witness.actions.len()),
+                "episode": witness,
+                "difficulty": made.ladder.map(|ladder| ladder.difficulty),
+            }))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,205 @@
+//! The opened games and their files.
+
+use crate::files;
+use crate::frames::{Frame, TileSvg, Tiles};
+use crate::refusal::Refusal;
+use crate::studio::Studio;
+use crate::workspace::{GameEntry, NamedText, Place};
+use axum::http::StatusCode;
+use engine::{Digest, Episode, Seed, describe};
+use rayon::prelude::*;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::sync::PoisonError;
+
+pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
+    let games = studio.workspace.games();
+    let listed: Vec<Value> = games.par_iter().map(|game| summary(studio, game)).collect();
+    Ok(json!({
+        "kind": studio.workspace.kind,
+        "name": studio.workspace.name,
+        "version": studio.version,
+        "games": listed,
+        "judge": studio.judging.is_some(),
+    }))
+}
+
+fn summary(studio: &Studio, game: &GameEntry) -> Value {
+    // A game that cannot be read or has faults is listed without a picture.
+    let (tiles, frame) =
+        first_board(studio, game).map_or((Vec::new(), None), |(tiles, frame)| (tiles, Some(frame)));
+    json!({
+        "id": game.id,
+        "title": game.title,
+        "levels": game.count(),
+        "writable": game.is_writable(),
+        "summary": game.summary,
+        "kind": of_card(game, "kind"),
+        "tier": hardest(game),
+        "tile": frame,
+        "tiles": tiles,
+    })
+}
+
+/// Returns a field of a game's card.
+fn of_card<'a>(game: &'a GameEntry, field: &str) -> Option<&'a Value> {
+    game.card.as_ref()?.get(field)
+}
+
+/// Returns the highest tier of a game's levels.
+fn hardest(game: &GameEntry) -> Option<u64> {
+    let levels = of_card(game, "levels")?.as_array()?;
+    levels.iter().filter_map(|level| level.get("tier")?.as_u64()).max()
+}
+
+/// Draws the first level of a game, if there is one without problems.
+pub(crate) fn first_board(studio: &Studio, game: &GameEntry) -> Option<(Vec<TileSvg>, Frame)> {
+    let (source, levels) = game.read().ok()?;
+    let compiled = studio.compiled.find(&source.text).ok()?;
+    let level = compiled.game.level(&levels.first()?.text).ok()?;
+    let state = compiled.game.start(&level, Seed::from_text("board"));
+    let mut tiles = Tiles::default();
+    let frame = Frame::of(&compiled, &state, 0, &mut tiles).ok()?;
+    Some((tiles.fresh(), frame))
+}
+
+pub(crate) fn game(studio: &Studio, id: &str) -> Result<Value, Refusal> {
+    let game = studio.workspace.game(id)?;
+    let (source, levels) = game.read()?;
+    let described =
+        studio.compiled.find(&source.text).map_or_else(|_| String::new(), |found| describe(&found.game));
+    let file = |NamedText { name, text }: &NamedText| json!({ "name": name, "text": text, "digest": Digest::of(text.as_bytes()) });
+    let witnesses = game.witnesses.iter();
+    let witnesses: Vec<Value> =
+        witnesses.map(|witness| json!({ "name": witness.name, "level": witness.level })).collect();
+    Ok(json!({
+        "id": game.id,
+        "title": game.title,
+        "writable": game.is_writable(),
+        "source": file(&source),
+        "levels": levels.iter().map(file).collect::<Vec<_>>(),
+        "card": game.card,
+        "witnesses": witnesses,
+        "describe": described,
+    }))
+}
+
+pub(crate) fn versions(studio: &Studio, id: &str) -> Result<Value, Refusal> {
+    let (source, levels) = studio.workspace.game(id)?.read()?;
+    let files: BTreeMap<String, Digest> = std::iter::once(source)
+        .chain(levels)
+        .map(|NamedText { name, text }| (name, Digest::of(text.as_bytes())))
+        .collect();
+    Ok(json!({ "files": files }))
+}
+
+pub(crate) fn witness(studio: &Studio, id: &str, name: &str) -> Result<Episode, Refusal> {
+    let game = studio.workspace.game(id)?;
+    let found = game.witnesses.iter().find(|witness| witness.name == name);
+    found.map(|witness| witness.episode.clone()).ok_or_else(|| Refusal::missing("there is no such recording"))
+}
+
+/// A text to save, and the digest of the file that it was made from.
+#[derive(Deserialize)]
+pub(crate) struct Save {
+    text: String,
+    base: Option<Digest>,
+}
+
+pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result<Value, Refusal> {
+    let game = studio.workspace.game(id)?;
+    let path = game.path_of(name)?;
+    let limit = match files::level_number(name) {
+        Some(_) => engine::MAX_LEVEL_TEXT,
+        None => engine::MAX_SOURCE,
+    };
+    if asked.text.len() > limit {
+        return Err(Refusal::new(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            format_args!("{name} has at most {limit} bytes"),
+        ));
+    }
+    let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
+    let now = files::content(&path)?;
+    let digest = now.as_ref().map(|text| Digest::of(text.as_bytes()));
+    if digest != asked.base {
+        let error = match now {
+            Some(_) => format!("{name} was changed by another program"),
+            None => format!("{name} was removed by another program"),
+        };
+        return Err(Refusal::new(StatusCode::CONFLICT, error)
+            .help("keep one of the two texts, or merge them, and save again")
+            .with("text", now)
+            .with("digest", json!(digest)));
+    }
+    files::write(&path, &asked.text)?;
+    Ok(json!({ "digest": Digest::of(asked.text.as_bytes()) }))
+}
+
+/// A game to copy, and the title of the copy.
+#[derive(Deserialize)]
+pub(crate) struct Copy {
+    id: String,
+    title: String,
+}
+
+/// The longest name of a folder that a copy gets.
+const MAX_FOLDER: usize = 60;
+
+pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {
+    let game = studio.workspace.game(&asked.id)?;
+    let (source, levels) = game.read()?;
+    let name = folder_name(&asked.title);
+    if name.is_empty() {
+        return Err(Refusal::bad("the title has no letter or digit").help("write some of a to z or 0 to 9"));
+    }
+    let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
+    let copies = &studio.workspace.copies;
+    let numbered = std::iter::once(name.clone()).chain((2..1000).map(|number| format!("{name}-{number}")));
+    for name in numbered {
+        let folder = copies.join(&name);
+        match fs::create_dir(&folder) {
+            Ok(()) => {}
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
+            Err(error) => {
+                return Err(Refusal::failed(format_args!("cannot make the folder {name}: {}", error.kind()))
+                    .help("open the studio where folders can be made, or name another place with --out"));
+            }
+        }
+        files::write(&folder.join("game.vgdl"), &source.text)?;
+        for (number, level) in levels.iter().enumerate() {
+            files::write(&folder.join(format!("lvl{number}.txt")), &level.text)?;
+        }
+        let place = Place::Folder { folder, source: "game.vgdl".to_owned(), writable: true };
+        let (title, summary) = (asked.title, format!("a copy of {}", game.title));
+        let copy = GameEntry { id: name, title, place, card: None, summary, witnesses: Vec::new() };
+        return Ok(json!({ "id": studio.workspace.add(copy) }));
+    }
+    Err(Refusal::bad("there are too many copies of that title").help("choose another title"))
+}
+
+/// Returns the name of a folder for a title: small letters, digits and dashes.
+fn folder_name(title: &str) -> String {
+    let words = title.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let name = words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-");
+    name.chars().take(MAX_FOLDER).collect::<String>().trim_end_matches('-').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::folder_name;
+
+    #[test]
+    fn titles_make_plain_names_of_folders() {
+        let check = |title: &str, expect: &str| assert_eq!(folder_name(title), expect);
+        check("My Game 2", "my-game-2");
+        check("../../etc/passwd", "etc-passwd");
+        check("..", "");
+        check("<script>", "script");
+        check("", "");
+        assert_eq!(folder_name(&"long ".repeat(100)).len(), 59);
+    }
+}

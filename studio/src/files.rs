@@ -1,0 +1,132 @@
+//! The files of a game: read within limits, written whole.
+
+use crate::refusal::Refusal;
+use crate::workspace::NamedText;
+use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::Path;
+use tempfile::Builder;
+
+/// The most levels of a game that are read.
+const MAX_LEVELS: usize = 1000;
+
+/// Returns the number in the name of a level's file: `lvl3.txt` is level 3. Each number has one name.
+pub(crate) fn level_number(name: &str) -> Option<usize> {
+    let digits = name.strip_prefix("lvl")?.strip_suffix(".txt")?;
+    let number: usize = digits.parse().ok()?;
+    (number < MAX_LEVELS && number.to_string() == digits).then_some(number)
+}
+
+/// Returns the numbers of the levels in a folder, in order.
+pub(crate) fn level_numbers(folder: &Path) -> Result<Vec<usize>, Refusal> {
+    let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
+    let mut numbers: Vec<usize> =
+        listed.flatten().filter_map(|entry| level_number(entry.file_name().to_str()?)).collect();
+    numbers.sort_unstable();
+    Ok(numbers)
+}
+
+/// Returns the levels in a folder, in order.
+pub(crate) fn levels(folder: &Path) -> Result<Vec<NamedText>, Refusal> {
+    let read = |number| {
+        let name = format!("lvl{number}.txt");
+        let text = read_text(&folder.join(&name), MAX_LEVEL_TEXT)?;
+        Ok(NamedText { name, text })
+    };
+    level_numbers(folder)?.into_iter().map(read).collect()
+}
+
+/// Reads the text of a game.
+pub(crate) fn read_source(file: &Path) -> Result<String, Refusal> {
+    read_text(file, MAX_SOURCE)
+}
+
+fn read_text(file: &Path, limit: usize) -> Result<String, Refusal> {
+    let name = shown(file);
+    let bytes = read_bytes(file, limit).map_err(|error| unreadable(file, &error))?;
+    let bytes = bytes.ok_or_else(|| Refusal::bad(format_args!("{name} is larger than {limit} bytes")))?;
+    String::from_utf8(bytes)
+        .map_err(|_| Refusal::bad(format_args!("{name} is no text")).help("save it as UTF-8"))
+}
+
+/// Reads a file of at most `limit` bytes; `None` if it is larger.
+fn read_bytes(file: &Path, limit: usize) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    File::open(file)?.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(Some(bytes).filter(|bytes| bytes.len() <= limit))
+}
+
+/// Returns the content of a file; `None` if there is no such file.
+pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
+    match fs::symlink_metadata(file) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(unreadable(file, &error)),
+        // A link would be replaced by a file, and what it points at would stay as it was.
+        Ok(found) if !found.is_file() => {
+            Err(Refusal::forbidden(format_args!("{} is not a plain file", shown(file)))
+                .help("replace it by a file to change it here"))
+        }
+        Ok(_) => read_text(file, MAX_LEVEL_TEXT.max(MAX_SOURCE)).map(Some),
+    }
+}
+
+/// Writes a file: it is complete, or unchanged. The beginning and end of the temporary name are those that `arcade clean` knows.
+pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
+    let written = || {
+        let folder = file.parent().unwrap_or(Path::new("."));
+        let mut builder = Builder::new();
+        builder.prefix(".arcade-").suffix(".partial");
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut fresh = builder.tempfile_in(folder)?;
+        fresh.write_all(text.as_bytes())?;
+        if let Ok(before) = fs::metadata(file) {
+            fresh.as_file().set_permissions(before.permissions())?;
+        }
+        fresh.as_file().sync_all()?;
+        fresh.persist(file).map_err(|failed| failed.error)?;
+        Ok(())
+    };
+    written().map_err(|error: io::Error| {
+        Refusal::failed(format_args!("cannot write {}: {}", shown(file), error.kind()))
+            .help("check the folder and the space on the disk")
+    })
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Refusal {
+    match error.kind() {
+        ErrorKind::NotFound => Refusal::missing(format_args!("{} is gone", shown(path))),
+        kind => Refusal::failed(format_args!("cannot read {}: {kind}", shown(path))),
+    }
+}
+
+/// Returns the last part of a path: pages see no folders of the machine.
+fn shown(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::level_number;
+
+    #[test]
+    fn each_level_has_one_name() {
+        for (name, number) in [("lvl0.txt", 0), ("lvl12.txt", 12)] {
+            assert_eq!(level_number(name), Some(number));
+        }
+        for name in [
+            "lvl.txt",
+            "lvl01.txt",
+            "lvl+1.txt",
+            "lvl-1.txt",
+            "lvl1000.txt",
+            "../lvl1.txt",
+            "lvl1.txt/",
+            "LVL1.txt",
+            "lvl1.TXT",
+        ] {
+            assert_eq!(level_number(name), None, "{name}");
+        }
+    }
+}

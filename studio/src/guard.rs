@@ -1,0 +1,103 @@
+//! Checks before any answer: only the page that this server served, opened with its token, may ask.
+//!
+//! A page from anywhere can make a browser send requests to 127.0.0.1, and every program of this machine can. The first are
+//! recognised by the requested host name (which DNS rebinding cannot hide), by the origin and by what the browser says of the
+//! site; both lack the token, which only the address printed by `arcade studio` has.
+
+use crate::refusal::Refusal;
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// The header that carries the token.
+const TOKEN: HeaderName = HeaderName::from_static("x-arcade-token");
+const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
+
+/// The page's policy: it loads its own files, pictures made from data, and nothing else.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
+                      connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// The names and the token of the askers that are answered.
+#[derive(Clone, Debug)]
+pub(crate) struct Guard {
+    /// `127.0.0.1:PORT` and `localhost:PORT`.
+    hosts: [String; 2],
+    token: Arc<str>,
+}
+
+impl Guard {
+    /// A guard of this port with a fresh token.
+    pub(crate) fn of(port: u16) -> std::io::Result<Guard> {
+        let mut bytes = [0; 24];
+        getrandom::fill(&mut bytes).map_err(std::io::Error::other)?;
+        let mut token = String::new();
+        for byte in bytes {
+            let _ = write!(token, "{byte:02x}");
+        }
+        let hosts = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
+        Ok(Guard { hosts, token: token.into() })
+    }
+
+    pub(crate) fn token(&self) -> &str {
+        &self.token
+    }
+
+    /// Returns the reason for refusing a request with these headers, if there is one.
+    fn problem(&self, path: &str, headers: &HeaderMap) -> Option<Refusal> {
+        let all = |name: &HeaderName| -> Vec<&str> {
+            headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default()).collect()
+        };
+        let forbidden = |error: &str| {
+            Some(Refusal::forbidden(error).help("open the address that `arcade studio` printed"))
+        };
+        let own = |host: &str| self.hosts.iter().any(|own| host.eq_ignore_ascii_case(own));
+        if !matches!(all(&header::HOST)[..], [host] if own(host)) {
+            return forbidden("this server answers only under its own address");
+        }
+        let own_origin = |origin: &&str| origin.strip_prefix("http://").is_some_and(own);
+        if !all(&header::ORIGIN).iter().all(own_origin) {
+            return forbidden("this server answers no page of another origin");
+        }
+        if path != "/api" && !path.starts_with("/api/") {
+            return None;
+        }
+        if !all(&FETCH_SITE).iter().all(|site| ["same-origin", "none"].contains(site)) {
+            return forbidden("this server answers no page of another site");
+        }
+        if !matches!(all(&TOKEN)[..], [token] if equal(token, &self.token)) {
+            return forbidden("the token is missing or wrong");
+        }
+        None
+    }
+}
+
+/// Compares in a time that does not depend on the place of the first difference.
+fn equal(one: &str, other: &str) -> bool {
+    let differences = one.bytes().zip(other.bytes()).fold(0, |seen, (a, b)| seen | (a ^ b));
+    one.len() == other.len() && differences == 0
+}
+
+/// Refuses what the guard refuses, and adds the headers of security to every answer.
+pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Next) -> Response {
+    let mut response = match guard.problem(request.uri().path(), request.headers()) {
+        None => next.run(request).await,
+        Some(refusal) => refusal.into_response(),
+    };
+    let headers = response.headers_mut();
+    let mut set =
+        |name: HeaderName, value: &'static str| headers.insert(name, HeaderValue::from_static(value));
+    set(header::CONTENT_SECURITY_POLICY, POLICY);
+    set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
+    set(header::REFERRER_POLICY, "no-referrer");
+    set(header::CACHE_CONTROL, "no-store");
+    set(HeaderName::from_static("cross-origin-resource-policy"), "same-origin");
+    response
+}
+
+/// Refuses a method that a path does not have.
+pub(crate) async fn no_method() -> Response {
+    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this path has no such method").into_response()
+}

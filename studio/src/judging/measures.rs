@@ -1,0 +1,53 @@
+//! The measures of a game that its judge's preferences are compared with.
+
+use super::Candidate;
+use engine::{Analysis, Episode, Seed};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use validators::{Criteria, Panel, PlayMeasures, Recorded, Report, SkillGap};
+
+/// Values by name.
+pub(super) type Measures = BTreeMap<String, f64>;
+
+/// Forward-model calls for each level that the search for a win and the ladder divide.
+const CALLS: u64 = 200_000;
+
+/// Returns the measures of a game: of its play, the ticks of its wins, and the advantage of stronger players. Cost: some seconds. The
+/// same game has the same measures in every session.
+pub(super) fn of(Candidate { game, levels, .. }: &Candidate) -> Measures {
+    let ask = ["winnable", "skill"].map(str::to_owned).to_vec();
+    let criteria = Criteria { ask, held_out: Vec::new(), budget: CALLS, ..Criteria::full() };
+    let Ok(panel) = Panel::bounded(&criteria, CALLS) else { return Measures::new() };
+    let seed = Seed::from_text("judging");
+    let judge = |level| panel.judge(game, level, seed.child(&game.digest().to_string(), 0));
+    let reports: Vec<Report> = levels.par_iter().map(judge).collect();
+    let episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
+    let recording: Vec<Recorded<'_>> =
+        levels.iter().zip(&episodes).map(|(level, episodes)| Recorded { level, episodes }).collect();
+    let mut measures = Measures::new();
+    if let Some(play) = PlayMeasures::of(&Analysis::of(game), &recording, seed) {
+        let PlayMeasures { pace, density, chance, mechanics, sight, drama, lead_changes, .. } = play;
+        for (name, value) in [
+            ("pace", pace),
+            ("density", density),
+            ("chance", chance),
+            ("mechanics", mechanics as f64),
+            ("sight", sight),
+            ("drama", drama),
+            ("lead-changes", lead_changes),
+        ] {
+            measures.insert(name.to_owned(), value);
+        }
+    }
+    let mut mean = |name: &str, values: Vec<f64>| {
+        if !values.is_empty() {
+            measures.insert(name.to_owned(), values.iter().sum::<f64>() / values.len() as f64);
+        }
+    };
+    let wins = reports.iter().filter_map(|report| report.witness.as_ref());
+    mean("ticks", wins.map(|witness| witness.actions.len() as f64).collect());
+    let ladders = || reports.iter().filter_map(Report::ladder);
+    mean("skill", ladders().filter_map(SkillGap::of).map(|gap| gap.wins).collect());
+    mean("ease", ladders().filter_map(|ladder| ladder.ease).collect());
+    measures
+}

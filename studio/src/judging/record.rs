@@ -1,0 +1,273 @@
+//! The record of judgements: a line of JSON each, appended and flushed.
+
+use super::JudgingError;
+use engine::Digest;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+/// The largest record that is read, in bytes.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// The better game of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Better {
+    /// The one on the left.
+    Left,
+    /// The one on the right.
+    Right,
+    /// Neither is.
+    Same,
+}
+
+/// The games of a pair of which something holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Which {
+    /// The one on the left.
+    Left,
+    /// The one on the right.
+    Right,
+    /// Both.
+    Both,
+    /// Neither.
+    Neither,
+}
+
+impl Which {
+    /// Tests whether it holds of the game on the left, and of the one on the right.
+    pub fn sides(self) -> [bool; 2] {
+        [matches!(self, Which::Left | Which::Both), matches!(self, Which::Right | Which::Both)]
+    }
+}
+
+/// The ticks that were played of each game.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Played {
+    /// Of the one on the left.
+    pub left: u64,
+    /// Of the one on the right.
+    pub right: u64,
+}
+
+/// A game of a pair.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Side {
+    /// The source.
+    pub source: String,
+    /// The game's name in it.
+    pub game: String,
+    /// The game's digest.
+    pub digest: Digest,
+    /// Its measures, by name.
+    pub measures: BTreeMap<String, f64>,
+}
+
+/// The answers of a person about a pair.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judgement {
+    /// The text of the seed that drew the pairs.
+    pub seed: String,
+    /// The number of the pair, from 0.
+    pub pair: usize,
+    /// The game on the left.
+    pub left: Side,
+    /// The game on the right.
+    pub right: Side,
+    /// The better game.
+    pub better: Better,
+    /// The games that the judge would play again.
+    pub again: Which,
+    /// The games that the judge believes to be made by a machine, if asked.
+    #[serde(default)]
+    pub machine: Option<Which>,
+    /// The judge's words.
+    #[serde(default)]
+    pub words: String,
+    /// The ticks played.
+    #[serde(default)]
+    pub played: Played,
+}
+
+/// The judgements of a record: for each pair the last one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Judgements(pub Vec<Judgement>);
+
+impl Judgements {
+    /// Reads a record. A last line that was cut off is left out, with a remark.
+    ///
+    /// # Errors
+    /// The file cannot be read, or a complete line is no judgement.
+    pub fn read(file: &Path) -> Result<(Judgements, Vec<String>), JudgingError> {
+        let mut bytes = Vec::new();
+        let opened = File::open(file).and_then(|opened| opened.take(MOST_BYTES + 1).read_to_end(&mut bytes));
+        opened.map_err(JudgingError::io("read", file))?;
+        if bytes.len() as u64 > MOST_BYTES {
+            let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
+            return Err(JudgingError::io("read", file)(large));
+        }
+        let (judgements, _, remarks) = parse(&bytes, file)?;
+        Ok((judgements, remarks))
+    }
+
+    fn add(&mut self, judgement: Judgement) {
+        self.0.retain(|known| (&known.seed, known.pair) != (&judgement.seed, judgement.pair));
+        self.0.push(judgement);
+    }
+}
+
+/// Returns the judgements, the number of bytes that are sound, and remarks.
+fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), JudgingError> {
+    let (mut judgements, mut sound) = (Judgements::default(), 0);
+    for (number, line) in bytes.split_inclusive(|&byte| byte == b'\n').enumerate() {
+        let is_whole = line.ends_with(b"\n");
+        let text = line.trim_ascii();
+        if text.is_empty() {
+            sound += line.len();
+            continue;
+        }
+        match serde_json::from_slice(text) {
+            Ok(judgement) => judgements.add(judgement),
+            Err(_) if !is_whole => {
+                let remark = format!("{}: its last line was cut off, and is left out", file.display());
+                return Ok((judgements, sound, vec![remark]));
+            }
+            Err(error) => {
+                let (file, line) = (file.display().to_string(), number + 1);
+                return Err(JudgingError::Line { file, line, why: error.to_string() });
+            }
+        }
+        sound += line.len();
+    }
+    Ok((judgements, sound, Vec::new()))
+}
+
+/// A record that judgements are added to.
+#[derive(Debug)]
+pub(super) struct Keeper {
+    pub(super) judgements: Judgements,
+    file: File,
+    /// `true` if the last line lacks its end.
+    open: bool,
+}
+
+impl Keeper {
+    /// Opens a record, which may be new. A last line that was cut off is removed, with a remark.
+    pub(super) fn open(path: &Path) -> Result<(Keeper, Vec<String>), JudgingError> {
+        let mut options = OpenOptions::new();
+        let mut file = options
+            .read(true)
+            .append(true)
+            .create(true)
+            .open(path)
+            .map_err(JudgingError::io("open", path))?;
+        let mut bytes = Vec::new();
+        let limited = Read::by_ref(&mut file).take(MOST_BYTES + 1);
+        let mut limited = limited;
+        limited.read_to_end(&mut bytes).map_err(JudgingError::io("read", path))?;
+        if bytes.len() as u64 > MOST_BYTES {
+            let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
+            return Err(JudgingError::io("read", path)(large));
+        }
+        let (judgements, sound, remarks) = parse(&bytes, path)?;
+        if sound < bytes.len() {
+            file.set_len(sound as u64).map_err(JudgingError::io("repair", path))?;
+        }
+        let open = sound > 0 && bytes[sound - 1] != b'\n';
+        Ok((Keeper { judgements, file, open }, remarks))
+    }
+
+    /// Appends a judgement and waits until it is on the disk.
+    pub(super) fn add(&mut self, judgement: Judgement) -> io::Result<()> {
+        let mut line = serde_json::to_string(&judgement)?;
+        if self.open {
+            line.insert(0, '\n');
+        }
+        line.push('\n');
+        // If the line is cut off, the next one begins on a line of its own.
+        self.open = true;
+        self.file.write_all(line.as_bytes())?;
+        self.file.sync_data()?;
+        self.open = false;
+        self.judgements.add(judgement);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn judgement(pair: usize, better: Better) -> Judgement {
+        let side = |source: &str| Side {
+            source: source.to_owned(),
+            game: format!("{source}-game"),
+            digest: Digest::of(source.as_bytes()),
+            measures: BTreeMap::new(),
+        };
+        Judgement {
+            seed: "seed".to_owned(),
+            pair,
+            left: side("a"),
+            right: side("b"),
+            better,
+            again: Which::Both,
+            machine: None,
+            words: "two\nlines \u{2028} </script>".to_owned(),
+            played: Played { left: 3, right: 4 },
+        }
+    }
+
+    #[test]
+    fn judgements_are_kept_and_the_last_on_a_pair_counts() {
+        let home = tempfile::tempdir().unwrap();
+        let file = home.path().join("judged.jsonl");
+        let (mut keeper, remarks) = Keeper::open(&file).unwrap();
+        assert!(remarks.is_empty());
+        for (pair, better) in [(0, Better::Left), (1, Better::Same), (0, Better::Right)] {
+            keeper.add(judgement(pair, better)).unwrap();
+        }
+        drop(keeper);
+        assert_eq!(fs::read_to_string(&file).unwrap().lines().count(), 3);
+        let (read, _) = Judgements::read(&file).unwrap();
+        assert_eq!(read.0, [judgement(1, Better::Same), judgement(0, Better::Right)]);
+    }
+
+    #[test]
+    fn torn_lines_are_repaired() {
+        let home = tempfile::tempdir().unwrap();
+        let file = home.path().join("judged.jsonl");
+        let whole = serde_json::to_string(&judgement(0, Better::Left)).unwrap();
+        for cut in [1, whole.len() / 2, whole.len() - 1] {
+            fs::write(&file, format!("{whole}\n{}", &whole[..cut])).unwrap();
+            let (read, remarks) = Judgements::read(&file).unwrap();
+            assert_eq!((read.0.len(), remarks.len()), (1, 1), "{cut}");
+            let (mut keeper, remarks) = Keeper::open(&file).unwrap();
+            assert_eq!(remarks.len(), 1);
+            keeper.add(judgement(1, Better::Right)).unwrap();
+            let (read, remarks) = Judgements::read(&file).unwrap();
+            assert_eq!((read.0.len(), remarks.len()), (2, 0), "{cut}");
+        }
+        // Only the end of the line is missing.
+        fs::write(&file, &whole).unwrap();
+        let (mut keeper, remarks) = Keeper::open(&file).unwrap();
+        assert!(remarks.is_empty());
+        keeper.add(judgement(1, Better::Right)).unwrap();
+        assert_eq!(Judgements::read(&file).unwrap().0.0.len(), 2);
+    }
+
+    #[test]
+    fn other_files_are_refused_and_left_alone() {
+        let home = tempfile::tempdir().unwrap();
+        let file = home.path().join("notes.txt");
+        fs::write(&file, "my notes\nof today\n").unwrap();
+        let error = Keeper::open(&file).unwrap_err().to_string();
+        assert!(error.contains("line 1"), "{error}");
+        assert_eq!(fs::read_to_string(&file).unwrap(), "my notes\nof today\n");
+    }
+}

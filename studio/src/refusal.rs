@@ -1,0 +1,71 @@
+//! The answer to a request that cannot be met: a status, a message, the next move.
+
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Json, Response};
+use serde_json::{Map, Value, json};
+use std::fmt;
+
+/// The reason why a request has no other answer.
+#[derive(Debug)]
+pub(crate) struct Refusal {
+    status: StatusCode,
+    error: String,
+    help: Option<String>,
+    /// Further fields of the answer.
+    more: Map<String, Value>,
+}
+
+impl Refusal {
+    pub(crate) fn new(status: StatusCode, error: impl fmt::Display) -> Refusal {
+        Refusal { status, error: error.to_string(), help: None, more: Map::new() }
+    }
+
+    /// The request itself is wrong.
+    pub(crate) fn bad(error: impl fmt::Display) -> Refusal {
+        Refusal::new(StatusCode::BAD_REQUEST, error)
+    }
+
+    /// The named thing does not exist.
+    pub(crate) fn missing(error: impl fmt::Display) -> Refusal {
+        Refusal::new(StatusCode::NOT_FOUND, error)
+    }
+
+    /// The request is understood and not allowed.
+    pub(crate) fn forbidden(error: impl fmt::Display) -> Refusal {
+        Refusal::new(StatusCode::FORBIDDEN, error)
+    }
+
+    /// The machine refuses: input, output, memory.
+    pub(crate) fn failed(error: impl fmt::Display) -> Refusal {
+        Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, error)
+    }
+
+    /// Adds the next move.
+    pub(crate) fn help(self, help: impl fmt::Display) -> Refusal {
+        Refusal { help: Some(help.to_string()), ..self }
+    }
+
+    /// Adds a field to the answer.
+    pub(crate) fn with(mut self, key: &str, value: impl Into<Value>) -> Refusal {
+        self.more.insert(key.to_owned(), value.into());
+        self
+    }
+
+    /// Returns the message, with the next move.
+    pub(crate) fn text(&self) -> String {
+        match &self.help {
+            Some(help) => format!("{}; {help}", self.error),
+            None => self.error.clone(),
+        }
+    }
+}
+
+impl IntoResponse for Refusal {
+    fn into_response(self) -> Response {
+        let mut document = json!({ "error": self.error, "help": self.help });
+        for (key, value) in self.more {
+            document[key] = value;
+        }
+        (self.status, Json(document)).into_response()
+    }
+}

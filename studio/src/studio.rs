@@ -1,0 +1,58 @@
+//! All that the server knows: the opened games, and the work in progress.
+
+use crate::compiled::Cache;
+use crate::judging::Judging;
+use crate::running::Running;
+use crate::sessions::Sessions;
+use crate::workspace::Workspace;
+use std::fmt;
+use std::sync::{Arc, Mutex};
+
+/// Answers the questions of a page about a workspace.
+pub struct Studio {
+    pub(crate) workspace: Workspace,
+    pub(crate) version: String,
+    /// Returns a page of the manual, as Markdown, by name.
+    pub(crate) manual: fn(&str) -> Option<String>,
+    pub(crate) compiled: Cache,
+    pub(crate) sessions: Sessions,
+    pub(crate) verdicts: Running,
+    pub(crate) judging: Option<Arc<Judging>>,
+    /// Held while a file is compared and written, so that no two requests do so at once.
+    pub(crate) saving: Mutex<()>,
+}
+
+impl Studio {
+    /// A studio of a workspace, with the version to show and the pages of the manual.
+    pub fn new(
+        workspace: Workspace,
+        version: impl Into<String>,
+        manual: fn(&str) -> Option<String>,
+    ) -> Studio {
+        Studio {
+            workspace,
+            version: version.into(),
+            manual,
+            compiled: Cache::default(),
+            sessions: Sessions::default(),
+            verdicts: Running::default(),
+            judging: None,
+            saving: Mutex::default(),
+        }
+    }
+}
+
+impl Studio {
+    /// Adds a session of judging, and begins to measure its games.
+    pub fn judging(self, judging: Judging) -> Studio {
+        let judging = Arc::new(judging);
+        Judging::measure_ahead(&judging);
+        Studio { judging: Some(judging), ..self }
+    }
+}
+
+impl fmt::Debug for Studio {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Studio").field("workspace", &self.workspace).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,199 @@
+//! The verdict on a level while it is drawn: the cheapest answers first, each sent when it is known.
+
+use crate::compiled::Compiled;
+use crate::lines::{Ended, Lines};
+use crate::positions;
+use agents::{PortfolioConfig, Solution, Solved, solve_until};
+use engine::analysis::{Reach, Role};
+use engine::{Analysis, Level, Seed, describe, line_and_column};
+use serde_json::{Value, json};
+use validators::{Criteria, Evidence, Judgement, Ladder, Line, Panel, PlayerResult, Verdict};
+
+/// Forward-model calls of the searches for a win, one after the other: the first answers most levels at once.
+const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
+/// The most calls that can be asked for.
+const MOST_CALLS: u64 = 50_000_000;
+/// The memory limit of a search, in bytes.
+const BYTES: usize = 256 << 20;
+/// Forward-model calls that the criteria divide among them.
+const CRITERIA: u64 = 300_000;
+
+/// A level to judge.
+pub(crate) struct Subject<'a> {
+    pub(crate) compiled: &'a Compiled,
+    pub(crate) level: &'a Level,
+    pub(crate) seed: Seed,
+    /// The most calls to look for a win.
+    pub(crate) budget: Option<u64>,
+}
+
+impl Subject<'_> {
+    /// Sends all that can be found out, until nobody listens.
+    pub(crate) fn judge(&self, lines: &Lines) -> Result<(), Ended> {
+        let Subject { compiled: Compiled { source, game, analysis, .. }, level, seed, .. } = *self;
+        let reach = analysis.reach(level);
+        let mut criteria = Criteria { budget: CRITERIA, ..Criteria::full() };
+        let told = describe::hindered_wins(analysis, level, &reach);
+        let impossible = (!reach.can_win()).then(|| self.why_not(&criteria));
+        let why = impossible.as_ref().map_or(Vec::new(), |judged| evidence(&judged.finding.evidence, source));
+        lines.send(&reached(analysis, level, &reach, &why))?;
+        let mut witness = None;
+        match &impossible {
+            Some(judged) => {
+                let text = told.first().cloned().unwrap_or_else(|| judged.answer());
+                lines.send(&json!({ "stage": "impossible", "text": text, "states": 0 }))?;
+                lines.send(&criterion(judged, source))?;
+            }
+            None => match self.search(lines)? {
+                Solution::Won { episode, .. } => witness = Some(*episode),
+                Solution::Impossible { states, .. } => {
+                    lines.check()?;
+                    // The proof was cheap enough to be found again, with its explanation.
+                    criteria.budget =
+                        SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
+                    lines.send(&criterion(&self.why_not(&criteria), source))?;
+                }
+                Solution::Unknown => {}
+            },
+        }
+        let is_open = impossible.is_none() && witness.is_some();
+        criteria.budget = CRITERIA;
+        // Whether it can be won is known, or was looked for with more calls than there are here.
+        criteria
+            .ask
+            .retain(|name| *name != "winnable" && (is_open || !["length", "skill"].contains(&name.as_str())));
+        let Ok(panel) = Panel::bounded(&criteria, CRITERIA) else { return Ok(()) };
+        let mut heard = Ok(());
+        panel.judge_aloud(game, level, witness, seed, &mut |judged| {
+            heard = lines.send(&criterion(judged, source));
+            if let (Ok(()), Some(ladder)) = (heard, &judged.finding.ladder) {
+                heard = lines.send(&ladder_rows(ladder));
+            }
+            heard.is_ok()
+        });
+        Ok(heard?)
+    }
+
+    /// Looks for a win with more and more calls, and sends the answer.
+    fn search(&self, lines: &Lines) -> Result<Solution, Ended> {
+        let Subject { compiled, level, seed, budget } = *self;
+        let most = budget.unwrap_or(SEARCHES[SEARCHES.len() - 1]).clamp(1, MOST_CALLS);
+        let steps = SEARCHES.into_iter().filter(|&calls| calls < most).chain([most]);
+        let mut spent = 0;
+        for calls in steps {
+            lines.check()?;
+            let config = PortfolioConfig { budget: calls, bytes: BYTES, ..PortfolioConfig::default() };
+            let gone = || lines.check().is_err();
+            let Solved { solution, calls, .. } = solve_until(&compiled.analysis, level, &config, seed, &gone);
+            spent += calls;
+            match &solution {
+                Solution::Won { episode, shortest } => {
+                    let ticks = episode.actions.len();
+                    lines.send(&json!({
+                        "stage": "win", "ticks": ticks, "shortest": shortest, "calls": spent, "episode": episode,
+                    }))?;
+                    return Ok(solution);
+                }
+                Solution::Impossible { states, .. } => {
+                    let text =
+                        format!("the level cannot be won: all {states} reachable states were searched");
+                    lines.send(&json!({ "stage": "impossible", "text": text, "states": states }))?;
+                    return Ok(solution);
+                }
+                Solution::Unknown => lines.send(&json!({ "stage": "search", "calls": spent }))?,
+            }
+        }
+        let text = format!("no win found with {spent} forward-model calls; a win may still exist");
+        lines.send(&json!({ "stage": "unknown", "calls": spent, "text": text }))?;
+        Ok(Solution::Unknown)
+    }
+
+    /// Returns the judgement on a level that cannot be won, with the chain of causes.
+    fn why_not(&self, criteria: &Criteria) -> Judgement {
+        let ask = vec!["winnable".to_owned()];
+        let panel =
+            Panel::new(&Criteria { ask, ..criteria.clone() }).expect("the default criteria are sensible");
+        let mut report = panel.judge(&self.compiled.game, self.level, self.seed);
+        report.judgements.pop().expect("one criterion was asked")
+    }
+}
+
+/// The sprites that matter to the player where they are placed.
+const WANTED: [Role; 6] =
+    [Role::Exit, Role::Key, Role::Collectable, Role::Pushable, Role::Portal, Role::Breakable];
+
+/// Returns the types that the avatar can get to, those that it cannot, and the cells where it can be.
+fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> Value {
+    let game = analysis.game();
+    let cell = |at: usize| json!([at % level.columns(), at / level.columns()]);
+    let (mut reachable, mut unreachable) = (Vec::new(), Vec::new());
+    for stype in game.sprite_types().filter(|&stype| WANTED.contains(&analysis.role(stype))) {
+        let mut placed =
+            (0..level.cells().len()).filter(|&at| game.places(level.cells()[at]).contains(&stype)).peekable();
+        if placed.peek().is_none() {
+            continue;
+        }
+        let cells: Vec<Value> = placed.filter(|&at| !reach.avatar_touches(at)).map(cell).collect();
+        match cells.is_empty() {
+            true => reachable.push(game.name(stype)),
+            false => unreachable.push(json!({ "type": game.name(stype), "cells": cells })),
+        }
+    }
+    let avatar: Vec<Value> =
+        (0..level.cells().len()).filter(|&at| reach.avatar_reaches(at)).map(cell).collect();
+    json!({
+        "stage": "reach",
+        "reachable": reachable,
+        "unreachable": unreachable,
+        "avatar": avatar,
+        "coarse": reach.is_coarse(),
+        "why": why,
+    })
+}
+
+/// Returns evidence as the page shows it: cells from 0, rules by their places in the text.
+fn evidence(seen: &[Evidence], source: &str) -> Vec<Value> {
+    seen.iter()
+        .map(|seen| {
+            json!({
+                "text": seen.text,
+                "tick": seen.tick,
+                "cell": seen.cell.map(|(column, row)| [column.saturating_sub(1), row.saturating_sub(1)]),
+                "rule": seen.rule.as_ref().map(|rule| located(rule, source)),
+                "advice": seen.advice,
+            })
+        })
+        .collect()
+}
+
+fn located(rule: &Line, source: &str) -> Value {
+    let (start, end) = positions::range(source, rule.span);
+    json!({ "line": line_and_column(source, rule.span.start).0, "start": start, "end": end, "text": rule.text })
+}
+
+/// Returns the line of a judgement.
+pub(crate) fn criterion(judged: &Judgement, source: &str) -> Value {
+    let (verdict, episode) = match &judged.finding.verdict {
+        Verdict::Pass { witness } => ("pass", witness.as_ref()),
+        Verdict::Fail { witness, .. } => ("fail", witness.as_ref()),
+        Verdict::Unknown { .. } if judged.is_skipped() => ("skipped", None),
+        Verdict::Unknown { .. } => ("unknown", None),
+    };
+    json!({
+        "stage": "criterion",
+        "name": judged.criterion,
+        "verdict": verdict,
+        "text": judged.answer(),
+        "evidence": evidence(&judged.finding.evidence, source),
+        "episode": episode,
+    })
+}
+
+fn ladder_rows(ladder: &Ladder) -> Value {
+    let row = |result: &PlayerResult| {
+        let [low, high] = result.rate.interval;
+        json!({ "player": result.player, "wins": result.rate.wins, "plays": result.rate.plays, "low": low, "high": high })
+    };
+    let rows: Vec<Value> = ladder.rungs.iter().chain(&ladder.held_out).map(row).collect();
+    json!({ "stage": "ladder", "rows": rows, "difficulty": ladder.difficulty })
+}

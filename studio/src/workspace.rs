@@ -1,0 +1,213 @@
+//! The opened games: of the corpus, of folders, of a release or of results.
+
+use crate::files;
+use crate::refusal::Refusal;
+use engine::Episode;
+use serde::Serialize;
+use serde_json::Value;
+use snapshots::released::Released;
+use std::path::PathBuf;
+use std::sync::{Arc, PoisonError, RwLock};
+
+/// The kind of what was opened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// The games in the program.
+    Corpus,
+    /// Games in folders.
+    Games,
+    /// A release.
+    Snapshot,
+    /// Results of an evaluation.
+    Results,
+}
+
+/// A file of a game: its name and its content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedText {
+    /// The name, without a folder.
+    pub name: String,
+    /// The content.
+    pub text: String,
+}
+
+/// The place of a game's files.
+#[derive(Clone, Debug)]
+pub enum Place {
+    /// In memory: nobody can change them.
+    Texts {
+        /// The game.
+        source: NamedText,
+        /// The levels, in order.
+        levels: Vec<NamedText>,
+    },
+    /// In a folder, with the levels `lvl0.txt`, `lvl1.txt` … beside the game.
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// The name of the game's file in it.
+        source: String,
+        /// `true` if the game may be changed.
+        writable: bool,
+    },
+    /// A file alone, without levels.
+    File {
+        /// The file.
+        file: PathBuf,
+        /// `true` if it may be changed.
+        writable: bool,
+    },
+}
+
+/// A recorded win of a level.
+#[derive(Clone, Debug)]
+pub struct WitnessEntry {
+    /// Its name, such as `lvl0`.
+    pub name: String,
+    /// The index of the level.
+    pub level: usize,
+    /// The episode.
+    pub episode: Episode,
+}
+
+/// A game of a workspace.
+#[derive(Clone, Debug)]
+pub struct GameEntry {
+    /// The name by which the page asks for it; unique in the workspace.
+    pub id: String,
+    /// The title to show.
+    pub title: String,
+    /// The files.
+    pub place: Place,
+    /// The card: its description, and in a release the results of its judges.
+    pub card: Option<Value>,
+    /// A sentence about it.
+    pub summary: String,
+    /// Recorded wins.
+    pub witnesses: Vec<WitnessEntry>,
+}
+
+/// The opened games, and what else belongs to them.
+#[derive(Debug)]
+pub struct Workspace {
+    /// The kind.
+    pub kind: Kind,
+    /// The name to show.
+    pub name: String,
+    /// The folder that copies of games go to.
+    pub copies: PathBuf,
+    /// The place of the release.
+    pub root: Option<PathBuf>,
+    /// The folders of results, one for each player.
+    pub results: Vec<PathBuf>,
+    /// The release, if it is one that verifies.
+    pub released: Option<Arc<Released>>,
+    /// The release to compare it with.
+    pub against: Option<(PathBuf, Arc<Released>)>,
+    games: RwLock<Vec<Arc<GameEntry>>>,
+}
+
+impl Workspace {
+    /// A workspace of these games. Equal ids get a number.
+    pub fn new(kind: Kind, name: impl Into<String>, copies: PathBuf, games: Vec<GameEntry>) -> Workspace {
+        let workspace = Workspace {
+            kind,
+            name: name.into(),
+            copies,
+            root: None,
+            results: Vec::new(),
+            released: None,
+            against: None,
+            games: RwLock::default(),
+        };
+        for game in games {
+            workspace.add(game);
+        }
+        workspace
+    }
+
+    /// Adds a game and returns its id.
+    pub(crate) fn add(&self, mut game: GameEntry) -> String {
+        let mut games = self.games.write().unwrap_or_else(PoisonError::into_inner);
+        let taken = |id: &str| games.iter().any(|known| known.id == id);
+        let id = match taken(&game.id) {
+            false => game.id.clone(),
+            true => {
+                let numbered = (2..).map(|number| format!("{}-{number}", game.id));
+                numbered.into_iter().find(|id| !taken(id)).unwrap_or_default()
+            }
+        };
+        game.id.clone_from(&id);
+        games.push(Arc::new(game));
+        id
+    }
+
+    /// Returns the games, in order.
+    pub(crate) fn games(&self) -> Vec<Arc<GameEntry>> {
+        self.games.read().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Returns a game.
+    pub(crate) fn game(&self, id: &str) -> Result<Arc<GameEntry>, Refusal> {
+        let found = self.games().into_iter().find(|game| game.id == id);
+        found.ok_or_else(|| Refusal::missing("there is no such game here").help("load the page again"))
+    }
+}
+
+impl GameEntry {
+    /// Returns `true` if its files may be changed.
+    pub(crate) fn is_writable(&self) -> bool {
+        match self.place {
+            Place::Texts { .. } => false,
+            Place::Folder { writable, .. } | Place::File { writable, .. } => writable,
+        }
+    }
+
+    /// Returns its text and its levels, as they are now.
+    pub(crate) fn read(&self) -> Result<(NamedText, Vec<NamedText>), Refusal> {
+        match &self.place {
+            Place::Texts { source, levels } => Ok((source.clone(), levels.clone())),
+            Place::Folder { folder, source, .. } => {
+                let text = files::read_source(&folder.join(source))?;
+                Ok((NamedText { name: source.clone(), text }, files::levels(folder)?))
+            }
+            Place::File { file, .. } => {
+                let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                Ok((NamedText { name, text: files::read_source(file)? }, Vec::new()))
+            }
+        }
+    }
+
+    /// Returns the number of its levels, without reading them.
+    pub(crate) fn count(&self) -> usize {
+        match &self.place {
+            Place::Texts { levels, .. } => levels.len(),
+            Place::Folder { folder, .. } => files::level_numbers(folder).map_or(0, |numbers| numbers.len()),
+            Place::File { .. } => 0,
+        }
+    }
+
+    /// Returns the path of one of its files, by name: the game itself or a level.
+    pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
+        let unknown = |help: &str| Refusal::missing("the game has no file of that name").help(help);
+        match &self.place {
+            Place::Texts { .. } => {
+                Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
+            }
+            Place::Folder { writable: false, .. } | Place::File { writable: false, .. } => {
+                Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
+            }
+            Place::Folder { folder, source, .. } if name == source || files::level_number(name).is_some() => {
+                Ok(folder.join(name))
+            }
+            Place::Folder { source, .. } => {
+                Err(unknown(&format!("there are {source} and lvl0.txt, lvl1.txt …")))
+            }
+            Place::File { file, .. } if file.file_name().is_some_and(|own| own == name) => Ok(file.clone()),
+            Place::File { .. } => Err(unknown(
+                "a game that is a single file has no levels beside it; put it into a folder as game.vgdl",
+            )),
+        }
+    }
+}

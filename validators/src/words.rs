@@ -1,0 +1,54 @@
+//! A judgement in words, for people.
+
+use crate::evidence::Evidence;
+use crate::panel::Judgement;
+use crate::verdict::Verdict;
+
+impl Judgement {
+    /// Returns `true` if the criterion was skipped because it does not apply.
+    pub fn is_skipped(&self) -> bool {
+        self.finding.evidence.first().is_some_and(|seen| seen.text.starts_with("skipped"))
+    }
+
+    /// Returns the answer in a sentence, without the evidence; empty for a pass that has nothing to show.
+    pub fn answer(&self) -> String {
+        let Judgement { criterion, finding } = self;
+        match &finding.verdict {
+            Verdict::Pass { witness: Some(witness) } => {
+                format!("the witness wins in {} ticks, score {}", witness.actions.len(), witness.score)
+            }
+            Verdict::Pass { witness: None } => String::new(),
+            Verdict::Fail { reason, .. } => reason.0.clone(),
+            Verdict::Unknown { .. } if self.is_skipped() => finding.evidence[0].text.clone(),
+            Verdict::Unknown { spent: 0 } if *criterion == "winnable" => {
+                "no win found: the budget allows no search".to_owned()
+            }
+            Verdict::Unknown { spent: 0 } => "needs a win, and none was found".to_owned(),
+            // Work that the budget broke off comes first.
+            Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_budget_note) => {
+                finding.evidence[0].text.clone()
+            }
+            Verdict::Unknown { spent } => match *criterion {
+                "winnable" => {
+                    format!("no win found with {spent} forward-model calls; a win may still exist")
+                }
+                "early-death" => {
+                    format!("no play found that survives the first ticks, with {spent} forward-model calls")
+                }
+                "skill" => "too few wins for a verdict".to_owned(),
+                _ => {
+                    let first = finding.evidence.first().map_or("not shown", |seen| seen.text.as_str());
+                    let others = finding.evidence.iter().filter(|seen| seen.advice.is_some()).count();
+                    match others {
+                        0 | 1 => first.to_owned(),
+                        _ => format!("{first}, and {} more", others - 1),
+                    }
+                }
+            },
+        }
+    }
+}
+
+fn is_budget_note(seen: &Evidence) -> bool {
+    seen.text.ends_with("by the budget")
+}
