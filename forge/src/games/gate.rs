@@ -1,7 +1,7 @@
 //! The last word on a game: levels for it, its time limit, and the panel.
 
 use super::candidate::{Candidate, MadeGame};
-use super::levels::{FoundLevel, LevelSource, Levels};
+use super::levels::{FoundLevel, LevelSource, Levels, PLAYED};
 use super::order::GameOrder;
 use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
@@ -9,7 +9,7 @@ use generators::kernels::{KernelGame, KernelGenome};
 use std::collections::BTreeSet;
 use validators::game_measures::Guards;
 use validators::novelty::{GameForm, NEAR};
-use validators::{Panel, used_rules};
+use validators::{Criteria, Panel};
 
 /// Judges games for good, with dice that no search has seen.
 pub(super) struct GameGate<'a> {
@@ -17,7 +17,10 @@ pub(super) struct GameGate<'a> {
     /// The games that others have to differ from.
     known: &'a [GameForm],
     canary: &'a str,
+    /// All judges.
     panel: Panel,
+    /// Those whose plays are not dear.
+    first: Panel,
 }
 
 /// The time limits of games, in ticks: round numbers, as authors choose them.
@@ -39,8 +42,12 @@ pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
 impl<'a> GameGate<'a> {
     pub(super) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> GameGate<'a> {
-        let panel = Panel::new(&order.criteria).expect("the order was checked");
-        GameGate { order, known, canary, panel }
+        let ask =
+            order.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
+        let panel_of = |criteria: &Criteria| Panel::new(criteria).expect("the order was checked");
+        let panel = panel_of(&order.criteria);
+        let first = panel_of(&Criteria { ask, ..order.criteria.clone() });
+        GameGate { order, known, canary, panel, first }
     }
 
     /// Finds a course of levels for a game, sets its time limit by the wins found, and judges it; `None`, with the reason in
@@ -77,7 +84,7 @@ impl<'a> GameGate<'a> {
             tries: self.order.level_tries,
             source: LevelSource::Course(&course),
             criteria: &self.order.criteria,
-            panel: &self.panel,
+            panel: &self.first,
             seed,
         };
         let found = levels.each(&first.game, tally)?;
@@ -104,12 +111,33 @@ impl<'a> GameGate<'a> {
         &self,
         candidate: Candidate,
         levels: &Levels<'_>,
-        found: Vec<FoundLevel>,
+        mut found: Vec<FoundLevel>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
-        let seed = levels.seed;
-        let together =
-            levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
+        let (game, seed) = (&candidate.game, levels.seed);
+        let judges = seed.child("judges of the game", 0);
+        let mut together = levels.together(game, &found, judges, tally);
+        let (first, later) = found.split_first()?;
+        let later: Vec<(u32, FoundLevel)> = (1..).zip(later.iter().cloned()).collect();
+        if together.as_ref().is_err_and(|obstacle| *obstacle == "progression")
+            && !levels.leaves_something(game, first, &later)
+            && let Some(another) = levels.another_introduction(game, first, &later, tally)
+        {
+            found[0] = another;
+            together = levels.together(game, &found, judges, tally);
+        }
+        if together.is_ok() && PLAYED.iter().any(|name| self.order.criteria.includes(name)) {
+            found = levels.played(game, found, tally)?;
+            let all = Levels { panel: &self.panel, ..*levels };
+            together = all.together(game, &found, judges, tally);
+        }
+        let together = match together {
+            Ok(together) => together,
+            Err(obstacle) => {
+                tally.game_rejected(obstacle);
+                return None;
+            }
+        };
         if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {
             tally.game_rejected(SECOND_JUDGES);
             return None;
@@ -145,10 +173,8 @@ fn interactions(game: &Game) -> usize {
 
 /// The interactions that the wins of the levels execute, guards apart.
 fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
-    let guards: BTreeSet<usize> = Guards::of(&Analysis::of(game)).lines().collect();
-    let won = levels.iter().filter_map(|found| Some((&found.level, found.report.witness.as_ref()?)));
-    let used: BTreeSet<usize> = won.flat_map(|(level, witness)| used_rules(game, level, witness)).collect();
-    used.difference(&guards).count()
+    let guards = Guards::of(&Analysis::of(game));
+    levels.iter().flat_map(|found| found.mechanics(game, &guards)).collect::<BTreeSet<usize>>().len()
 }
 
 #[cfg(test)]
@@ -161,7 +187,6 @@ pub(super) mod tests {
     use generators::games::Kind;
     use generators::kernels::KernelVariation;
     use generators::levels::LevelConfig;
-    use validators::Criteria;
 
     /// Two levels, and few and weak players.
     pub(in crate::games) fn order() -> GameOrder {
@@ -249,12 +274,7 @@ pub(super) mod tests {
 
     #[test]
     fn second_judges_ask_again_what_chance_has_a_say_in() {
-        let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
-        let seed = Seed::from_text("gate");
-        let made = (0..20)
-            .filter_map(|number| variation.create(seed.child("game", number)))
-            .find_map(|genome| judge(&order(), &[], &genome).0)
-            .expect("one of them passes");
+        let (made, seed) = made();
         let hold = |alter: &dyn Fn(&mut Criteria)| {
             let mut order = order();
             alter(&mut order.criteria);
@@ -277,6 +297,50 @@ pub(super) mod tests {
             hold(&|criteria| (criteria.budget, criteria.least_ticks, criteria.most_ticks) = (1, 1000, 2000)),
             "what is certain"
         );
+    }
+
+    /// A game of two levels, and the seed of its judges.
+    fn made() -> (MadeGame, Seed) {
+        let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
+        let seed = Seed::from_text("gate");
+        let made = (0..20)
+            .filter_map(|number| variation.create(seed.child("game", number)))
+            .find_map(|genome| judge(&order(), &[], &genome).0);
+        (made.expect("one of them passes"), seed)
+    }
+
+    #[test]
+    fn dear_criteria_come_last_and_misfits_are_replaced() {
+        let (made, seed) = made();
+        let played = |alter: &dyn Fn(&mut Criteria), tries| {
+            let mut order = order();
+            order.criteria.ask.push("skill".to_owned());
+            alter(&mut order.criteria);
+            let GameOrder { levels: count, criteria, .. } = &order;
+            let (count, config, panel) = (*count, &LevelConfig::default(), &Panel::new(criteria).unwrap());
+            let levels = Levels { count, tries, source: LevelSource::Rules(config), criteria, panel, seed };
+            let mut tally = Tally { levels_accepted: count.into(), ..Tally::default() };
+            (levels.played(&made.game, made.levels.clone(), &mut tally), tally)
+        };
+        let lax = |criteria: &mut Criteria| {
+            criteria.ladder = ["do-nothing", "olets:50"].map(str::to_owned).to_vec();
+            criteria.held_out = vec!["olets:100".to_owned()];
+            criteria.skill_wins = 0.0;
+        };
+        let unskilled = |criteria: &mut Criteria| {
+            criteria.ladder = ["do-nothing", "random"].map(str::to_owned).to_vec();
+            criteria.held_out.clear();
+            (criteria.skill_wins, criteria.skill_scores) = (1.0, 1.0);
+        };
+        let (levels, tally) = played(&lax, 16);
+        let levels = levels.unwrap_or_else(|| panic!("{}", tally.reasons()));
+        for found in &levels {
+            let last = found.report.judgements.last().unwrap();
+            assert!(last.criterion == "skill" && last.finding.verdict.is_pass(), "{:?}", found.report);
+        }
+        let (levels, tally) = played(&unskilled, 0);
+        assert!(levels.is_none());
+        assert_eq!(tally.reasons(), "no level 1 1, skill 1");
     }
 
     /// More than any game has.

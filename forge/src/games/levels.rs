@@ -7,9 +7,12 @@ use engine::{Action, Analysis, Digest, Episode, Game, Level, Outcome, Seed};
 use generators::kernels::{Course, CourseLevel, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
+use std::collections::BTreeSet;
 use std::slice;
+use validators::game_measures::Guards;
 use validators::{
-    Criteria, Demand, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, Verdict, mcts_rate,
+    Criteria, Demand, Finding, GATES, Gates, Judgement, NotInstant, Panel, Rate, Report, SkillOverall,
+    Verdict, mcts_rate, used_rules,
 };
 
 /// A level that its judges let in.
@@ -116,8 +119,13 @@ impl Levels<'_> {
     /// game does not meet a criterion on all of them together.
     pub fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
         let levels = self.each(game, tally)?;
-        let together = self.together(game, &levels, self.seed.child("judges of the game", 0), tally)?;
-        Some(self.told(game, levels, together, tally))
+        match self.together(game, &levels, self.seed.child("judges of the game", 0), tally) {
+            Ok(together) => Some(self.told(game, levels, together, tally)),
+            Err(obstacle) => {
+                tally.game_rejected(obstacle);
+                None
+            }
+        }
     }
 
     /// Accepted levels with their further data.
@@ -145,9 +153,23 @@ impl Levels<'_> {
         // The easiest may be too easy, and the hardest too hard: what is to fail should fail soon.
         let ends = [0, self.count - 1].into_iter().take(self.count as usize);
         for number in ends.chain(1..self.count.max(1) - 1) {
-            match self.level(game, number, &levels, tally) {
+            match self.level(game, (number, 0), &levels, tally) {
                 Some(level) => {
                     levels.push((number, level));
+                    // In a short course the level between may bring something new.
+                    let is_long =
+                        matches!(self.source, LevelSource::Course(_)) && self.count as usize > OUTLINE;
+                    if levels.len() == 2
+                        && is_long
+                        && !self.leaves_something(game, &levels[0].1, &levels[1..])
+                    {
+                        let Some(first) = self.another_introduction(game, &levels[0].1, &levels[1..], tally)
+                        else {
+                            tally.game_rejected("progression");
+                            return None;
+                        };
+                        levels[0].1 = first;
+                    }
                     if levels.len() == OUTLINE
                         && let Some(obstacle) = self.objection_to_outline(game, &levels, tally)
                     {
@@ -172,6 +194,36 @@ impl Levels<'_> {
             levels.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
         }
         Some(levels)
+    }
+
+    /// Another first level for a course, where the one that passed gives everything away: one of its next few candidates that
+    /// does not.
+    pub(super) fn another_introduction(
+        &self,
+        game: &Game,
+        first: &FoundLevel,
+        later: &[(u32, FoundLevel)],
+        tally: &mut Tally,
+    ) -> Option<FoundLevel> {
+        tally.level_taken_back("progression");
+        let next = first.candidate + 1;
+        let few = Levels { tries: self.tries.min(next + INTRODUCTIONS), ..*self };
+        few.level(game, (0, next), later, tally)
+    }
+
+    /// Tests whether the wins of later levels need a mechanic that the win of the first does not, if that is asked for.
+    pub(super) fn leaves_something(
+        &self,
+        game: &Game,
+        first: &FoundLevel,
+        later: &[(u32, FoundLevel)],
+    ) -> bool {
+        if later.is_empty() || !self.criteria.includes("progression") || self.criteria.gates.growth == 0 {
+            return true;
+        }
+        let guards = Guards::of(&Analysis::of(game));
+        let known = first.mechanics(game, &guards);
+        later.iter().any(|(_, found)| !found.mechanics(game, &guards).is_subset(&known))
     }
 
     /// Returns the gate that the first two levels and the last of a course cannot be hoped to pass together with the others:
@@ -214,25 +266,66 @@ impl Levels<'_> {
             && skill.is_hopeless(&ladders, game.is_deterministic(), self.count as usize)
     }
 
-    /// Returns the findings of the judges of the game; `None`, with the reason in the tally, if one of them says no.
+    /// Returns the findings of the judges of the game.
+    ///
+    /// # Errors
+    /// The first criterion that is not met.
     pub(crate) fn together(
         &self,
         game: &Game,
         levels: &[FoundLevel],
         seed: Seed,
         tally: &mut Tally,
-    ) -> Option<Vec<Judgement>> {
+    ) -> Result<Vec<Judgement>, &'static str> {
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
         let together = self.panel.screen_together(game, &boards, &reports, seed);
         tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
         match together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
-            Some(obstacle) => {
-                tally.game_rejected(obstacle.criterion);
-                None
-            }
-            None => Some(together),
+            Some(obstacle) => Err(obstacle.criterion),
+            None => Ok(together),
         }
+    }
+
+    /// The levels of a course judged by those criteria whose plays are dear, which come last: most games fail at cheaper ones. For a
+    /// level that fails, its place gets its next candidate that passes. `None`, with the reason in the tally, if there is none, or
+    /// if so many fail that the game must be at fault.
+    pub(crate) fn played(
+        &self,
+        game: &Game,
+        found: Vec<FoundLevel>,
+        tally: &mut Tally,
+    ) -> Option<Vec<FoundLevel>> {
+        let panel = self.panel_of(&PLAYED, self.criteria.gates.clone());
+        let judge = |found: &mut FoundLevel, tally: &mut Tally| {
+            let (witness, seed) = (found.report.witness.clone()?, found.seed.child("judges", 0));
+            let report = panel.screen_won(game, &found.level, witness, seed);
+            tally.calls(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum());
+            let passes = report.passes();
+            found.report.judgements.extend(report.judgements);
+            Some(passes)
+        };
+        let mut levels: Vec<(u32, FoundLevel)> = (0..).zip(found).collect();
+        let mut misfits = 0;
+        // The last level asks the most of players: what is to fail should fail soon.
+        for number in (0..self.count).rev() {
+            let at = number as usize;
+            while !judge(&mut levels[at].1, tally)? {
+                tally.level_taken_back("skill");
+                misfits += 1;
+                if misfits > MISFITS {
+                    tally.game_rejected("skill");
+                    return None;
+                }
+                let (_, misfit) = levels.remove(at);
+                let Some(next) = self.level(game, (number, misfit.candidate + 1), &levels, tally) else {
+                    tally.game_rejected(&format!("no level {number}"));
+                    return None;
+                };
+                levels.insert(at, (number, next));
+            }
+        }
+        Some(levels.into_iter().map(|(_, found)| found).collect())
     }
 
     /// Tests whether judges with other dice let the same levels in, as far as chance has a say. The first judges choose among
@@ -280,14 +373,16 @@ impl Levels<'_> {
         })
     }
 
-    /// A level that was found for a game that had another time limit: judged again, but for the criteria whose plays are
-    /// dear, which are carried over if the win still wins. The dice are the same, so that a replay ends as before.
+    /// A level that was found for a game that had another time limit: judged again, but for the criteria whose plays are dear, and
+    /// for the search for a win, which is carried over if the win still wins. The dice are the same, so that a replay ends as
+    /// before.
     pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = recorded(game, &level, found.report.witness.as_ref()?);
         let is_won = witness.outcome == Outcome::Won;
-        let is_carried = |criterion: &str| PLAYED.contains(&criterion) || is_won && criterion == "winnable";
-        let ask = self.criteria.ask.iter().filter(|name| !is_carried(name)).cloned().collect();
+        let is_carried = |criterion: &str| is_won && criterion == "winnable";
+        let is_asked = |name: &&String| !is_carried(name) && !PLAYED.contains(&name.as_str());
+        let ask = self.criteria.ask.iter().filter(is_asked).cloned().collect();
         let panel =
             Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
         let win = is_won.then_some(witness);
@@ -311,11 +406,11 @@ impl Levels<'_> {
         Some(again)
     }
 
-    /// A level for a place, beside those of other places.
+    /// A level for a place, beside those of other places: the first that passes of its candidates from number `from` on.
     fn level(
         &self,
         game: &Game,
-        number: u32,
+        (number, from): (u32, u32),
         others: &[(u32, FoundLevel)],
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
@@ -340,8 +435,8 @@ impl Levels<'_> {
                 return None;
             }
         };
-        let mut left = self.tries;
-        for candidate in 0..self.tries {
+        let mut left = self.tries.saturating_sub(from);
+        for candidate in from..self.tries {
             if left == 0 {
                 break;
             }
@@ -365,6 +460,10 @@ impl Levels<'_> {
                     None => continue,
                 }
             }
+            if self.is_walked_through(game, number, &level, seed) {
+                tally.level(0, Some("not-instant"));
+                continue;
+            }
             let calls = tally.calls;
             let Some(found) =
                 self.judged(self.panel, game, level, ((difficulty, candidate), None), seed, tally)
@@ -384,6 +483,10 @@ impl Levels<'_> {
             }
             if !others.iter().all(in_order) {
                 tally.level_taken_back("less than an earlier level");
+            } else if number == 0 && !self.leaves_something(game, &found, others) {
+                tally.level_taken_back("progression");
+            } else if self.is_won_too_soon(game, number, &found) {
+                tally.level_taken_back("not-instant");
             } else if self.is_tedious(game, &found, tally) {
                 tally.level_taken_back("no-dead-time");
             } else {
@@ -424,6 +527,28 @@ impl Levels<'_> {
             return None;
         }
         Some(FoundLevel { demand: Some(demand), ..found })
+    }
+
+    /// The gate against instant wins, if it is asked of the level of a place alone: of a course with room for an exception, the
+    /// second level may be one.
+    fn not_instant(&self, number: u32) -> Option<NotInstant> {
+        let gates = &self.criteria.gates;
+        let exceptions = gates.instant_levels * f64::from(self.count.saturating_sub(1));
+        let is_asked = self.criteria.includes("not-instant") && matches!(self.source, LevelSource::Course(_));
+        let first = if exceptions >= 1.0 { 2 } else { 1 };
+        (is_asked && number >= first).then(|| NotInstant(gates.clone()))
+    }
+
+    /// Tests whether whoever walks to the nearest goal wins a level, before a win is searched for.
+    fn is_walked_through(&self, game: &Game, number: u32, level: &Level, seed: Seed) -> bool {
+        let (ticks, seed) = (self.criteria.most_ticks, seed.child("nearest goal", 0));
+        self.not_instant(number).is_some_and(|gate| gate.is_walked_through(game, level, ticks, seed))
+    }
+
+    fn is_won_too_soon(&self, game: &Game, number: u32, found: &FoundLevel) -> bool {
+        let Some(win) = &found.report.witness else { return false };
+        let analysis = Analysis::of(game);
+        self.not_instant(number).is_some_and(|gate| gate.is_too_short(&analysis, &found.level, win))
     }
 
     /// Tests whether the win of a level has dead time: the gate looks at each level alone.
@@ -472,6 +597,13 @@ const LATER_SHARE: f64 = 0.6;
 /// The levels of a course that are found first: two to begin with and the exam.
 const OUTLINE: usize = 3;
 
+/// Further candidates for the first level of a course where the one that passed gives everything away: games in which those
+/// do, too, hardly ever have one that does not.
+const INTRODUCTIONS: u32 = 3;
+
+/// Levels of a course that may fail the criteria whose plays are dear, until its game is given up.
+const MISFITS: u32 = 8;
+
 /// Further candidates that a level costs whose win was searched for in vain.
 const DEAR: u32 = 1;
 
@@ -479,7 +611,7 @@ const DEAR: u32 = 1;
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
 
 /// The criteria whose plays are dear, and the one that counts them.
-const PLAYED: [&str; 2] = ["skill", "skill-overall"];
+pub(super) const PLAYED: [&str; 2] = ["skill", "skill-overall"];
 
 /// An episode replayed as one of another game.
 fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
@@ -495,6 +627,13 @@ impl FoundLevel {
     fn asks_as_much_as(&self, earlier: &FoundLevel) -> bool {
         let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
         ticks(self) as f64 >= LATER_SHARE * ticks(earlier) as f64
+    }
+
+    /// The interactions that its win executes, guards apart.
+    pub(super) fn mechanics(&self, game: &Game, guards: &Guards) -> BTreeSet<usize> {
+        let Some(win) = &self.report.witness else { return BTreeSet::new() };
+        let guards: BTreeSet<usize> = guards.lines().collect();
+        used_rules(game, &self.level, win).into_iter().filter(|line| !guards.contains(line)).collect()
     }
 
     /// Its ease for the ladder, from 0 to 1; the same for all levels if none played.

@@ -17,8 +17,8 @@ const PLAYERS: [&str; 4] = ["do-nothing", "random", "mcts:30", "olets:50"];
 const PLAYS: u64 = 4;
 /// Forward-model calls of all of them on a level, after which no further round of plays begins.
 const CALLS: u64 = 300_000;
-/// Ticks of a play.
-const TICKS: usize = 400;
+/// Ticks of a play: half as many again as the judges let a win take.
+const TICKS: usize = 240;
 /// The greatest share of plays that those who do not look ahead may win.
 const LUCK: f64 = 0.1;
 /// The least share that somebody who looks ahead has to win, more than they do.
@@ -68,12 +68,22 @@ struct Played {
     episodes: Vec<Episode>,
 }
 
+impl Played {
+    fn wins(&self) -> impl Iterator<Item = &Episode> {
+        self.episodes.iter().filter(|episode| episode.outcome == Outcome::Won)
+    }
+
+    fn is_won(&self) -> bool {
+        self.wins().next().is_some()
+    }
+}
+
 impl Looker {
     pub(super) fn new(seed: Seed) -> Looker {
         Looker { seed }
     }
 
-    /// Looks at a game. Cost: 48 plays of at most 400 ticks, and [`PlayMeasures`].
+    /// Looks at a game. Cost: 48 plays of at most 240 ticks, and [`PlayMeasures`].
     pub(super) fn look(&self, genome: &KernelGenome) -> Look {
         let seed = self.seed.child(&genome.key().to_string(), 0);
         let made = genome
@@ -83,10 +93,13 @@ impl Looker {
         let analysis = Analysis::of(&game);
         let coupling = Coupling::of(&analysis).strength();
         let kernel = KernelGenome::kernels().position(|name| name == genome.kernel()).unwrap_or_default();
-        let played: Vec<Played> = (0..)
-            .zip(SLOTS)
-            .filter_map(|(number, slot)| Looker::play(&analysis, &course, slot, seed.child("level", number)))
-            .collect();
+        let mut played: Vec<Played> = Vec::new();
+        for (number, slot) in (0..).zip(SLOTS) {
+            // Who wins neither an introduction nor a level after it does not win the exam.
+            let is_beyond = played.len() == WON as usize && !played.iter().any(Played::is_won);
+            let plays = if is_beyond { 0 } else { PLAYS };
+            played.extend(Looker::play(&analysis, &course, slot, plays, seed.child("level", number)));
+        }
         let calls = played.iter().flat_map(|played| &played.ladder.rungs).map(|fared| fared.rate.calls).sum();
         let recording: Vec<Recorded<'_>> = played
             .iter()
@@ -108,14 +121,15 @@ impl Looker {
         let (floor, best) = (idle.max(random), weak.max(strong));
         let lucky = if floor <= LUCK { 1.0 } else { 1.0 - floor };
         let edge = ((best - floor) / EDGE).clamp(0.0, 1.0);
-        let run = |episode: &&Episode| episode.outcome == Outcome::Won;
-        let won = played.iter().filter(|played| played.episodes.iter().any(|episode| run(&episode))).count();
-        let regret = played.iter().filter_map(|played| {
-            let won = played.episodes.iter().find(run)?;
+        let won = played.iter().filter(|played| played.is_won()).count();
+        let constraints = [drawn, lucky, edge, (won as f64 / WON).min(1.0)];
+        // Only feasible games are compared by their objective.
+        let is_feasible = constraints.iter().all(|met| *met >= 1.0);
+        let regret = played.iter().filter(|_| is_feasible).filter_map(|played| {
+            let won = played.wins().next()?;
             Some(Regret::of(&game, &played.level, won, seed.child("regret", 0)).strength())
         });
         let regret = regret.fold(0.0, f64::max);
-        let constraints = [drawn, lucky, edge, (won as f64 / WON).min(1.0)];
         let objective = 0.2 * (best - floor).max(0.0)
             + 0.1 * (measures.mechanics as f64 / MECHANICS).min(1.0)
             + 0.1 * (1.0 - (best - CHALLENGE).abs() / CHALLENGE)
@@ -129,7 +143,13 @@ impl Looker {
         Look { is_promising: look.is_promising || is_puzzle, ..look }
     }
 
-    fn play(analysis: &Analysis, course: &Course, slot: Slot, seed: Seed) -> Option<Played> {
+    fn play(
+        analysis: &Analysis,
+        course: &Course,
+        slot: Slot,
+        plays: u64,
+        seed: Seed,
+    ) -> Option<Played> {
         let game = analysis.game();
         let level = (0..BOARDS).find_map(|board| {
             let level = course.level(slot, seed.child("board", board)).ok()?;
@@ -139,7 +159,7 @@ impl Looker {
         let climb = LadderConfig {
             rungs: PLAYERS.iter().map(rung).collect(),
             held_out: Vec::new(),
-            plays: PLAYS,
+            plays,
             calls: CALLS,
             ticks: TICKS,
             patience: 1,

@@ -3,7 +3,7 @@
 use super::{Gates, WonLevel};
 use crate::game_report::GameCase;
 use agents::{Budget, Limits, NearestGoal, play};
-use engine::{Episode, Outcome, Seed};
+use engine::{Episode, Game, Level, Outcome, Seed};
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
@@ -28,22 +28,25 @@ impl CarelessPlays {
 pub(super) fn plays<'a>(case: GameCase<'a>, won: WonLevel<'_>, gates: &Gates) -> &'a [Episode] {
     let Gates { careless_plays, careless_slips, .. } = *gates;
     let all = case.careless;
-    all.levels[won.number].get_or_init(|| nearest_goal(case, won, (careless_slips, careless_plays), all.seed))
+    let seed = all.seed.child("level", won.number as u64);
+    all.levels[won.number].get_or_init(|| {
+        nearest_goal(case.game, (won.level, won.ticks()), (careless_slips, careless_plays), seed)
+    })
 }
 
-/// Plays of the nearest-goal player on a level, with a share of slips. Cost: a call for each action and tick.
+/// Plays of the nearest-goal player on a level that is won in so many ticks, with a share of slips. Cost: a call for each
+/// action and tick.
 pub(super) fn nearest_goal(
-    case: GameCase<'_>,
-    won: WonLevel<'_>,
+    game: &Game,
+    (level, ticks): (&Level, usize),
     (slips, plays): (f64, u32),
     seed: Seed,
 ) -> Vec<Episode> {
-    let seed = seed.child("level", won.number as u64);
-    let limits = Limits { ticks: PATIENCE * won.ticks() + GRACE, calls: u64::MAX };
+    let limits = Limits { ticks: PATIENCE * ticks + GRACE, calls: u64::MAX };
     let run = |number: u32| {
         let seed = seed.child("play", u64::from(number));
         let mut player = NearestGoal::new(slips, seed.child("player", 0));
-        play(case.game, won.level, &mut player, Budget(0), seed.child("chance", 0), limits).episode
+        play(game, level, &mut player, Budget(0), seed.child("chance", 0), limits).episode
     };
     (0..plays).into_par_iter().map(run).collect()
 }

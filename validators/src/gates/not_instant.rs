@@ -5,7 +5,7 @@ use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::{Attainable, Role};
-use engine::{Analysis, SpriteClass, SpriteType, Term};
+use engine::{Analysis, Episode, Game, Level, Seed, SpriteClass, SpriteType, Term};
 
 /// On each level after the first, up to [`Gates::instant_levels`] of them apart, the shortest known win takes at least
 /// [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the slowest spawner on the level, and the nearest-goal player
@@ -32,9 +32,9 @@ impl GameValidator for NotInstant {
         let later: Vec<&WonLevel<'_>> = wins.iter().filter(|won| won.number > 0).collect();
         for won in &later {
             let before = problems.len();
-            problems.extend(self.too_short(case, **won, &periods));
-            let plays = careless::nearest_goal(case, **won, (0.0, gates.bot_plays), case.seed);
-            let share = careless::win_share(&plays);
+            problems.extend(self.too_short(case.analysis, **won, &periods));
+            let seed = case.seed.child("level", won.number as u64);
+            let share = self.nearest_goal_wins(case.game, (won.level, won.ticks()), seed);
             let text = format!(
                 "the nearest-goal player wins {:.0} % of its plays on level {}",
                 100.0 * share,
@@ -69,30 +69,47 @@ impl GameValidator for NotInstant {
 }
 
 impl NotInstant {
+    /// Tests whether the nearest-goal player wins a level more often than one after the first may let it, if it may take as
+    /// long as for a win of so many ticks. Asks for no known win, so that a level can be refused before one is searched for.
+    /// Cost: its plays.
+    pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
+        self.nearest_goal_wins(game, (level, ticks), seed) > self.0.bot_wins
+    }
+
+    /// Tests whether a win comes sooner than one of a level after the first may.
+    pub fn is_too_short(&self, analysis: &Analysis, level: &Level, win: &Episode) -> bool {
+        let won = WonLevel { number: 1, level, win };
+        !self.too_short(analysis, won, &periods(analysis)).is_empty()
+    }
+
+    fn nearest_goal_wins(&self, game: &Game, level: (&Level, usize), seed: Seed) -> f64 {
+        careless::win_share(&careless::nearest_goal(game, level, (0.0, self.0.bot_plays), seed))
+    }
+
     /// Returns the problems with a win that comes too soon.
     fn too_short(
         &self,
-        case: GameCase<'_>,
+        analysis: &Analysis,
         won: WonLevel<'_>,
         periods: &[(SpriteType, f64)],
     ) -> Vec<Evidence> {
         let Gates { least_win, spawn_periods, .. } = self.0;
-        let (number, ticks) = (won.number, won.ticks());
+        let (game, number, ticks) = (analysis.game(), won.number, won.ticks());
         let mut problems = Vec::new();
         if ticks < least_win {
             let text = format!("level {number} is won in {ticks} ticks, fewer than {least_win}");
             problems
                 .push(Evidence::new(text).advise("move the goal farther away, or put something in the way"));
         }
-        let start = case.game.start(won.level, won.win.seed);
+        let start = game.start(won.level, won.win.seed);
         let placed = periods.iter().filter(|(stype, _)| start.alive(*stype) > 0);
         let slowest = placed.max_by(|one, other| one.1.total_cmp(&other.1));
         if let Some((stype, period)) = slowest.filter(|(_, period)| (ticks as f64) < spawn_periods * period) {
-            let name = case.game.name(*stype);
+            let name = game.name(*stype);
             let text = format!(
                 "level {number} is won in {ticks} ticks, before {spawn_periods} periods of `{name}`, {period:.0} ticks each"
             );
-            let rule = Line::sprite(case.game, name);
+            let rule = Line::sprite(game, name);
             problems.push(Evidence { rule, ..Evidence::new(text) }.advise("lower its cooldown"));
         }
         problems
@@ -136,7 +153,6 @@ fn periods(analysis: &Analysis) -> Vec<(SpriteType, f64)> {
 mod tests {
     use super::*;
     use crate::gates::tests::check;
-    use engine::Game;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    hive > SpawnPoint stype=wasp cooldown=15 prob=0.5\n    wasp > Missile orientation=LEFT\n    plum > Immovable\n    key > Resource limit=2\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    h > hive\n    p > plum\n    k > key\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    wasp wall > killSprite\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    avatar wasp > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=80 win=False\n";
     const NEAR: &str = "wwwwww\nwA  pw\nwwwwww\n";
@@ -163,9 +179,20 @@ mod tests {
         );
     }
 
+    const LOCK: &str = "wwwwwwwwwwwwwwwww\nwA  p   w       w\nw       w       w\nw       w       w\nw       g       w\nw       w      pw\nwk      w       w\nwwwwwwwwwwwwwwwww\n";
+
     #[test]
     fn a_lock_takes_longer() {
-        let level = "wwwwwwwwwwwwwwwww\nwA  p   w       w\nw       w       w\nw       w       w\nw       g       w\nw       w      pw\nwk      w       w\nwwwwwwwwwwwwwwwww\n";
-        check("not-instant", GAME, &[NEAR, level], None);
+        check("not-instant", GAME, &[NEAR, LOCK], None);
+    }
+
+    #[test]
+    fn a_walk_is_told_before_a_win_is_known() {
+        let game = Game::from_source(GAME).unwrap();
+        let gate = NotInstant(Gates::default());
+        let is_walk = |level: &str| {
+            gate.is_walked_through(&game, &game.level(level).unwrap(), 160, Seed::from_text("walk"))
+        };
+        assert!(is_walk(NEAR) && !is_walk(LOCK));
     }
 }
