@@ -143,13 +143,7 @@ impl Looker {
         Look { is_promising: look.is_promising || is_puzzle, ..look }
     }
 
-    fn play(
-        analysis: &Analysis,
-        course: &Course,
-        slot: Slot,
-        plays: u64,
-        seed: Seed,
-    ) -> Option<Played> {
+    fn play(analysis: &Analysis, course: &Course, slot: Slot, plays: u64, seed: Seed) -> Option<Played> {
         let game = analysis.game();
         let level = (0..BOARDS).find_map(|board| {
             let level = course.level(slot, seed.child("board", board)).ok()?;
