@@ -14,7 +14,7 @@ const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
 /// The most calls that can be asked for.
 const MOST_CALLS: u64 = 50_000_000;
 /// The memory limit of a search, in bytes.
-const BYTES: usize = 256 << 20;
+pub(crate) const BYTES: usize = 256 << 20;
 /// Forward-model calls that the criteria divide among them.
 const CRITERIA: u64 = 300_000;
 

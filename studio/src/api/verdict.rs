@@ -1,19 +1,21 @@
 //! Answers that arrive line by line: the verdict on a level, the criteria of a game, new levels.
 
 use crate::answers::Asked;
+use crate::compiled::Compiled;
 use crate::frames::{Frame, Tiles};
 use crate::lines::{Ended, Lines};
 use crate::positions;
 use crate::refusal::Refusal;
 use crate::studio::Studio;
-use crate::verdict::{Subject, criterion};
-use engine::{Diagnostic, Diagnostics, Level, Seed};
-use forge::levels::{LevelOrder, Method, make_levels};
+use crate::verdict::{BYTES, Subject, criterion};
+use agents::{PortfolioConfig, Solution, solve_until};
+use engine::{Diagnostic, Diagnostics, Episode, Level, Seed};
+use forge::levels::{LevelOrder, MadeLevel, Method, make_levels};
 use generators::levels::{Examples, LevelConfig};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
-use validators::{Criteria, Difficulty, GATES, Panel, Report};
+use validators::{Criteria, Demand, Difficulty, GATES, Panel, Report, Tier};
 
 /// A level to judge.
 #[derive(Deserialize)]
@@ -62,7 +64,7 @@ pub(crate) struct Necessity {
     levels: Vec<String>,
 }
 
-/// Forward-model calls for each level, and for the game over all its levels.
+/// Forward-model calls for each level, and for the game over all its levels; those to win a new level.
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
@@ -102,6 +104,7 @@ pub(crate) struct More {
     width: Option<usize>,
     height: Option<usize>,
     difficulty: Option<String>,
+    tier: Option<u8>,
     #[serde(default)]
     seed: String,
     count: u32,
@@ -109,9 +112,11 @@ pub(crate) struct More {
 
 /// The most levels of a request.
 const MOST_LEVELS: u32 = 20;
+/// Levels that are made for each that is asked for, at most, where the tier decides: generators do not aim at one.
+const TRIES: u32 = 4;
 
 pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result<(), Ended> {
-    let More { source, level, method, width, height, difficulty, seed, count } = asked.body;
+    let More { source, level, method, width, height, difficulty, tier, seed, count } = asked.body;
     let compiled = studio.compiled.need(&source)?;
     let method: Method = method.parse().map_err(Refusal::bad)?;
     let example = level.and_then(|text| compiled.game.level(&text).ok());
@@ -127,10 +132,17 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     let asked_for = difficulty.filter(|label| !label.is_empty());
     let difficulty: Option<Difficulty> =
         asked_for.map(|label| label.parse()).transpose().map_err(Refusal::bad)?;
+    let wanted: Option<Tier> = tier.map(Tier::try_from).transpose().map_err(Refusal::bad)?;
     let seed = Seed::from_text(&seed).child(method.name(), 0);
     let mut tiles = Tiles::default();
+    let count = count.min(MOST_LEVELS);
+    let tries = if wanted.is_some() { TRIES * count } else { count };
+    let mut sent = 0;
     // One after the other, so that each arrives when it is made.
-    for number in 0..count.min(MOST_LEVELS) {
+    for number in 0..tries {
+        if sent == count {
+            break;
+        }
         lines.check()?;
         let order = LevelOrder { difficulty, ..LevelOrder::new(method, 1, config.clone()) };
         let made = make_levels(&compiled.game, &order, seed.child("level", u64::from(number)), &());
@@ -142,19 +154,52 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
             }
         };
         for made in set.levels {
+            let seed = seed.child("win", u64::from(number));
+            let Some((win, is_shortest)) = known_win(&compiled, &made, seed, lines) else {
+                lines.send(&json!({ "stage": "none", "text": "no win was found" }))?;
+                continue;
+            };
+            let measured = wanted.and_then(|_| {
+                Demand::of(&compiled.analysis, &made.level, &win, is_shortest, seed.child("tier", 0))
+            });
+            let tier = measured.as_ref().map(Demand::tier);
+            if let (Some(wanted), Some(tier)) = (wanted, tier)
+                && tier != wanted
+            {
+                lines.send(&json!({ "stage": "none", "text": format!("tier {tier}, not {wanted}") }))?;
+                continue;
+            }
+            sent += 1;
             let state = compiled.game.start(&made.level, Seed::from_text("board"));
             let frame = Frame::of(&compiled, &state, 0, &mut tiles)?;
-            let witness = made.report.as_ref().and_then(|report| report.witness.as_ref());
             lines.send(&json!({
                 "stage": "level",
                 "level": made.level.to_string(),
                 "tiles": tiles.fresh(),
                 "frame": frame,
-                "ticks": witness.map(|witness| witness.actions.len()),
-                "episode": witness,
+                "ticks": win.actions.len(),
+                "episode": win,
                 "difficulty": made.ladder.map(|ladder| ladder.difficulty),
+                "tier": tier,
             }))?;
         }
     }
     Ok(())
+}
+
+/// The win of a made level by its judges, or, of one that nobody has judged, by a search; `true` beside it if no win takes fewer
+/// ticks, by proof.
+fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -> Option<(Episode, bool)> {
+    if let Some(report) = &made.report {
+        let win = report.witness.clone()?;
+        let optimal = report.finding("winnable").and_then(|finding| finding.optimal);
+        let is_shortest = optimal == Some(win.actions.len());
+        return Some((win, is_shortest));
+    }
+    let config = PortfolioConfig { budget: CALLS, bytes: BYTES, ..PortfolioConfig::default() };
+    let gone = || lines.check().is_err();
+    match solve_until(&compiled.analysis, &made.level, &config, seed, &gone).solution {
+        Solution::Won { episode, shortest } => Some((*episode, shortest)),
+        Solution::Impossible { .. } | Solution::Unknown => None,
+    }
 }

@@ -221,7 +221,30 @@ fn new_levels_are_made() {
         let made = game.level(level["level"].as_str().expect("a text")).unwrap();
         assert_eq!((made.columns(), made.rows()), (12, 8));
     }
-    let mut wrong = body;
-    wrong["method"] = json!("magic");
-    assert_eq!(running.lines("/api/more", &wrong).last().unwrap()["stage"], "error");
+    for (key, value) in [("method", json!("magic")), ("tier", json!(9))] {
+        let mut wrong = body.clone();
+        wrong[key] = value;
+        assert_eq!(running.lines("/api/more", &wrong).last().unwrap()["stage"], "error", "{key}");
+    }
+}
+
+#[test]
+fn new_levels_have_the_tier_that_is_asked_for() {
+    let running = usual();
+    let asked = |tier| {
+        let body = json!({
+            "source": GAME, "level": LEVEL, "method": "constructive", "seed": "s", "count": 2, "tier": tier,
+        });
+        running.lines("/api/more", &body)
+    };
+    let stages = |lines: &[Value], stage: &str| lines.iter().filter(|line| line["stage"] == stage).count();
+    let low = asked(1);
+    assert_eq!(stages(&low, "level"), 2, "{low:?}");
+    assert!(low.iter().filter(|line| line["stage"] == "level").all(|line| line["tier"] == 1));
+    let high = asked(4);
+    assert_eq!(
+        (stages(&high, "level"), stages(&high, "none")),
+        (0, 8),
+        "a walk to a goal asks little: {high:?}"
+    );
 }

@@ -167,7 +167,7 @@ export type VerdictLine =
   | { stage: 'error'; error: string };
 
 export type MoreLine =
-  | { stage: 'level'; level: string; tiles: Tile[]; frame: Frame; ticks: number | null; difficulty?: string | null }
+  | { stage: 'level'; level: string; tiles: Tile[]; frame: Frame; ticks: number | null; difficulty?: string | null; tier?: number | null }
   | { stage: 'none'; text: string }
   | { stage: 'done' }
   | { stage: 'error'; error: string };

@@ -12,12 +12,16 @@ const METHODS = [
   ['evolutionary', 'evolved'],
 ] as const;
 
+/** How far ahead a winner has to see: the suite's tiers. */
+const TIERS = ['1', '2', '3', '4'] as const;
+
 /** Levels made for these rules; one that is liked replaces the level shown or becomes a new one. */
 export function MorePanel({ source, level, width, height, onUse, onAdd }: { source: string; level: string; width: number; height: number; onUse: (text: string) => void; onAdd: (text: string) => void }) {
   const [method, setMethod] = useState<string>('constructive');
   const [columns, setColumns] = useState(String(width));
   const [rows, setRows] = useState(String(height));
   const [difficulty, setDifficulty] = useState('');
+  const [tier, setTier] = useState('');
   const [seed, setSeed] = useState('more');
   const [made, setMade] = useState<Made[]>([]);
   const [error, setError] = useState<string | null>(null);
@@ -32,7 +36,7 @@ export function MorePanel({ source, level, width, height, onUse, onAdd }: { sour
     setMade([]);
     setFailed([]);
     setError(null);
-    const asked = { source, level, method, width: Number(columns) || width, height: Number(rows) || height, difficulty: difficulty || null, seed, count: 6 };
+    const asked = { source, level, method, width: Number(columns) || width, height: Number(rows) || height, difficulty: difficulty || null, tier: Number(tier) || null, seed, count: 6 };
     // A line brings only the tiles that no line before it brought.
     const tiles: Tile[] = [];
     try {
@@ -63,17 +67,22 @@ export function MorePanel({ source, level, width, height, onUse, onAdd }: { sour
             <option value="">any</option>{EASE.map((label) => <option value={label}>{easeWords(label)}</option>)}
           </select>
         </label>
+        <label class="field">Tier
+          <select value={tier} onChange={(event) => setTier(event.currentTarget.value)}>
+            <option value="">any</option>{TIERS.map((label) => <option value={label}>{label}</option>)}
+          </select>
+        </label>
         <label class="field">Seed<input class="medium" value={seed} onInput={(event) => setSeed(event.currentTarget.value)} /></label>
         {abort ? <button type="button" onClick={() => abort.abort()}>Stop</button> : <button type="submit" class="strong">Make six</button>}
       </form>
       {error && <p class="notice bad" role="alert">{error}</p>}
       {abort && made.length === 0 && <p class="soft"><span class="spinner" aria-hidden="true" /> Making levels that can be won</p>}
-      {failed.length > 0 && <p class="soft">{`${failed.length} of six could not be made: ${failed[0]}`}</p>}
+      {failed.length > 0 && <p class="soft">{`${failed.length} more could not be made as asked: ${failed[0]}`}</p>}
       <ul class="cards small">
         {made.map((one, index) => (
           <li>
             <Thumb tiles={one.tiles} frame={one.frame} label={`Made level ${index + 1}`} />
-            <p class="facts">{one.ticks !== null && <span class="soft">won in {one.ticks} ticks</span>}{one.difficulty && <span class="chip">{easeWords(one.difficulty)}</span>}</p>
+            <p class="facts">{one.ticks !== null && <span class="soft">won in {one.ticks} ticks</span>}{one.difficulty && <span class="chip">{easeWords(one.difficulty)}</span>}{one.tier && <span class="chip">tier {one.tier}</span>}</p>
             <p class="row"><button type="button" onClick={() => onUse(one.level)}>Use here</button><button type="button" onClick={() => onAdd(one.level)}>Add</button></p>
           </li>
         ))}
