@@ -15,6 +15,8 @@ const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
 const MOST_CALLS: u64 = 50_000_000;
 /// The memory limit of a search, in bytes.
 pub(crate) const BYTES: usize = 256 << 20;
+/// The share of the calls for a search that foresees the chance of one episode: some games are won by nobody who does not.
+pub(crate) const FORESIGHT: f64 = 0.4;
 /// Forward-model calls that the criteria divide among them.
 const CRITERIA: u64 = 300_000;
 
@@ -82,7 +84,12 @@ impl Subject<'_> {
         let mut spent = 0;
         for calls in steps {
             lines.check()?;
-            let config = PortfolioConfig { budget: calls, bytes: BYTES, ..PortfolioConfig::default() };
+            let config = PortfolioConfig {
+                budget: calls,
+                foresight: FORESIGHT,
+                bytes: BYTES,
+                ..PortfolioConfig::default()
+            };
             let gone = || lines.check().is_err();
             let Solved { solution, calls, .. } = solve_until(&compiled.analysis, level, &config, seed, &gone);
             spent += calls;

@@ -7,7 +7,7 @@ use crate::lines::{Ended, Lines};
 use crate::positions;
 use crate::refusal::Refusal;
 use crate::studio::Studio;
-use crate::verdict::{BYTES, Subject, criterion};
+use crate::verdict::{BYTES, FORESIGHT, Subject, criterion};
 use agents::{PortfolioConfig, Solution, solve_until};
 use engine::{Diagnostic, Diagnostics, Episode, Level, Seed};
 use forge::levels::{LevelOrder, MadeLevel, Method, make_levels};
@@ -196,7 +196,8 @@ fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -
         let is_shortest = optimal == Some(win.actions.len());
         return Some((win, is_shortest));
     }
-    let config = PortfolioConfig { budget: CALLS, bytes: BYTES, ..PortfolioConfig::default() };
+    let config =
+        PortfolioConfig { budget: CALLS, foresight: FORESIGHT, bytes: BYTES, ..PortfolioConfig::default() };
     let gone = || lines.check().is_err();
     match solve_until(&compiled.analysis, &made.level, &config, seed, &gone).solution {
         Solution::Won { episode, shortest } => Some((*episode, shortest)),
