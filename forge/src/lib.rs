@@ -13,4 +13,4 @@ mod search_loop;
 pub mod survey;
 mod tally;
 
-pub use tally::{Tally, reasons};
+pub use tally::{JudgeCost, Tally, reasons};

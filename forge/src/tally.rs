@@ -1,7 +1,9 @@
 //! The cost of minting: candidates, rejections, calls.
 
+use report::{Table, TableCell};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use validators::Judgement;
 
 /// The candidates tried for one place or for a whole release, and the reasons why some failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -19,7 +21,44 @@ pub struct Tally {
     pub calls: u64,
     /// The number of rejections by each criterion or generator.
     pub rejections: BTreeMap<String, u64>,
+    /// The cost of each judge: criteria by their names, and the others by what they do.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub judges: BTreeMap<String, JudgeCost>,
 }
+
+/// The cost of a judge, by the fate of what was judged. The plays of gates count no calls but those of searches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JudgeCost {
+    /// The number of times that it was asked.
+    pub asked: u64,
+    /// The number of times that it said no.
+    pub refused: u64,
+    /// Forward-model calls spent on levels and games that were let in.
+    pub calls_accepted: u64,
+    /// Those spent on candidates that this judge or a later one refused.
+    pub calls_refused: u64,
+    /// Those spent on levels that were let in, of games that were refused.
+    pub calls_lost: u64,
+}
+
+impl JudgeCost {
+    /// All calls.
+    pub fn calls(&self) -> u64 {
+        self.calls_accepted + self.calls_refused + self.calls_lost
+    }
+
+    fn add(&mut self, other: &JudgeCost) {
+        self.asked += other.asked;
+        self.refused += other.refused;
+        self.calls_accepted += other.calls_accepted;
+        self.calls_refused += other.calls_refused;
+        self.calls_lost += other.calls_lost;
+    }
+}
+
+/// The name of a quick look, among judges.
+pub(crate) const LOOK: &str = "look";
 
 impl Tally {
     /// Counts a game that passed.
@@ -36,23 +75,72 @@ impl Tally {
         *self.rejections.entry(kind).or_default() += 1;
     }
 
-    pub(crate) fn level(&mut self, calls: u64, obstacle: Option<&str>) {
+    /// Counts a level that was judged.
+    pub(crate) fn level(&mut self, judgements: &[Judgement], obstacle: Option<&str>) {
         self.levels_tried += 1;
-        self.calls += calls;
+        self.judgements(judgements);
         match obstacle {
             None => self.levels_accepted += 1,
             Some(criterion) => *self.rejections.entry(criterion.to_owned()).or_default() += 1,
         }
     }
 
+    /// Counts a level that could not be made.
+    pub(crate) fn no_level(&mut self, why: &str) {
+        self.level(&[], Some(why));
+    }
+
+    /// Counts the cost of judgements, each under its criterion.
+    pub(crate) fn judgements(&mut self, judgements: &[Judgement]) {
+        for judgement in judgements {
+            let finding = &judgement.finding;
+            self.judge(judgement.criterion, finding.verdict.is_pass(), finding.calls());
+        }
+    }
+
+    /// Counts the cost of one answer of a judge.
+    pub(crate) fn judge(&mut self, judge: &str, is_met: bool, calls: u64) {
+        self.calls += calls;
+        let cost = self.judges.entry(judge.to_owned()).or_default();
+        cost.asked += 1;
+        cost.refused += u64::from(!is_met);
+        cost.calls_accepted += calls;
+    }
+
+    /// Adds what `judge` spends, by the fate of what it judges: where it lets nothing in, as `refused` books it.
+    pub(crate) fn spend<T>(
+        &mut self,
+        refused: fn(Tally) -> Tally,
+        judge: impl FnOnce(&mut Tally) -> Option<T>,
+    ) -> Option<T> {
+        let mut spent = Tally::default();
+        let let_in = judge(&mut spent);
+        self.add(&if let_in.is_some() { spent } else { refused(spent) });
+        let_in
+    }
+
+    /// The same counts, of a level that was refused in the end.
+    #[must_use]
+    pub(crate) fn of_refused(mut self) -> Tally {
+        for cost in self.judges.values_mut() {
+            cost.calls_refused += std::mem::take(&mut cost.calls_accepted);
+        }
+        self
+    }
+
+    /// The same counts, of a game that was refused in the end.
+    #[must_use]
+    pub(crate) fn of_lost(mut self) -> Tally {
+        for cost in self.judges.values_mut() {
+            cost.calls_lost += std::mem::take(&mut cost.calls_accepted);
+        }
+        self
+    }
+
     /// Counts an accepted level as rejected.
     pub(crate) fn level_taken_back(&mut self, why: &str) {
         self.levels_accepted -= 1;
         *self.rejections.entry(why.to_owned()).or_default() += 1;
-    }
-
-    pub(crate) fn calls(&mut self, calls: u64) {
-        self.calls += calls;
     }
 
     /// Counts an accepted game as rejected.
@@ -69,6 +157,42 @@ impl Tally {
         self.levels_accepted += other.levels_accepted;
         self.calls += other.calls;
         add_rejections(&mut self.rejections, &other.rejections);
+        for (judge, cost) in &other.judges {
+            self.judges.entry(judge.clone()).or_default().add(cost);
+        }
+    }
+
+    /// The cost of the judges, the dearest first, for each of the `made` games.
+    pub fn judges_table(&self, made: u64) -> Table {
+        let columns = [
+            "judge",
+            "asked",
+            "said no",
+            "calls, millions",
+            "on what was accepted",
+            "refused",
+            "lost",
+            "calls a game",
+        ];
+        let note = "Calls of the forward model by the fate of what was judged: let in, refused by this judge or a later one, or let in as a \
+                    level of a game that was refused. Gates count the calls of their searches only.";
+        let mut judges: Vec<(&String, &JudgeCost)> = self.judges.iter().collect();
+        judges.sort_by_key(|(name, cost)| (std::cmp::Reverse(cost.calls()), *name));
+        let mut table = Table::new("judges", "Judges", note, &columns);
+        let millions = |calls: u64| TableCell::number(calls as f64 / 1e6, 2);
+        for (name, cost) in judges {
+            table.push(vec![
+                TableCell::text(name.as_str()),
+                TableCell::Count(cost.asked),
+                TableCell::Count(cost.refused),
+                millions(cost.calls()),
+                millions(cost.calls_accepted),
+                millions(cost.calls_refused),
+                millions(cost.calls_lost),
+                TableCell::count(cost.calls().checked_div(made)),
+            ]);
+        }
+        table
     }
 
     /// The rejections in words, the most frequent first.
@@ -90,4 +214,29 @@ pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
     reasons.sort_by_key(|(why, count)| (std::cmp::Reverse(**count), *why));
     let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{why} {count}")).collect();
     words.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn calls_are_told_by_the_fate_of_what_was_judged() {
+        let spent = |calls, is_met| {
+            let mut tally = Tally::default();
+            tally.judge("winnable", is_met, calls);
+            tally
+        };
+        let mut game = Tally::default();
+        game.add(&spent(30, true));
+        game.add(&spent(100, false).of_refused());
+        let mut all = game.clone().of_lost();
+        all.add(&game);
+        let cost = all.judges["winnable"];
+        let [accepted, refused, lost] = [cost.calls_accepted, cost.calls_refused, cost.calls_lost];
+        assert_eq!(([accepted, refused, lost], cost.asked, cost.refused), ([30, 200, 30], 4, 2));
+        assert_eq!((all.calls, cost.calls()), (260, 260));
+        let table = all.judges_table(2).to_csv();
+        assert!(table.contains("winnable,4,2,"), "{table}");
+    }
 }

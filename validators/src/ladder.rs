@@ -187,7 +187,17 @@ impl LadderConfig {
 
     /// Measures the players, and returns all their plays.
     pub fn play(&self, case: Case<'_>) -> (Ladder, Vec<Episode>) {
-        let played = self.play_all(case);
+        self.play_until(case, |_| false)
+    }
+
+    /// Like [`LadderConfig::play`], but no round of plays begins once there is `enough`: it gets the plays of each player, those
+    /// held out last.
+    pub fn play_until(
+        &self,
+        case: Case<'_>,
+        enough: impl Fn(&[Vec<Play>]) -> bool,
+    ) -> (Ladder, Vec<Episode>) {
+        let played = self.play_within(case, u64::MAX, |played| enough(&played.plays));
         (self.measure(&played), played.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 
@@ -197,21 +207,26 @@ impl LadderConfig {
 
     /// Lets every player play equally often. Rounds go on until the plays, or the calls, are spent.
     pub(crate) fn play_all(&self, case: Case<'_>) -> LadderPlays {
-        self.play_within(case, u64::MAX)
+        self.play_within(case, u64::MAX, |_| false)
     }
 
     /// Like [`LadderConfig::play_all`], but a play is broken off at the first decision after `calls` calls, or at its tick
-    /// limit.
-    pub(crate) fn play_within(&self, case: Case<'_>, calls: u64) -> LadderPlays {
+    /// limit, and no round begins once there is `enough`.
+    pub(crate) fn play_within(
+        &self,
+        case: Case<'_>,
+        calls: u64,
+        enough: impl Fn(&LadderPlays) -> bool,
+    ) -> LadderPlays {
         let patient = |witness: &Episode| self.patience.saturating_mul(witness.actions.len()) + GRACE;
         let ticks = self.ticks.min(case.witness.map_or(usize::MAX, patient));
         let ticks = ticks.min(usize::try_from(calls).unwrap_or(usize::MAX));
         let limits = Limits { ticks, calls };
         let players: Vec<&Rung> = self.players().collect();
-        let mut plays: Vec<Vec<Play>> = vec![Vec::new(); players.len()];
+        let mut all = LadderPlays { plays: vec![Vec::new(); players.len()] };
         let mut spent = 0;
         let mut played = 0;
-        while played < self.plays && (played == 0 || spent < self.calls) {
+        while played < self.plays && (played == 0 || spent < self.calls && !enough(&all)) {
             let runs = played..self.plays.min(played + ROUND);
             played = runs.end;
             // The strongest players take longest, so they start first.
@@ -220,10 +235,10 @@ impl LadderConfig {
                 tasks.par_iter().map(|&(player, run)| players[player].play(case, run, limits)).collect();
             spent += done.iter().map(|play| play.calls + play.episode.actions.len() as u64).sum::<u64>();
             for ((player, _), play) in tasks.into_iter().zip(done) {
-                plays[player].push(play);
+                all.plays[player].push(play);
             }
         }
-        LadderPlays { plays }
+        all
     }
 
     /// Computes the results of the plays. The rewards of held-out players are scaled by the scores of the others, so

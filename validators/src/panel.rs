@@ -31,6 +31,15 @@ pub struct Panel {
     exploration: u64,
 }
 
+/// The purpose of a panel.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// To tell all about a level.
+    Reports,
+    /// To tell candidates of use from others, with as little work as possible.
+    Candidates,
+}
+
 /// The stage of a criterion of levels: what it takes for granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
@@ -162,7 +171,17 @@ impl Panel {
     /// The first of their values that is out of its range; see [`Criteria::check`].
     pub fn new(criteria: &Criteria) -> Result<Panel, CriteriaError> {
         criteria.check()?;
-        Ok(Panel::with_allowance(criteria, None))
+        Ok(Panel::with_allowance(criteria, None, Purpose::Reports))
+    }
+
+    /// Like [`Panel::new`], but with little work, for minting, where candidates are many: random play stops once a level is refused for
+    /// sure, and players stop as soon as the answer is as good as sure (see [`SkillPays::sequential`]).
+    ///
+    /// # Errors
+    /// As [`Panel::new`].
+    pub fn of_candidates(criteria: &Criteria) -> Result<Panel, CriteriaError> {
+        criteria.check()?;
+        Ok(Panel::with_allowance(criteria, None, Purpose::Candidates))
     }
 
     /// Like [`Panel::new`], with a number of forward-model calls for each level, and for the game over all its
@@ -177,7 +196,7 @@ impl Panel {
     }
 
     /// The panel of criteria that were checked.
-    fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>) -> Panel {
+    fn with_allowance(criteria: &Criteria, allowance: Option<Allowance>, purpose: Purpose) -> Panel {
         let bounded = allowance.map(|allowance| allowance.bounds(criteria));
         let c = bounded.as_ref().unwrap_or(criteria);
         let players = c.ladder_config().expect("the criteria were checked");
@@ -186,6 +205,7 @@ impl Panel {
             None => [usize::MAX; 2],
             Some(allowance) => [allowance.idle_play(), allowance.random_play()],
         };
+        let is_hasty = purpose == Purpose::Candidates;
         let search = c.search();
         let level: [(Stage, Box<dyn Validator + Send>); 8] = [
             (Stage::Start, Box::new(WellFormed)),
@@ -205,7 +225,13 @@ impl Panel {
             (Stage::Win, Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
             (
                 Stage::Ladder,
-                Box::new(SkillPays { players, wins: c.skill_wins, scores: c.skill_scores, play_calls }),
+                Box::new(SkillPays {
+                    players,
+                    wins: c.skill_wins,
+                    scores: c.skill_scores,
+                    play_calls,
+                    sequential: is_hasty,
+                }),
             ),
         ];
         let rules: [(Subject, Box<dyn GameValidator + Send>); 3] = [
@@ -233,7 +259,8 @@ impl Panel {
             None => self.run(game, level, None, seed, false),
             Some((criteria, calls)) => {
                 let allowance = Allowance::of(*calls, game, [level]);
-                Panel::with_allowance(criteria, Some(allowance)).run(game, level, None, seed, false)
+                Panel::with_allowance(criteria, Some(allowance), Purpose::Reports)
+                    .run(game, level, None, seed, false)
             }
         }
     }
@@ -252,7 +279,7 @@ impl Panel {
             None => self.run_aloud(game, level, witness, seed, false, heard),
             Some((criteria, calls)) => {
                 let allowance = Allowance::of(*calls, game, [level]);
-                let panel = Panel::with_allowance(criteria, Some(allowance));
+                let panel = Panel::with_allowance(criteria, Some(allowance), Purpose::Reports);
                 panel.run_aloud(game, level, witness, seed, false, heard)
             }
         }
@@ -312,7 +339,7 @@ impl Panel {
         }
         if let Some((criteria, calls)) = &self.bound {
             let allowance = Allowance::of(*calls, game, levels);
-            let panel = Panel::with_allowance(criteria, Some(allowance));
+            let panel = Panel::with_allowance(criteria, Some(allowance), Purpose::Reports);
             return panel.together(game, levels, reports, seed, screen);
         }
         let analysis = Analysis::of(game);

@@ -23,7 +23,29 @@ pub struct SkillPays {
     pub scores: f64,
     /// Forward-model calls of one play, after which it is broken off; then a failure becomes unknown.
     pub play_calls: u64,
+    /// Stops after a round of plays, from the second on, if skill pays by a stricter boundary, or, from the third on, if no player is
+    /// far ahead of the baseline: then more plays would seldom change the answer. `cargo xtask judging` counts how often.
+    pub sequential: bool,
 }
+
+/// A boundary that an advantage has to cross.
+#[derive(Clone, Copy)]
+struct Boundary {
+    /// The normal quantile for win rates.
+    z: f64,
+    /// The confidence of the interval of scores.
+    confidence: f64,
+    /// Plays of each player before scores count.
+    scored_plays: usize,
+}
+
+/// The boundary at which plays stop early: a stricter boundary for repeated looks at growing data
+/// (O'Brien and Fleming 1979).
+const EARLY: Boundary = Boundary { z: 2.8, confidence: 0.995, scored_plays: 6 };
+/// That of the final answer.
+const FINAL: Boundary = Boundary { z: Z95, confidence: 0.95, scored_plays: 0 };
+/// Plays of each player after which skill may be taken for shown, and after which for missing.
+const EARLY_PLAYS: [usize; 2] = [4, 6];
 
 /// Resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
@@ -35,6 +57,21 @@ struct Advantage {
     pays: bool,
     /// `true` if it is large enough, but not significant.
     unsure: bool,
+    /// `true` if it is large enough, or half as large in scores: more plays may show it.
+    leads: bool,
+}
+
+/// The answer of the plays so far.
+struct Answer {
+    ladder: Ladder,
+    /// Those of the ladder, then those held out.
+    advantages: [Vec<Advantage>; 2],
+    /// `true` if a win is known.
+    won: bool,
+    /// `true` if a player of the ladder shows skill.
+    shown: bool,
+    /// `true` if one that is held out does.
+    accepted: bool,
 }
 
 impl Validator for SkillPays {
@@ -43,38 +80,14 @@ impl Validator for SkillPays {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        let played = self.players.play_within(case, self.play_calls);
+        let enough = |played: &LadderPlays| self.sequential && self.is_sure(case, played);
+        let played = self.players.play_within(case, self.play_calls, enough);
         let cut = played.broken_off(self.play_calls);
-        let ladder = self.players.measure(&played);
         let spent = played.plays.iter().flatten().map(|play| play.calls).sum();
-        let range = range(&played);
-        // The baseline is the best of the players that do not look ahead.
-        let is_baseline = |&at: &usize| !ladder.rungs[at].looks_ahead;
-        let Some(weak) = (0..ladder.rungs.len()).filter(is_baseline).max_by(|&a, &b| better(&ladder, a, b))
-        else {
+        let Some(answer) = self.answer(case, &played, FINAL) else {
             return Verdict::Unknown { spent }.into();
         };
-        let strong = (0..ladder.rungs.len()).filter(|at| !is_baseline(at));
-        let advantages: Vec<Advantage> = strong
-            .map(|at| self.advantage(&ladder.rungs[at], &played.plays[at], (&ladder, &played), weak, range))
-            .collect();
-        let first = ladder.rungs.len();
-        let mut held: Vec<Advantage> = ladder
-            .held_out
-            .iter()
-            .enumerate()
-            .map(|(at, result)| {
-                self.advantage(result, &played.plays[first + at], (&ladder, &played), weak, range)
-            })
-            .collect();
-        // In a deterministic game any win is a plan that wins every time.
-        let won = case.witness.is_some() || played.plays.iter().flatten().any(is_won);
-        let planned = won && case.game.is_deterministic();
-        let by_search = planned.then(|| self.against_search(&ladder.rungs[weak]));
-        let searched = by_search.as_ref().is_some_and(|advantage| advantage.pays);
-        let shown = advantages.iter().any(|advantage| advantage.pays) || searched;
-        held.extend(by_search);
-        let accepted = held.iter().any(|advantage| advantage.pays);
+        let Answer { ladder, advantages: [advantages, held], won, shown, accepted } = answer;
         let unsure = advantages.iter().chain(&held).any(|advantage| advantage.unsure);
         let verdict = if shown && accepted {
             Verdict::pass()
@@ -103,6 +116,44 @@ impl Validator for SkillPays {
 }
 
 impl SkillPays {
+    /// Returns the answer of the plays so far; none without a baseline.
+    fn answer(&self, case: Case<'_>, played: &LadderPlays, boundary: Boundary) -> Option<Answer> {
+        let ladder = self.players.measure(played);
+        let range = range(played);
+        // The baseline is the best of the players that do not look ahead.
+        let is_baseline = |&at: &usize| !ladder.rungs[at].looks_ahead;
+        let weak = (0..ladder.rungs.len()).filter(is_baseline).max_by(|&a, &b| better(&ladder, a, b))?;
+        let against = |result: &PlayerResult, plays: &[Play]| {
+            self.advantage(result, plays, (&ladder, played), weak, range, boundary)
+        };
+        let strong = (0..ladder.rungs.len()).filter(|at| !is_baseline(at));
+        let advantages: Vec<Advantage> =
+            strong.map(|at| against(&ladder.rungs[at], &played.plays[at])).collect();
+        let held_out = ladder.held_out.iter().zip(&played.plays[ladder.rungs.len()..]);
+        let mut held: Vec<Advantage> = held_out.map(|(result, plays)| against(result, plays)).collect();
+        // In a deterministic game any win is a plan that wins every time.
+        let won = case.witness.is_some() || played.plays.iter().flatten().any(is_won);
+        let planned = won && case.game.is_deterministic();
+        let by_search = planned.then(|| self.against_search(&ladder.rungs[weak]));
+        let searched = by_search.as_ref().is_some_and(|advantage| advantage.pays);
+        let shown = advantages.iter().any(|advantage| advantage.pays) || searched;
+        held.extend(by_search);
+        let accepted = held.iter().any(|advantage| advantage.pays);
+        Some(Answer { ladder, advantages: [advantages, held], won, shown, accepted })
+    }
+
+    /// Tests whether further plays would hardly change the answer.
+    fn is_sure(&self, case: Case<'_>, played: &LadderPlays) -> bool {
+        let plays = played.plays.first().map_or(0, Vec::len);
+        let [to_show, to_deny] = EARLY_PLAYS;
+        if plays < to_show {
+            return false;
+        }
+        let Some(answer) = self.answer(case, played, EARLY) else { return false };
+        let is_ahead = || answer.advantages.iter().flatten().any(|advantage| advantage.leads);
+        answer.shown && answer.accepted || plays >= to_deny && !is_ahead()
+    }
+
     fn advantage(
         &self,
         result: &PlayerResult,
@@ -110,11 +161,12 @@ impl SkillPays {
         (ladder, played): (&Ladder, &LadderPlays),
         weak: usize,
         range: f64,
+        boundary: Boundary,
     ) -> Advantage {
         let weaker = &ladder.rungs[weak];
         let ([won, lost], [of, out_of]) =
             ([result.rate.wins, weaker.rate.wins], [result.rate.plays, weaker.rate.plays]);
-        let interval = statistics::difference([won, lost], [of, out_of], Z95);
+        let interval = statistics::difference([won, lost], [of, out_of], boundary.z);
         let more = won as f64 / of.max(1) as f64 - lost as f64 / out_of.max(1) as f64;
         let (points, least, most) = (100.0 * more, 100.0 * interval.low, 100.0 * interval.high);
         let mut text = format!(
@@ -122,6 +174,7 @@ impl SkillPays {
             result.player, weaker.player,
         );
         let (mut pays, mut unsure) = (interval.low > 0.0 && more >= self.wins, more >= self.wins);
+        let mut leads = more >= self.wins;
         if range <= 0.0 {
             text.push_str(", and all score alike");
         } else {
@@ -131,15 +184,17 @@ impl SkillPays {
                 .map(|(strong, weak)| strong.episode.score - weak.episode.score)
                 .collect();
             let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
-            let sure = statistics::bootstrap(&gains, mean, RESAMPLES, 0.95, [0; 32]);
+            let sure = statistics::bootstrap(&gains, mean, RESAMPLES, boundary.confidence, [0; 32]);
             if let (Some(Interval { low, high }), false) = (sure, gains.is_empty()) {
                 let gain = mean(&gains);
                 text.push_str(&format!(", and scores {gain:+.2} (95 %: {low:+.2} to {high:+.2})"));
-                pays |= low > 0.0 && gain >= self.scores * range;
-                unsure |= gain >= self.scores * range;
+                let is_large = gain >= self.scores * range;
+                pays |= low > 0.0 && is_large && gains.len() >= boundary.scored_plays;
+                unsure |= is_large;
+                leads |= gain >= self.scores * range / 2.0;
             }
         }
-        Advantage { text, pays, unsure: unsure && !pays }
+        Advantage { text, pays, unsure: unsure && !pays, leads }
     }
 
     /// Compares the witness, which wins every time, with the weaker player.
@@ -149,7 +204,7 @@ impl SkillPays {
             format!("a player that knows the solution wins every time, {} {wins} of {plays}", weaker.player);
         let high = weaker.rate.interval[1];
         let pays = 1.0 - wins as f64 / plays.max(1) as f64 >= self.wins && high < 1.0;
-        Advantage { text, pays, unsure: false }
+        Advantage { text, pays, unsure: false, leads: pays }
     }
 }
 
@@ -167,4 +222,65 @@ fn range(played: &LadderPlays) -> f64 {
 
 fn is_won(play: &Play) -> bool {
     play.episode.outcome == Outcome::Won
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Criteria, Panel};
+    use engine::{Game, Seed};
+
+    /// A walk past something that wanders and kills; whoever stands still is safe, and never wins.
+    const GAME: &str = "\
+BasicGame
+    SpriteSet
+        avatar > MovingAvatar
+        goal > Immovable
+        stray > RandomNPC cooldown=4
+        wall > Immovable
+    LevelMapping
+        A > avatar
+        g > goal
+        r > stray
+        w > wall
+    InteractionSet
+        goal avatar > killSprite
+        avatar wall > stepBack
+        stray wall > stepBack
+        avatar stray > killSprite
+    TerminationSet
+        SpriteCounter stype=goal limit=0 win=True
+        SpriteCounter stype=avatar limit=0 win=False
+        Timeout limit=40 win=False
+";
+
+    /// Judges a level in full and sequentially: the verdicts are the same, and the second takes fewer plays.
+    #[track_caller]
+    fn check(level: &str, strong: &str, passes: bool) {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level(level).unwrap();
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+        let criteria = Criteria {
+            ask: names(&["skill"]),
+            ladder: names(&["do-nothing", strong]),
+            held_out: names(&[strong]),
+            ..Criteria::default()
+        };
+        let judged = |panel: Panel| {
+            let report = panel.judge(&game, &level, Seed::from_text("sequential"));
+            let plays = report.ladder().unwrap().rungs[0].rate.plays;
+            (report.passes(), plays)
+        };
+        let [full, sequential] =
+            [Panel::new(&criteria), Panel::of_candidates(&criteria)].map(|panel| judged(panel.unwrap()));
+        assert_eq!(full, (passes, criteria.ladder_plays));
+        assert_eq!(sequential.0, passes);
+        assert!(sequential.1 < full.1, "{} plays", sequential.1);
+    }
+
+    #[test]
+    fn plays_stop_when_the_answer_is_as_good_as_sure() {
+        let open = "wwwwwwww\nwA    gw\nw      w\nw    r w\nwwwwwwww\n";
+        check(open, "olets:100", true);
+        check(open, "random", false);
+    }
 }

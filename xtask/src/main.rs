@@ -7,6 +7,7 @@ mod bench;
 mod episode_run;
 mod fidelity;
 mod instructions;
+mod judging;
 mod levels;
 mod simulate;
 mod solve;
@@ -29,6 +30,7 @@ enum Task {
     Bench(bench::Args),
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
+    Judging(judging::Args),
     Simulate(simulate::Args),
     SideBySide(survey::side_by_side::Args),
     Solve(solve::Args),
@@ -42,6 +44,7 @@ fn main() -> anyhow::Result<()> {
         Task::Bench(args) => bench::run(&args),
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),
+        Task::Judging(args) => judging::run(&args),
         Task::Simulate(args) => simulate::run(&args),
         Task::SideBySide(args) => survey::side_by_side::run(&args),
         Task::Solve(args) => solve::run(&args),

@@ -44,7 +44,7 @@ impl<'a> GameGate<'a> {
     pub(super) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> GameGate<'a> {
         let ask =
             order.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
-        let panel_of = |criteria: &Criteria| Panel::new(criteria).expect("the order was checked");
+        let panel_of = |criteria: &Criteria| Panel::of_candidates(criteria).expect("the order was checked");
         let panel = panel_of(&order.criteria);
         let first = panel_of(&Criteria { ask, ..order.criteria.clone() });
         GameGate { order, known, canary, panel, first }
@@ -54,6 +54,17 @@ impl<'a> GameGate<'a> {
     /// the tally, if anything stands in its way. `number` is told in the card. A game that meets with an objection is refused
     /// before it costs a level.
     pub(super) fn judge(
+        &self,
+        genome: &KernelGenome,
+        number: u32,
+        seed: Seed,
+        objection: &dyn Fn(&Candidate) -> Option<&'static str>,
+        tally: &mut Tally,
+    ) -> Option<MadeGame> {
+        tally.spend(Tally::of_lost, |tally| self.judged(genome, number, seed, objection, tally))
+    }
+
+    fn judged(
         &self,
         genome: &KernelGenome,
         number: u32,
@@ -138,15 +149,22 @@ impl<'a> GameGate<'a> {
                 return None;
             }
         };
-        if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {
+        let mut spent = Tally::default();
+        let holds = levels.hold(game, &found, seed.child("second judges", 0), &mut spent);
+        tally.judge(SECOND_JUDGES, holds, spent.calls);
+        if !holds {
             tally.game_rejected(SECOND_JUDGES);
             return None;
         }
-        if !levels.hold_again(&candidate.game, &found, (seed.child("further judges", 0), FURTHER), tally) {
+        let mut spent = Tally::default();
+        let dice = (seed.child("further judges", 0), FURTHER);
+        let holds = levels.hold_again(game, &found, dice, &mut spent);
+        tally.judge(FURTHER_JUDGES, holds, spent.calls);
+        if !holds {
             tally.game_rejected(FURTHER_JUDGES);
             return None;
         }
-        let found = levels.told(&candidate.game, found, together, tally);
+        let found = levels.told(game, found, together, tally);
         let made = candidate.finish(found, self.canary);
         if made.is_some() {
             tally.game_accepted();

@@ -1,18 +1,17 @@
 //! Levels for one game: candidates of the level generator until enough pass.
 
-use super::puzzles::{self, PuzzleGenerator, PuzzleLevels};
+use super::place::Place;
+use super::puzzles::PuzzleLevels;
 use crate::card::LevelCard;
 use crate::tally::Tally;
-use engine::{Action, Analysis, Digest, Episode, Game, Level, Outcome, Seed};
-use generators::kernels::{Course, CourseLevel, Slot};
-use generators::levels::{ConstructiveLevels, LevelConfig};
-use generators::{GenerateError, Generator};
+use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use generators::kernels::Course;
+use generators::levels::LevelConfig;
 use std::collections::BTreeSet;
-use std::slice;
 use validators::game_measures::Guards;
 use validators::{
-    Criteria, Demand, Finding, GATES, Gates, Judgement, NotInstant, Panel, Rate, Report, SkillOverall,
-    Verdict, mcts_rate, used_rules,
+    Criteria, Demand, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, Verdict,
+    mcts_rate, used_rules,
 };
 
 /// A level that its judges let in.
@@ -69,35 +68,6 @@ impl LevelSource<'_> {
     }
 }
 
-/// A generator of candidates for one place.
-enum PlaceGenerator<'a> {
-    Rules(Box<ConstructiveLevels<'a>>),
-    Course(&'a Course, Slot),
-    Puzzles(PuzzleGenerator<'a>),
-}
-
-/// A level, its question to the player if it is one of a course, and actions that win it if they are known.
-type Generated = (Level, Option<String>, Option<Vec<Action>>);
-
-impl PlaceGenerator<'_> {
-    fn generate(&self, game: &Game, seed: Seed) -> Result<Generated, GenerateError> {
-        match self {
-            PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None, None)),
-            PlaceGenerator::Puzzles(puzzles) => {
-                let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
-                let (level, known) = puzzles.create_solved(game, seed).ok_or_else(far)?;
-                Ok((level, None, Some(known)))
-            }
-            PlaceGenerator::Course(course, slot) => {
-                let CourseLevel { text, asks, .. } = course.level(*slot, seed)?;
-                let level =
-                    game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))?;
-                Ok((level, Some(asks), None))
-            }
-        }
-    }
-}
-
 /// The levels of one candidate game.
 pub struct Levels<'a> {
     /// The number of levels.
@@ -118,6 +88,10 @@ impl Levels<'_> {
     /// All levels that meet the criteria, with what was found of them together; None as soon as one cannot be had, or if the
     /// game does not meet a criterion on all of them together.
     pub fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
+        tally.spend(Tally::of_lost, |tally| self.found(game, tally))
+    }
+
+    fn found(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
         let levels = self.each(game, tally)?;
         match self.together(game, &levels, self.seed.child("judges of the game", 0), tally) {
             Ok(together) => Some(self.told(game, levels, together, tally)),
@@ -142,7 +116,9 @@ impl Levels<'_> {
             Some(mcts_rate(game, &found.level, witness, self.criteria, seed))
         };
         let mcts: Vec<Rate> = levels.iter().filter_map(rate).collect();
-        tally.calls(mcts.iter().map(|rate| rate.calls).sum());
+        for rate in &mcts {
+            tally.judge("rate of mcts", true, rate.calls);
+        }
         FoundLevels { levels, mcts, together }
     }
 
@@ -153,7 +129,7 @@ impl Levels<'_> {
         // The easiest may be too easy, and the hardest too hard: what is to fail should fail soon.
         let ends = [0, self.count - 1].into_iter().take(self.count as usize);
         for number in ends.chain(1..self.count.max(1) - 1) {
-            match self.level(game, (number, 0), &levels, tally) {
+            match Place::of(self, game, number, &levels).find(0, tally) {
                 Some(level) => {
                     levels.push((number, level));
                     // In a short course the level between may bring something new.
@@ -208,7 +184,7 @@ impl Levels<'_> {
         tally.level_taken_back("progression");
         let next = first.candidate + 1;
         let few = Levels { tries: self.tries.min(next + INTRODUCTIONS), ..*self };
-        few.level(game, (0, next), later, tally)
+        Place::of(&few, game, 0, later).find(next, tally)
     }
 
     /// Tests whether the wins of later levels need a mechanic that the win of the first does not, if that is asked for.
@@ -246,15 +222,16 @@ impl Levels<'_> {
             levels.iter().map(|(_, found)| (found.level.clone(), found.report.clone())).unzip();
         let seed = self.seed.child("outline", 0);
         let together = panel.screen_together(game, &boards, &reports, seed);
-        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        tally.judgements(&together);
         let obstacle = together.iter().find(|judgement| !judgement.finding.verdict.is_pass());
         obstacle.map(|judgement| judgement.criterion)
     }
 
     /// The judges of those criteria that are asked of all and named here.
-    fn panel_of(&self, names: &[&str], gates: Gates) -> Panel {
+    pub(super) fn panel_of(&self, names: &[&str], gates: Gates) -> Panel {
         let ask = self.criteria.ask.iter().filter(|name| names.contains(&name.as_str())).cloned().collect();
-        Panel::new(&Criteria { ask, gates, ..self.criteria.clone() }).expect("the criteria were checked")
+        Panel::of_candidates(&Criteria { ask, gates, ..self.criteria.clone() })
+            .expect("the criteria were checked")
     }
 
     /// Tests whether skill cannot be hoped to pay over all levels, after some of them: before the others cost as much again. After
@@ -280,7 +257,7 @@ impl Levels<'_> {
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
         let together = self.panel.screen_together(game, &boards, &reports, seed);
-        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        tally.judgements(&together);
         match together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
             Some(obstacle) => Err(obstacle.criterion),
             None => Ok(together),
@@ -300,7 +277,7 @@ impl Levels<'_> {
         let judge = |found: &mut FoundLevel, tally: &mut Tally| {
             let (witness, seed) = (found.report.witness.clone()?, found.seed.child("judges", 0));
             let report = panel.screen_won(game, &found.level, witness, seed);
-            tally.calls(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum());
+            tally.judgements(&report.judgements);
             let passes = report.passes();
             found.report.judgements.extend(report.judgements);
             Some(passes)
@@ -318,7 +295,8 @@ impl Levels<'_> {
                     return None;
                 }
                 let (_, misfit) = levels.remove(at);
-                let Some(next) = self.level(game, (number, misfit.candidate + 1), &levels, tally) else {
+                let place = Place::of(self, game, number, &levels);
+                let Some(next) = place.find(misfit.candidate + 1, tally) else {
                     tally.game_rejected(&format!("no level {number}"));
                     return None;
                 };
@@ -334,13 +312,13 @@ impl Levels<'_> {
     pub(crate) fn hold(&self, game: &Game, levels: &[FoundLevel], seed: Seed, tally: &mut Tally) -> bool {
         let ask =
             self.criteria.ask.iter().filter(|name| !CERTAIN.contains(&name.as_str())).cloned().collect();
-        let panel =
-            Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
+        let panel = Panel::of_candidates(&Criteria { ask, ..self.criteria.clone() })
+            .expect("the criteria were checked");
         let (mut boards, mut reports) = (Vec::new(), Vec::new());
         for (number, found) in (0..).zip(levels) {
             let Some(witness) = found.report.witness.clone() else { return false };
             let report = panel.screen_won(game, &found.level, witness, seed.child("level", number));
-            tally.calls(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum());
+            tally.judgements(&report.judgements);
             if !report.passes() {
                 return false;
             }
@@ -348,7 +326,7 @@ impl Levels<'_> {
             reports.push(report);
         }
         let together = panel.screen_together(game, &boards, &reports, seed.child("game", 0));
-        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        tally.judgements(&together);
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
@@ -368,7 +346,7 @@ impl Levels<'_> {
         let reports: Vec<Report> = levels.iter().map(report).collect();
         (0..times).all(|number| {
             let together = panel.screen_together(game, &boards, &reports, seed.child("judges", number));
-            tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+            tally.judgements(&together);
             together.iter().all(|judgement| judgement.finding.verdict.is_pass())
         })
     }
@@ -383,8 +361,8 @@ impl Levels<'_> {
         let is_carried = |criterion: &str| is_won && criterion == "winnable";
         let is_asked = |name: &&String| !is_carried(name) && !PLAYED.contains(&name.as_str());
         let ask = self.criteria.ask.iter().filter(is_asked).cloned().collect();
-        let panel =
-            Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
+        let panel = Panel::of_candidates(&Criteria { ask, ..self.criteria.clone() })
+            .expect("the criteria were checked");
         let win = is_won.then_some(witness);
         let (place, seed) = ((found.difficulty, found.candidate), found.seed);
         let mut again = self.judged(&panel, game, level, (place, win), seed, tally)?;
@@ -406,163 +384,8 @@ impl Levels<'_> {
         Some(again)
     }
 
-    /// A level for a place, beside those of other places: the first that passes of its candidates from number `from` on.
-    fn level(
-        &self,
-        game: &Game,
-        (number, from): (u32, u32),
-        others: &[(u32, FoundLevel)],
-        tally: &mut Tally,
-    ) -> Option<FoundLevel> {
-        let taken: Vec<Digest> = others.iter().map(|(_, found)| found.level.digest()).collect();
-        let difficulty = f64::from(number) / f64::from((self.count - 1).max(1));
-        let generator = match self.source {
-            LevelSource::Rules(config) => {
-                let config = LevelConfig { difficulty, ..config.clone() };
-                ConstructiveLevels::new(game, config).map(|levels| PlaceGenerator::Rules(Box::new(levels)))
-            }
-            LevelSource::Course(course) => {
-                let last = Slot::ALL.len() - 1;
-                let slot = Slot::ALL[(difficulty * last as f64).round() as usize];
-                Ok(PlaceGenerator::Course(course, slot))
-            }
-            LevelSource::Puzzles(puzzles) => puzzles.generator(game, number).map(PlaceGenerator::Puzzles),
-        };
-        let generator = match generator {
-            Ok(generator) => generator,
-            Err(error) => {
-                tally.game_rejected(&error.to_string());
-                return None;
-            }
-        };
-        let mut left = self.tries.saturating_sub(from);
-        for candidate in from..self.tries {
-            if left == 0 {
-                break;
-            }
-            left -= 1;
-            let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
-            let (level, asks, known) = match generator.generate(game, seed.child("layout", 0)) {
-                Ok((level, ..)) if taken.contains(&level.digest()) => {
-                    tally.level(0, Some("the same level twice"));
-                    continue;
-                }
-                Ok(generated) => generated,
-                Err(_) => {
-                    tally.level(0, Some("level generator"));
-                    continue;
-                }
-            };
-            if let (LevelSource::Puzzles(puzzles), Some(known)) = (self.source, known) {
-                match self.puzzle(puzzles, game, level, known, ((number, difficulty, candidate), seed), tally)
-                {
-                    Some(found) => return Some(found),
-                    None => continue,
-                }
-            }
-            if self.is_walked_through(game, number, &level, seed) {
-                tally.level(0, Some("not-instant"));
-                continue;
-            }
-            let calls = tally.calls;
-            let Some(found) =
-                self.judged(self.panel, game, level, ((difficulty, candidate), None), seed, tally)
-            else {
-                // A search in vain for a win is dear: it counts as several candidates.
-                if tally.calls - calls > self.criteria.budget / 2 {
-                    left = left.saturating_sub(DEAR);
-                }
-                continue;
-            };
-            let in_order = |(place, other): &(u32, FoundLevel)| match *place < number {
-                true => found.asks_as_much_as(other),
-                false => other.asks_as_much_as(&found),
-            };
-            if !matches!(self.source, LevelSource::Course(_)) {
-                return Some(found);
-            }
-            if !others.iter().all(in_order) {
-                tally.level_taken_back("less than an earlier level");
-            } else if number == 0 && !self.leaves_something(game, &found, others) {
-                tally.level_taken_back("progression");
-            } else if self.is_won_too_soon(game, number, &found) {
-                tally.level_taken_back("not-instant");
-            } else if self.is_tedious(game, &found, tally) {
-                tally.level_taken_back("no-dead-time");
-            } else {
-                return Some(FoundLevel { asks, ..found });
-            }
-        }
-        None
-    }
-
-    /// A puzzle of the tier of its place: won, judged, and measured; the search for its shortest win is that of `winnable`. Cost: a proof of the shortest win within the share of the
-    /// budget for it, the judges, and [`Demand::of`].
-    fn puzzle(
-        &self,
-        puzzles: &PuzzleLevels,
-        game: &Game,
-        level: Level,
-        known: Vec<Action>,
-        ((number, difficulty, candidate), seed): ((u32, f64, u32), Seed),
-        tally: &mut Tally,
-    ) -> Option<FoundLevel> {
-        let analysis = Analysis::of(game);
-        let of_win = seed.child("judges", 0).child("winnable", 0).child("systematic", 0);
-        let calls = (self.criteria.budget as f64 * self.criteria.shortest) as u64;
-        let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win)?;
-        tally.calls(calls);
-        let ask = self.criteria.ask.iter().filter(|name| *name != "winnable").cloned().collect();
-        let panel =
-            Panel::new(&Criteria { ask, ..self.criteria.clone() }).expect("the criteria were checked");
-        let place = ((difficulty, candidate), Some(win.clone()));
-        let mut found = self.judged(&panel, game, level, place, seed, tally)?;
-        let demand = Demand::of(&analysis, &found.level, &win, shortest, seed.child("demand", 0))?;
-        let optimal = shortest.then_some(win.actions.len());
-        let verdict = Verdict::Pass { witness: Some(win) };
-        let finding = Finding { searched: Some(calls), optimal, ..Finding::from(verdict) };
-        found.report.judgements.insert(0, Judgement { criterion: "winnable", finding });
-        if demand.tier() != puzzles.tier(number) {
-            tally.level_taken_back("tier");
-            return None;
-        }
-        Some(FoundLevel { demand: Some(demand), ..found })
-    }
-
-    /// The gate against instant wins, if it is asked of the level of a place alone: of a course with room for an exception, the
-    /// second level may be one.
-    fn not_instant(&self, number: u32) -> Option<NotInstant> {
-        let gates = &self.criteria.gates;
-        let exceptions = gates.instant_levels * f64::from(self.count.saturating_sub(1));
-        let is_asked = self.criteria.includes("not-instant") && matches!(self.source, LevelSource::Course(_));
-        let first = if exceptions >= 1.0 { 2 } else { 1 };
-        (is_asked && number >= first).then(|| NotInstant(gates.clone()))
-    }
-
-    /// Tests whether whoever walks to the nearest goal wins a level, before a win is searched for.
-    fn is_walked_through(&self, game: &Game, number: u32, level: &Level, seed: Seed) -> bool {
-        let (ticks, seed) = (self.criteria.most_ticks, seed.child("nearest goal", 0));
-        self.not_instant(number).is_some_and(|gate| gate.is_walked_through(game, level, ticks, seed))
-    }
-
-    fn is_won_too_soon(&self, game: &Game, number: u32, found: &FoundLevel) -> bool {
-        let Some(win) = &found.report.witness else { return false };
-        let analysis = Analysis::of(game);
-        self.not_instant(number).is_some_and(|gate| gate.is_too_short(&analysis, &found.level, win))
-    }
-
-    /// Tests whether the win of a level has dead time: the gate looks at each level alone.
-    fn is_tedious(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> bool {
-        let panel = self.panel_of(&["no-dead-time"], self.criteria.gates.clone());
-        let (board, report) = (&found.level, &found.report);
-        let seed = found.seed.child("dead time", 0);
-        let judged = panel.screen_together(game, slice::from_ref(board), slice::from_ref(report), seed);
-        tally.calls(judged.iter().map(|judgement| judgement.finding.calls()).sum());
-        judged.iter().any(|judgement| !judgement.finding.verdict.is_pass())
-    }
-
     /// A level that meets all criteria; `win` is one that is known.
-    fn judged(
+    pub(super) fn judged(
         &self,
         panel: &Panel,
         game: &Game,
@@ -577,7 +400,7 @@ impl Levels<'_> {
             None => panel.screen(game, &level, seed_of_judges),
         };
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
-        tally.level(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum(), obstacle);
+        tally.level(&report.judgements, obstacle);
         (obstacle.is_none() && report.witness.is_some()).then_some(FoundLevel {
             level,
             report,
@@ -591,9 +414,6 @@ impl Levels<'_> {
     }
 }
 
-/// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
-const LATER_SHARE: f64 = 0.6;
-
 /// The levels of a course that are found first: two to begin with and the exam.
 const OUTLINE: usize = 3;
 
@@ -602,10 +422,7 @@ const OUTLINE: usize = 3;
 const INTRODUCTIONS: u32 = 3;
 
 /// Levels of a course that may fail the criteria whose plays are dear, until its game is given up.
-const MISFITS: u32 = 8;
-
-/// Further candidates that a level costs whose win was searched for in vain.
-const DEAR: u32 = 1;
+const MISFITS: u32 = 5;
 
 /// The criteria whose answer does not depend on dice once there is a witness.
 const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
@@ -623,12 +440,6 @@ fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
 }
 
 impl FoundLevel {
-    /// Tests whether winning takes about as long as winning an earlier level of a course, or longer.
-    fn asks_as_much_as(&self, earlier: &FoundLevel) -> bool {
-        let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
-        ticks(self) as f64 >= LATER_SHARE * ticks(earlier) as f64
-    }
-
     /// The interactions that its win executes, guards apart.
     pub(super) fn mechanics(&self, game: &Game, guards: &Guards) -> BTreeSet<usize> {
         let Some(win) = &self.report.witness else { return BTreeSet::new() };

@@ -8,7 +8,7 @@ use super::look::{Looker, axes};
 use super::order::GameOrder;
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search, spread};
-use crate::tally::Tally;
+use crate::tally::{LOOK, Tally};
 use engine::Seed;
 use generators::kernels::{KernelGenome, KernelVariation, Turns};
 use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig};
@@ -265,7 +265,7 @@ impl<'a> Maker<'a> {
             };
             run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
                 set.looks += 1;
-                set.tally.calls(look.calls);
+                set.tally.judge(LOOK, look.is_promising, look.calls);
                 look.evaluation
             });
             let is_welcome = |genome: &KernelGenome| {
@@ -324,7 +324,7 @@ const REFUSED: f64 = 0.95;
 impl Attempted {
     fn note(&mut self, look: &super::look::Look) {
         self.looks += 1;
-        self.tally.calls(look.calls);
+        self.tally.judge(LOOK, look.is_promising, look.calls);
     }
 }
 

@@ -13,6 +13,7 @@ mod levels;
 mod look;
 mod make;
 mod order;
+mod place;
 mod puzzles;
 mod rounds;
 

@@ -315,7 +315,7 @@ impl<'a> Plan<'a> {
         let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
         let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
         let puzzles = PuzzleLevels { config, tiers, locks, things: part.things as usize };
-        let panel = Panel::new(&self.recipe.criteria).expect("the recipe was checked");
+        let panel = Panel::of_candidates(&self.recipe.criteria).expect("the recipe was checked");
         let levels = Levels {
             count: part.levels,
             tries: part.level_tries,
@@ -462,7 +462,7 @@ impl<'a> Plan<'a> {
         };
         let config = like.map_or_else(|| recipe.board.levels(), LevelConfig::like);
         let criteria = self.corpus_criteria();
-        let panel = Panel::new(criteria).expect("the recipe was checked");
+        let panel = Panel::of_candidates(criteria).expect("the recipe was checked");
         let found = (0..recipe.corpus.game_tries).find_map(|number| {
             let levels = Levels {
                 count: recipe.corpus.levels,
@@ -472,7 +472,9 @@ impl<'a> Plan<'a> {
                 panel: &panel,
                 seed: seed.child("levels", u64::from(number)),
             };
-            Some((number, levels.find(&candidate.game, &mut tally)?))
+            let is_hopeless = tally.rejections.get("rule-use").is_some_and(|&times| times >= UNUSED);
+            let found = if is_hopeless { None } else { levels.find(&candidate.game, &mut tally) };
+            found.map(|found| (number, found))
         });
         let made = found.and_then(|(number, found)| {
             let path = vec![("levels".to_owned(), u64::from(number))];
@@ -484,6 +486,9 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 }
+
+/// The tries of a corpus game whose levels leave a rule without use, after which further levels would hardly use it.
+const UNUSED: u64 = 3;
 
 /// The number of candidates for a number of games.
 fn candidates(games: u32, each: f64) -> u32 {
@@ -535,7 +540,11 @@ mod tests {
         let mut frozen = FrozenGame::of(made.clone(), plan.seed, &steps, &recipe.criteria, false);
         let published = frozen.card.levels[0].ladder.clone().unwrap();
         assert_eq!(frozen.difficulties, [judged.difficulty]);
-        assert_eq!(published.rungs[1].rate.plays, judged.rungs[1].rate.plays);
+        assert!(
+            judged.rungs[1].rate.plays < published.rungs[1].rate.plays,
+            "the judges stop when they are sure"
+        );
+        assert_eq!(published.rungs[1].rate.plays, recipe.criteria.ladder_plays);
         assert_ne!(&published, judged);
         // The selection counts what the judges saw.
         frozen.difficulties = vec![Difficulty::VeryHard];

@@ -141,6 +141,9 @@ fn made(text: &mut String, minted: &Minted) {
     if !tally.rejections.is_empty() {
         let _ = writeln!(text, "Turned down: {}.", tally.reasons());
     }
+    if !tally.judges.is_empty() {
+        let _ = writeln!(text, "\n{}", tally.judges_table(minted.card.games).to_markdown());
+    }
     if !corpus.is_empty() {
         let _ = writeln!(text, "Hand-written games that were taken up: {}.", corpus.join(", "));
     }

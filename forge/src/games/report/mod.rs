@@ -77,7 +77,8 @@ impl GameSetReport {
             .section("novelty", likeness::novelty(&measured, &distances, &forms))
             .section("cost", cost.zip(accepted).map(|(cost, accepted)| price(cost, made, accepted)))
             .table(variety::kinds(&measured))
-            .table(places);
+            .table(places)
+            .table(cost.filter(|cost| !cost.judges.is_empty()).map(|cost| cost.judges_table(made)));
         let near = distances.each.into_iter();
         let games: Vec<GameEntry> =
             measured.iter().zip(near).map(|(measured, near)| GameEntry::of(measured, near)).collect();

@@ -39,7 +39,8 @@ fn reported(title: &str, source: &str) -> SurveyedGame {
 
 fn report(games: &[SurveyedGame], corpus: &[(String, Game)]) -> GameSetReport {
     let rejections = BTreeMap::from([("winnable".to_owned(), 3)]);
-    let cost = Tally { calls: 9000, games_tried: 6, rejections, ..Tally::default() };
+    let mut cost = Tally { games_tried: 6, rejections, ..Tally::default() };
+    cost.judge("winnable", true, 9000);
     let seed = Seed::from_text("report");
     GameSetReport::of(&GamesSample {
         method: "search",
@@ -95,7 +96,7 @@ fn a_set_is_told_by_its_games() {
     // The second interaction of the crates never runs in the open.
     assert_eq!(report.games[1].found.mechanics, Some(2), "{:?}", report.games[1].found);
     let tables: Vec<&str> = report.set.tables.iter().map(|table| table.id.as_str()).collect();
-    assert_eq!(tables, ["kinds", "difficulty", "games"]);
+    assert_eq!(tables, ["kinds", "difficulty", "judges", "games"]);
 }
 
 #[test]

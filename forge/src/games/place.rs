@@ -1,0 +1,253 @@
+//! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
+
+use super::levels::{FoundLevel, LevelSource, Levels};
+use super::puzzles::{self, PuzzleGenerator, PuzzleLevels};
+use crate::tally::Tally;
+use engine::{Action, Analysis, Digest, Game, Level, Seed};
+use generators::kernels::{Course, CourseLevel, Slot};
+use generators::levels::{ConstructiveLevels, LevelConfig};
+use generators::{GenerateError, Generator};
+use std::slice;
+use validators::{Criteria, Demand, Finding, Judgement, NotInstant, Panel, Verdict};
+
+/// The place of a level in a game, beside the levels that other places have.
+pub(super) struct Place<'a> {
+    levels: &'a Levels<'a>,
+    game: &'a Game,
+    number: u32,
+    /// The levels of other places, each with its number.
+    others: &'a [(u32, FoundLevel)],
+}
+
+/// A generator of candidates for one place.
+enum PlaceGenerator<'a> {
+    Rules(Box<ConstructiveLevels<'a>>),
+    Course(&'a Course, Slot),
+    Puzzles(PuzzleGenerator<'a>),
+}
+
+/// A level, its question to the player if it is one of a course, and actions that win it if they are known.
+type Generated = (Level, Option<String>, Option<Vec<Action>>);
+
+impl PlaceGenerator<'_> {
+    fn generate(&self, game: &Game, seed: Seed) -> Result<Generated, GenerateError> {
+        match self {
+            PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None, None)),
+            PlaceGenerator::Puzzles(puzzles) => {
+                let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
+                let (level, known) = puzzles.create_solved(game, seed).ok_or_else(far)?;
+                Ok((level, None, Some(known)))
+            }
+            PlaceGenerator::Course(course, slot) => {
+                let CourseLevel { text, asks, .. } = course.level(*slot, seed)?;
+                let level =
+                    game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))?;
+                Ok((level, Some(asks), None))
+            }
+        }
+    }
+}
+
+impl<'a> Place<'a> {
+    /// The place of a number.
+    pub(super) fn of(
+        levels: &'a Levels<'a>,
+        game: &'a Game,
+        number: u32,
+        others: &'a [(u32, FoundLevel)],
+    ) -> Place<'a> {
+        Place { levels, game, number, others }
+    }
+
+    /// Returns the first candidate from number `from` on that passes.
+    pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
+        let generator = match self.generator() {
+            Ok(generator) => generator,
+            Err(error) => {
+                tally.game_rejected(&error.to_string());
+                return None;
+            }
+        };
+        let Levels { tries, criteria, .. } = self.levels;
+        let mut left = tries.saturating_sub(from);
+        for candidate in from..*tries {
+            if left == 0 {
+                break;
+            }
+            left -= 1;
+            let calls = tally.calls;
+            let found = tally.spend(Tally::of_refused, |tally| self.candidate(&generator, candidate, tally));
+            if found.is_some() {
+                return found;
+            }
+            // A search in vain for a win is dear: it counts as several candidates.
+            if tally.calls - calls > criteria.budget / 2 {
+                left = left.saturating_sub(if self.others.len() < STAKE { EARLY_DEAR } else { DEAR });
+            }
+        }
+        None
+    }
+
+    /// The difficulty that its level should have, from 0 to 1.
+    fn difficulty(&self) -> f64 {
+        f64::from(self.number) / f64::from((self.levels.count - 1).max(1))
+    }
+
+    fn generator(&self) -> Result<PlaceGenerator<'a>, GenerateError> {
+        let difficulty = self.difficulty();
+        match self.levels.source {
+            LevelSource::Rules(config) => {
+                let config = LevelConfig { difficulty, ..config.clone() };
+                let levels = ConstructiveLevels::new(self.game, config)?;
+                Ok(PlaceGenerator::Rules(Box::new(levels)))
+            }
+            LevelSource::Course(course) => {
+                let last = Slot::ALL.len() - 1;
+                let slot = Slot::ALL[(difficulty * last as f64).round() as usize];
+                Ok(PlaceGenerator::Course(course, slot))
+            }
+            LevelSource::Puzzles(puzzles) => {
+                puzzles.generator(self.game, self.number).map(PlaceGenerator::Puzzles)
+            }
+        }
+    }
+
+    /// Judges the candidate of a number: `None`, with the reason in the tally, if it does not pass.
+    fn candidate(
+        &self,
+        generator: &PlaceGenerator<'_>,
+        candidate: u32,
+        tally: &mut Tally,
+    ) -> Option<FoundLevel> {
+        let Place { levels, game, number, others } = *self;
+        let places = levels.seed.child("level", u64::from(number));
+        let seed = places.child("candidate", u64::from(candidate));
+        let Ok((level, asks, known)) = generator.generate(game, seed.child("layout", 0)) else {
+            tally.no_level("level generator");
+            return None;
+        };
+        let taken: Vec<Digest> = others.iter().map(|(_, found)| found.level.digest()).collect();
+        if taken.contains(&level.digest()) {
+            tally.no_level("the same level twice");
+            return None;
+        }
+        if let (LevelSource::Puzzles(puzzles), Some(known)) = (levels.source, known) {
+            return self.puzzle(puzzles, level, known, (candidate, seed), tally);
+        }
+        if self.is_walked_through(&level, seed) {
+            tally.no_level("not-instant");
+            return None;
+        }
+        let place = ((self.difficulty(), candidate), None);
+        let found = levels.judged(levels.panel, game, level, place, seed, tally)?;
+        let LevelSource::Course(_) = levels.source else { return Some(found) };
+        match self.objection(&found, tally) {
+            Some(why) => {
+                tally.level_taken_back(why);
+                None
+            }
+            None => Some(FoundLevel { asks, ..found }),
+        }
+    }
+
+    /// Returns what keeps a level of a course that passes alone from its place.
+    fn objection(&self, found: &FoundLevel, tally: &mut Tally) -> Option<&'static str> {
+        let in_order = |(place, other): &(u32, FoundLevel)| match *place < self.number {
+            true => asks_as_much(found, other),
+            false => asks_as_much(other, found),
+        };
+        if !self.others.iter().all(in_order) {
+            Some("less than an earlier level")
+        } else if self.number == 0 && !self.levels.leaves_something(self.game, found, self.others) {
+            Some("progression")
+        } else if self.is_won_too_soon(found) {
+            Some("not-instant")
+        } else if self.is_tedious(found, tally) {
+            Some("no-dead-time")
+        } else {
+            None
+        }
+    }
+
+    /// A puzzle of the tier of its place: won, judged, and measured; the search for its shortest win is that of `winnable`. Cost: a
+    /// proof of the shortest win within the share of the budget for it, the judges, and [`Demand::of`].
+    fn puzzle(
+        &self,
+        puzzles: &PuzzleLevels,
+        level: Level,
+        known: Vec<Action>,
+        (candidate, seed): (u32, Seed),
+        tally: &mut Tally,
+    ) -> Option<FoundLevel> {
+        let criteria = self.levels.criteria;
+        let analysis = Analysis::of(self.game);
+        let of_win = seed.child("judges", 0).child("winnable", 0).child("systematic", 0);
+        let calls = (criteria.budget as f64 * criteria.shortest) as u64;
+        let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win)?;
+        tally.judge("winnable", true, calls);
+        let ask = criteria.ask.iter().filter(|name| *name != "winnable").cloned().collect();
+        let panel =
+            Panel::of_candidates(&Criteria { ask, ..criteria.clone() }).expect("the criteria were checked");
+        let place = ((self.difficulty(), candidate), Some(win.clone()));
+        let mut found = self.levels.judged(&panel, self.game, level, place, seed, tally)?;
+        let demand = Demand::of(&analysis, &found.level, &win, shortest, seed.child("demand", 0))?;
+        let optimal = shortest.then_some(win.actions.len());
+        let verdict = Verdict::Pass { witness: Some(win) };
+        let finding = Finding { searched: Some(calls), optimal, ..Finding::from(verdict) };
+        found.report.judgements.insert(0, Judgement { criterion: "winnable", finding });
+        if demand.tier() != puzzles.tier(self.number) {
+            tally.level_taken_back("tier");
+            return None;
+        }
+        Some(FoundLevel { demand: Some(demand), ..found })
+    }
+
+    /// The gate against instant wins, if it is asked of the level of a place alone: of a course with room for an exception, the
+    /// second level may be one.
+    fn not_instant(&self) -> Option<NotInstant> {
+        let Levels { criteria, count, source, .. } = self.levels;
+        let gates = &criteria.gates;
+        let exceptions = gates.instant_levels * f64::from(count.saturating_sub(1));
+        let is_asked = criteria.includes("not-instant") && matches!(source, LevelSource::Course(_));
+        let first = if exceptions >= 1.0 { 2 } else { 1 };
+        (is_asked && self.number >= first).then(|| NotInstant(gates.clone()))
+    }
+
+    /// Tests whether whoever walks to the nearest goal wins a level, before a win is searched for.
+    fn is_walked_through(&self, level: &Level, seed: Seed) -> bool {
+        let (ticks, seed) = (self.levels.criteria.most_ticks, seed.child("nearest goal", 0));
+        self.not_instant().is_some_and(|gate| gate.is_walked_through(self.game, level, ticks, seed))
+    }
+
+    fn is_won_too_soon(&self, found: &FoundLevel) -> bool {
+        let Some(win) = &found.report.witness else { return false };
+        let analysis = Analysis::of(self.game);
+        self.not_instant().is_some_and(|gate| gate.is_too_short(&analysis, &found.level, win))
+    }
+
+    /// Tests whether the win of a level has dead time: the gate looks at each level alone.
+    fn is_tedious(&self, found: &FoundLevel, tally: &mut Tally) -> bool {
+        let panel = self.levels.panel_of(&["no-dead-time"], self.levels.criteria.gates.clone());
+        let (board, report) = (&found.level, &found.report);
+        let seed = found.seed.child("dead time", 0);
+        let judged = panel.screen_together(self.game, slice::from_ref(board), slice::from_ref(report), seed);
+        tally.judgements(&judged);
+        judged.iter().any(|judgement| !judgement.finding.verdict.is_pass())
+    }
+}
+
+/// Tests whether winning a level takes about as long as winning an earlier one of a course, or longer.
+fn asks_as_much(found: &FoundLevel, earlier: &FoundLevel) -> bool {
+    let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
+    ticks(found) as f64 >= LATER_SHARE * ticks(earlier) as f64
+}
+
+/// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
+const LATER_SHARE: f64 = 0.6;
+
+/// Further candidates that a level costs whose win was searched for in vain.
+const DEAR: u32 = 1;
+/// The same while the game has fewer than [`STAKE`] levels, so that little is lost with it: where two searches are in vain, the next
+/// succeeds in one of four.
+const EARLY_DEAR: u32 = 5;
+const STAKE: usize = 2;
