@@ -19,6 +19,7 @@ mod input;
 mod interrupt;
 mod manual;
 mod marks;
+mod memory;
 mod page;
 mod paths;
 mod play;

@@ -1,7 +1,9 @@
-//! The number of threads. No output depends on it.
+//! The number of threads, and the memory of their searches. No output depends on them.
 
 use crate::console;
 use crate::failure::Failure;
+use crate::memory::Bytes;
+use agents::search::bound_memory;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::sync::Once;
 use std::thread::available_parallelism;
@@ -31,6 +33,21 @@ pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + S
     let pool: Result<ThreadPool, _> =
         ThreadPoolBuilder::new().num_threads(jobs.map_or_else(usual, |jobs| jobs.min(MAX_THREADS))).build();
     Ok(pool.map_err(failure)?.install(work))
+}
+
+/// [`in_pool`], with at most so much memory for the searches of all threads together.
+pub(crate) fn in_pool_within<T: Send>(
+    jobs: Option<usize>,
+    memory: Option<Bytes>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Failure> {
+    if let Some(Bytes(bytes)) = memory {
+        let threads = jobs.map_or_else(usual, |jobs| jobs.clamp(1, MAX_THREADS));
+        bound_memory(bytes, threads).map_err(|too_little| {
+            malformed!("--memory: {too_little}; give more, or fewer threads with --jobs")
+        })?;
+    }
+    in_pool(jobs, work)
 }
 
 /// Returns the number of threads if the user gives none.

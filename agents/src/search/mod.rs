@@ -7,6 +7,7 @@
 
 mod a_star;
 mod best_first;
+mod memory;
 mod pushes;
 mod tree;
 
@@ -14,6 +15,7 @@ pub use a_star::a_star;
 pub(crate) use a_star::a_star_until;
 pub use best_first::best_first;
 pub(crate) use best_first::best_first_until;
+pub use memory::{TooLittle, bound as bound_memory};
 pub use pushes::Pushes;
 
 use engine::Action;

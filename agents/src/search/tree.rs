@@ -1,6 +1,7 @@
 //! The tree that the systematic searches share: the states found so far, the actions that led to them, and the
 //! generation of successors.
 
+use super::memory::Lease;
 use super::{Answer, Pushes, SearchLimits, Searched};
 use crate::play::Stopped;
 use crate::progress::Progress;
@@ -85,6 +86,8 @@ pub(super) struct Tree<'a> {
     calls: u64,
     /// Bytes of the packed states in memory.
     packed: usize,
+    /// Room for them, beside the searches of other threads.
+    lease: Lease,
     /// Buffers for a state and its successor.
     buffers: Option<(State, State)>,
     /// Tells when nobody waits for the answer any more.
@@ -136,6 +139,7 @@ impl<'a> Tree<'a> {
             limits,
             calls: 0,
             packed: 0,
+            lease: Lease::default(),
             buffers: Some((start.clone(), start.clone())),
             stopped: &|| false,
         }
@@ -253,8 +257,12 @@ impl<'a> Tree<'a> {
                 Err(_) => self.keep(child),
             };
             open(self, id, child, least, kept);
-            if self.bytes() > self.limits.bytes || id == NodeId::MAX {
+            let bytes = self.bytes();
+            if bytes > self.limits.bytes || id == NodeId::MAX {
                 return Expanded::OutOfMemory;
+            }
+            if !self.lease.grow(bytes, self.limits.bytes, self.stopped) {
+                return Expanded::OutOfCalls;
             }
         }
         Expanded::On

@@ -6,9 +6,11 @@ use crate::embedded;
 use crate::failure::Answer;
 use crate::interrupt;
 use crate::marks;
+use crate::memory::Bytes;
 use crate::protected;
 use crate::shell;
-use crate::verbs::release::{LONG, ProgressBars, commit, in_pool};
+use crate::threads::in_pool_within;
+use crate::verbs::release::{LONG, ProgressBars, commit};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
 use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
@@ -37,6 +39,9 @@ pub(crate) struct Args {
     /// Threads; all cores if not given
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. Changes no byte
+    #[arg(long, value_name = "SIZE")]
+    memory: Option<Bytes>,
 }
 
 impl Args {
@@ -84,7 +89,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.remark(told);
     }
     let bars = ProgressBars::new(console);
-    let result = in_pool(args.jobs, || {
+    let result = in_pool_within(args.jobs, args.memory, || {
         make_jobs(&plan, plan.jobs(), &*store, &bars)?;
         let mut also = |path: &str, content: &[u8]| match &draft {
             Some(draft) => draft.write(path, content),

@@ -5,9 +5,10 @@ use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
+use crate::memory::Bytes;
 use crate::protected;
 use crate::set_report::game_report;
-use crate::verbs::release::in_pool;
+use crate::threads::in_pool_within;
 use engine::{Digest, Game, Level, Seed};
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
@@ -67,6 +68,9 @@ pub(crate) struct Args {
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. Changes no byte
+    #[arg(long, value_name = "SIZE")]
+    memory: Option<Bytes>,
     /// The folder of the new games: absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -112,7 +116,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
     let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
-    let made = in_pool(args.jobs, || make_games(&order, &known, &canary, seed, &bar))?;
+    let made = in_pool_within(args.jobs, args.memory, || make_games(&order, &known, &canary, seed, &bar))?;
     bar.bar.finish_and_clear();
     if let Some(failure) = bar.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(failure.into());
@@ -136,7 +140,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(set.games.len() as u64, "report");
-        in_pool(args.jobs, || report(args, report_draft, &corpus, &set, (seconds, &bar)))??;
+        in_pool_within(args.jobs, args.memory, || {
+            report(args, report_draft, &corpus, &set, (seconds, &bar))
+        })??;
         bar.finish_and_clear();
     }
     console.document(&document(args, &set))?;

@@ -4,9 +4,10 @@ use super::pretty;
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
+use crate::memory::Bytes;
 use crate::protected;
 use crate::set_report::level_report;
-use crate::verbs::release::in_pool;
+use crate::threads::in_pool_within;
 use engine::{Analysis, Game, Level, Seed, SpriteType};
 use forge::levels::report::{LevelSetReport, Sample};
 use forge::levels::{
@@ -69,6 +70,9 @@ pub(crate) struct Args {
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. Changes no byte
+    #[arg(long, value_name = "SIZE")]
+    memory: Option<Bytes>,
     /// Load the game as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
@@ -103,7 +107,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
-    let made = in_pool(args.jobs, || make_levels(&game, &order, seed, &bar))?;
+    let made = in_pool_within(args.jobs, args.memory, || make_levels(&game, &order, seed, &bar))?;
     bar.0.finish_and_clear();
     let set = match made {
         Ok(set) => set,
@@ -124,7 +128,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(0, "report");
-        in_pool(args.jobs, || report(args, report_draft, &game, &order, &examples, &set, seconds))??;
+        in_pool_within(args.jobs, args.memory, || {
+            report(args, report_draft, &game, &order, &examples, &set, seconds)
+        })??;
         bar.finish_and_clear();
     }
     console.document(&document(args, &game, &set))?;

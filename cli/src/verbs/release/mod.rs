@@ -1,6 +1,7 @@
 //! `arcade release`: mints a benchmark.
 
 mod outline;
+mod probe;
 mod progress;
 mod sealed;
 mod summary;
@@ -11,10 +12,12 @@ use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::interrupt;
 use crate::marks;
+use crate::memory::Bytes;
 use crate::paths;
 use crate::protected;
 use crate::shell;
 pub(crate) use crate::threads::in_pool;
+use crate::threads::in_pool_within;
 pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::{check_beacon, read as read_secret_file};
 use serde_json::json;
@@ -44,6 +47,9 @@ pub(crate) struct Args {
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. Changes no byte
+    #[arg(long, value_name = "SIZE")]
+    memory: Option<Bytes>,
     /// Make only the K-th of N slices
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
@@ -144,7 +150,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.remark("note: there are more shards than jobs: this shard is empty");
     }
     if args.dry_run {
-        return outline::outline(&plan, &jobs, &recipe, &out, args.resume, console);
+        let asked = outline::Asked { jobs: &jobs, out: &out, resume: args.resume };
+        return in_pool(args.jobs, || outline::outline(&plan, &corpus, &asked, console))?;
     }
     // Check the place to write to before minutes of minting.
     let mut draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }?;
@@ -209,7 +216,7 @@ fn mint(
     interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     let bars = ProgressBars::new(console);
     let started = Stopwatch::start();
-    in_pool(args.jobs, || make_jobs(plan, jobs, &store, &bars))??;
+    in_pool_within(args.jobs, args.memory, || make_jobs(plan, jobs, &store, &bars))??;
     bars.finish();
     interrupt::defer();
     if let Some(shard) = args.shard {

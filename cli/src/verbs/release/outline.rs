@@ -1,22 +1,25 @@
 //! `arcade release --dry-run`: the contents and the cost of a mint.
 
+use super::probe;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::Answer;
 use serde_json::json;
 use snapshots::mint::{Job, JobFolder, Plan};
-use snapshots::{Draft, Recipe, SnapshotError, check_vacant};
+use snapshots::{Corpus, Draft, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
-/// Prints the contents of a mint, or, with `resume`, the rest of it.
-pub(super) fn outline(
-    plan: &Plan<'_>,
-    jobs: &[Job],
-    recipe: &Recipe,
-    out: &Path,
-    resume: bool,
-    console: &Console,
-) -> Answer {
+/// The mint to outline.
+pub(super) struct Asked<'a> {
+    pub(super) jobs: &'a [Job],
+    pub(super) out: &'a Path,
+    /// Only what an interrupted mint left to do.
+    pub(super) resume: bool,
+}
+
+/// Prints the contents of a mint and its cost on this machine. Mints of more than [`PROBED`] seconds are worth a probe of its speed.
+pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, console: &Console) -> Answer {
+    let (&Asked { jobs, out, resume }, recipe) = (asked, plan.recipe);
     let (old, new) = (&recipe.corpus, &recipe.generated);
     let names: Vec<String> = jobs.iter().map(|&job| plan.name(job)).collect();
     let made = made(plan, &names, out)?;
@@ -25,13 +28,15 @@ pub(super) fn outline(
         false => jobs.to_vec(),
     };
     let seconds = plan.seconds(&left);
-    let range = estimate_range(seconds);
+    let slowness = if seconds >= PROBED { probe::slowness(corpus) } else { None };
+    let range = estimate_range(seconds * slowness.unwrap_or(1.0));
     let place = out.display().to_string();
     let taken = check_vacant(out).err();
     let there = made.iter().filter(|made| **made).count();
     console.document(&json!({
         "recipe": recipe, "out": place, "lots": names, "lots_made": there, "core_minutes": seconds / 60.0,
-        "core_seconds": [range.0, range.1], "out_is_taken": taken.is_some(),
+        "core_seconds": [range.0, range.1],
+        "slowness": slowness, "out_is_taken": taken.is_some(),
     }))?;
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     if new.games > 0 {
@@ -76,10 +81,13 @@ pub(super) fn outline(
     if resume {
         console.say(format_args!("of which {there} are finished and {} are left", left.len()));
     }
-    console.say(format_args!(
-        "in {} of one core; up to twice that where the cores are busy with other work",
-        words(range)
-    ));
+    match slowness {
+        Some(times) => console.say(format_args!(
+            "in {} of one core of this machine, which takes {times:.2} times as long as the one that was measured",
+            words(range)
+        )),
+        None => console.say(format_args!("in {} of one core", words(range))),
+    }
     console.say(format_args!("into {place}"));
     match taken {
         Some(SnapshotError::Occupied(_)) => {
@@ -107,7 +115,10 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crat
     }
 }
 
-/// The greatest deviation from the estimate, as a share, on a machine like the one that was measured.
+/// The seconds of one core from which the speed of the machine is measured: it takes some seconds itself.
+const PROBED: f64 = 30.0;
+
+/// The greatest deviation from the estimate, as a share.
 const SPREAD: f64 = 0.25;
 
 /// Returns the least and the greatest seconds to expect.

@@ -9,6 +9,7 @@ const READERS: &[(&str, &str)] = &[
     ("agents/benches/batch.rs", "a benchmark"),
     ("cli/src/console.rs", "seconds in remarks"),
     ("cli/src/verbs/clean/leftover.rs", "the age of leftover files"),
+    ("cli/src/verbs/release/probe.rs", "the estimate of a dry run"),
     ("evaluation/src/client/clock.rs", "waits between requests, and their latency"),
     ("evaluation/src/run/clock.rs", "times in logs, and the time limits of programs that play"),
     ("xtask/src/bench.rs", "benchmarks"),

@@ -1,0 +1,136 @@
+//! The memory of all systematic searches of the process together.
+//!
+//! It may be bounded where many searches run at once. One that outgrows [`FREE`] then waits until there is room for all that its
+//! own limit allows it, so the answers, and every byte that follows from them, are those without a bound.
+
+use crate::play::Stopped;
+use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::Duration;
+
+/// The bytes that each search may use at any time.
+const FREE: usize = 64 << 20;
+/// The bytes that a process takes beside its searches: rules, levels, plays, results.
+const REST: usize = 256 << 20;
+/// The bytes of the largest usual search; see [`SearchLimits::calls`](super::SearchLimits::calls).
+const LARGEST: usize = 1 << 30;
+
+/// The room for searches that outgrow [`FREE`].
+#[derive(Clone, Copy)]
+struct Room {
+    all: usize,
+    left: usize,
+}
+
+/// No bound, at first.
+static ROOM: Mutex<Option<Room>> = Mutex::new(None);
+/// Told when room is given back.
+static GIVEN_BACK: Condvar = Condvar::new();
+
+/// Too little memory for one search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{threads} threads of searches need at least {} MiB", .least >> 20)]
+pub struct TooLittle {
+    /// The number of threads.
+    pub threads: usize,
+    /// The least bound for them, in bytes.
+    pub least: usize,
+}
+
+/// Bounds the memory of this process to about so many bytes, while at most so many threads search. Searches wait for each other where
+/// they have to; no answer depends on it.
+///
+/// # Errors
+/// A bound that leaves no room for one search of a gibibyte beside small ones of all threads.
+pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
+    let small = FREE.saturating_mul(threads).saturating_add(REST);
+    let least = small.saturating_add(LARGEST - FREE);
+    if bytes < least {
+        return Err(TooLittle { threads, least });
+    }
+    let all = bytes - small;
+    *ROOM.lock().unwrap_or_else(PoisonError::into_inner) = Some(Room { all, left: all });
+    Ok(())
+}
+
+/// Room for one search, given back when it is dropped.
+#[derive(Default)]
+pub(super) struct Lease {
+    bytes: usize,
+    is_held: bool,
+}
+
+impl Lease {
+    /// Waits for the room of a search with this limit, once it uses `bytes`: without a bound, or while it is small, not at all. `false`
+    /// if it was stopped while it waited.
+    pub(super) fn grow(&mut self, bytes: usize, limit: usize, stopped: Stopped<'_>) -> bool {
+        if self.is_held || bytes <= FREE {
+            return true;
+        }
+        let mut room = ROOM.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            let Some(found) = room.as_mut() else {
+                self.is_held = true;
+                return true;
+            };
+            let wanted = limit.saturating_sub(FREE).min(found.all);
+            if wanted <= found.left {
+                found.left -= wanted;
+                *self = Lease { bytes: wanted, is_held: true };
+                return true;
+            }
+            if stopped() {
+                return false;
+            }
+            let waited = GIVEN_BACK.wait_timeout(room, Duration::from_millis(100));
+            room = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+impl Drop for Lease {
+    fn drop(&mut self) {
+        if self.is_held {
+            let mut room = ROOM.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(room) = room.as_mut() {
+                room.left += self.bytes;
+            }
+            GIVEN_BACK.notify_all();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    /// The only test that bounds the memory: it is the whole process's.
+    #[test]
+    fn large_searches_take_turns() {
+        let never = || false;
+        let least = TooLittle { threads: 4, least: (256 + 4 * 64 + 960) << 20 };
+        assert_eq!(bound(1 << 30, 4), Err(least));
+        bound(least.least + (100 << 20), 4).unwrap();
+        let (at_once, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        std::thread::scope(|threads| {
+            for _ in 0..4 {
+                threads.spawn(|| {
+                    let mut lease = Lease::default();
+                    assert!(lease.grow(FREE, LARGEST, &never), "small ones do not wait");
+                    assert!(lease.grow(FREE + 1, LARGEST, &never));
+                    assert!(lease.grow(2 * FREE, LARGEST, &never), "it has its room already");
+                    most.fetch_max(at_once.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
+                    std::thread::sleep(Duration::from_millis(5));
+                    at_once.fetch_sub(1, Ordering::SeqCst);
+                });
+            }
+        });
+        assert_eq!(most.into_inner(), 1);
+        let mut first = Lease::default();
+        assert!(first.grow(FREE + 1, LARGEST, &never));
+        assert!(!Lease::default().grow(FREE + 1, LARGEST, &|| true), "nobody waits who is not waited for");
+        drop(first);
+        assert!(Lease::default().grow(FREE + 1, usize::MAX, &never), "more than there is: all of it");
+        *ROOM.lock().unwrap() = None;
+    }
+}
