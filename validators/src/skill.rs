@@ -23,8 +23,7 @@ pub struct SkillPays {
     pub scores: f64,
     /// Forward-model calls of one play, after which it is broken off; then a failure becomes unknown.
     pub play_calls: u64,
-    /// Stops after a round of plays, from the second on, if skill pays by a stricter boundary, or, from the third on, if no player is
-    /// far ahead of the baseline: then more plays would seldom change the answer. `cargo xtask judging` counts how often.
+    /// Stops after a round of plays, from the third on, if skill pays by a stricter boundary, or no player is far ahead of the baseline: then more plays would seldom change the answer. `cargo xtask judging` counts how often.
     pub sequential: bool,
 }
 
@@ -41,11 +40,11 @@ struct Boundary {
 
 /// The boundary at which plays stop early: a stricter boundary for repeated looks at growing data
 /// (O'Brien and Fleming 1979).
-const EARLY: Boundary = Boundary { z: 2.8, confidence: 0.995, scored_plays: 6 };
+const EARLY: Boundary = Boundary { z: 2.8, confidence: 0.995, scored_plays: 8 };
 /// That of the final answer.
 const FINAL: Boundary = Boundary { z: Z95, confidence: 0.95, scored_plays: 0 };
-/// Plays of each player after which skill may be taken for shown, and after which for missing.
-const EARLY_PLAYS: [usize; 2] = [4, 6];
+/// Plays of each player after which skill may be taken for shown or missing.
+const EARLY_PLAYS: usize = 6;
 
 /// Resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
@@ -145,13 +144,12 @@ impl SkillPays {
     /// Tests whether further plays would hardly change the answer.
     fn is_sure(&self, case: Case<'_>, played: &LadderPlays) -> bool {
         let plays = played.plays.first().map_or(0, Vec::len);
-        let [to_show, to_deny] = EARLY_PLAYS;
-        if plays < to_show {
+        if plays < EARLY_PLAYS {
             return false;
         }
         let Some(answer) = self.answer(case, played, EARLY) else { return false };
         let is_ahead = || answer.advantages.iter().flatten().any(|advantage| advantage.leads);
-        answer.shown && answer.accepted || plays >= to_deny && !is_ahead()
+        answer.shown && answer.accepted || !is_ahead()
     }
 
     fn advantage(

@@ -2,10 +2,12 @@
 
 use super::{MOST, Sheet, Shot, Showcase, cell, failed, made_in, write};
 use crate::failure::Failure;
-use crate::page::{Figure, words};
+use crate::page::plots::{BarRow, Label};
+use crate::page::{Figure, plots, words};
 use engine::{Analysis, Level, Seed, State};
 use forge::games::report::GameSetReport;
 use forge::survey::SurveyedGame;
+use forge::{JudgeCost, Tally};
 use render::{Looks, Picture, Style, picture};
 use snapshots::Draft;
 use validators::Difficulty;
@@ -18,6 +20,7 @@ pub(crate) fn game_report(
     draft: Draft,
     report: &GameSetReport,
     games: &[SurveyedGame],
+    cost: Option<&Tally>,
     (title, method, seconds): (&str, &str, Option<f64>),
 ) -> Result<(), Failure> {
     let (mut entries, mut shots) = (Vec::new(), Vec::new());
@@ -48,10 +51,27 @@ pub(crate) fn game_report(
         pictures: shots,
         examples: Vec::new(),
         ranges: Vec::new(),
+        costs: cost.and_then(costs),
         grids: &["kinds", "difficulty"],
         sheet: Sheet(entries, 4, 340),
     };
     write(draft, &report.set, &showcase)
+}
+
+/// Draws the costs of the judges, the greatest first, by the fate of what was judged.
+fn costs(cost: &Tally) -> Option<(String, String)> {
+    let mut judges: Vec<(&String, &JudgeCost)> =
+        cost.judges.iter().filter(|(_, cost)| cost.calls() > 0).collect();
+    judges.sort_by_key(|(name, cost)| (std::cmp::Reverse(cost.calls()), *name));
+    let row = |(name, cost): (&String, &JudgeCost)| BarRow {
+        label: Label { name: name.clone(), note: String::new() },
+        parts: [cost.calls_accepted, cost.calls_refused, cost.calls_lost].map(|calls| calls as f64).to_vec(),
+        amount: format!("{:.1} M", cost.calls() as f64 / 1e6),
+    };
+    let rows: Vec<BarRow> = judges.into_iter().map(row).collect();
+    let key = ["let in", "refused", "game refused"];
+    let caption = "Calls of the forward model by each judge, by the fate of what it judged.";
+    (!rows.is_empty()).then(|| (plots::bars("Cost of the judges", &key, &rows), caption.to_owned()))
 }
 
 fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, Failure> {

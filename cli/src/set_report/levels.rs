@@ -66,6 +66,7 @@ pub(crate) fn level_report(
         pictures: shots,
         examples,
         ranges: ranges.collect(),
+        costs: None,
         grids: &["asked"],
         sheet: Sheet(entries, 5, 300),
     };

@@ -30,6 +30,8 @@ pub(crate) struct Showcase<'a> {
     examples: Vec<Shot>,
     /// Expressive ranges as SVG, each with its caption.
     ranges: Vec<(String, String)>,
+    /// The cost of the judges as SVG, and the figure's caption.
+    costs: Option<(String, String)>,
     /// Tables beside the pictures, by their names.
     #[serde(skip)]
     grids: &'a [&'static str],

@@ -5,6 +5,7 @@
 //! diverging scale from blue over neutral to orange, for values that may be negative. Every value is written as text
 //! too. Missing values are grey and hatched, never a colour of the scale.
 
+mod bars;
 mod canvas;
 mod curves;
 mod forest;
@@ -14,6 +15,7 @@ mod months;
 mod range;
 mod violin;
 
+pub(crate) use bars::{BarRow, bars};
 pub(crate) use curves::{CurvePoint, curve};
 pub(crate) use forest::{ForestRow, forest};
 pub(crate) use heat_map::{HeatMap, group_width, heat_map};

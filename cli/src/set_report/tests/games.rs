@@ -2,9 +2,9 @@ use super::page;
 use crate::embedded;
 use crate::set_report::game_report;
 use engine::{Game, Level, Seed};
-use forge::Tally;
 use forge::games::report::{GameSetReport, GamesSample};
 use forge::survey::SurveyedGame;
+use forge::{JudgeCost, Tally};
 use snapshots::{CorpusGame, Draft};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -41,7 +41,10 @@ fn write(dir: &Path) -> GameSetReport {
         .map(|game| (game.name.clone(), Game::from_source(&game.source).unwrap()))
         .collect();
     let rejections = BTreeMap::from([("winnable".to_owned(), 7)]);
-    let cost = Tally { calls: 123_456, games_tried: 10, rejections, ..Tally::default() };
+    let winnable =
+        JudgeCost { asked: 9, refused: 7, calls_accepted: 30_000, calls_refused: 90_000, calls_lost: 3_456 };
+    let judges = BTreeMap::from([("winnable".to_owned(), winnable)]);
+    let cost = Tally { calls: 123_456, games_tried: 10, rejections, judges, ..Tally::default() };
     let sample = GamesSample {
         method: "constructive",
         games: &games,
@@ -52,7 +55,7 @@ fn write(dir: &Path) -> GameSetReport {
     };
     let report = GameSetReport::of(&sample);
     let draft = Draft::create(dir).unwrap();
-    game_report(draft, &report, &games, ("Three games", "constructive", Some(3.5))).unwrap();
+    game_report(draft, &report, &games, Some(&cost), ("Three games", "constructive", Some(3.5))).unwrap();
     report
 }
 
@@ -66,7 +69,16 @@ fn a_report_is_three_files_and_the_page_needs_no_other() {
     let near = report.set.share("novelty", "near_corpus").unwrap();
     assert_eq!(near.count, GAMES.len() as u64);
     assert_eq!(report.games[0].nearest_corpus.as_ref().map(|near| near.name.as_str()), Some("quiet-jars"));
-    for part in ["Quiet Jars", "Does skill pay?", "made in 3.5 s", "Every game", "3 of 10", "olets:30 wins"] {
+    for part in [
+        "Quiet Jars",
+        "Does skill pay?",
+        "made in 3.5 s",
+        "Every game",
+        "3 of 10",
+        "Cost of the judges",
+        "0.1 M",
+        "olets:30 wins",
+    ] {
         assert!(page.contains(part), "{part}");
     }
 }

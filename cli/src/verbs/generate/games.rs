@@ -198,7 +198,7 @@ fn report(
         seed: seed.child("measures", 0),
     });
     let title = format!("{} games, seed {}", args.method, args.seed);
-    game_report(draft, &report, &games, (&title, args.method.name(), Some(seconds)))
+    game_report(draft, &report, &games, Some(&set.tally), (&title, args.method.name(), Some(seconds)))
 }
 
 /// The progress of the making: a bar, or a line for each game where no bar can be drawn. Finished attempts are stored.
