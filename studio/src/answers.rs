@@ -13,6 +13,7 @@ use evaluation::serve::loopback::{Bodies, Unread};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::sync::Semaphore;
 
 /// Threads for short answers, and for those that arrive line by line.
@@ -40,12 +41,22 @@ impl Serving {
         }
     }
 
-    /// Does some work on a thread for it.
+    /// Does some work on a thread for short answers.
     async fn answer<O: Serialize>(
         self,
         work: impl FnOnce(&Studio) -> Result<O, Refusal> + Send + 'static,
     ) -> Response {
-        let Ok(place) = self.short.acquire_owned().await else { return broken() };
+        let short = self.short.clone();
+        self.answer_in(short, work).await
+    }
+
+    /// Does some work on one of these threads, when one is free.
+    async fn answer_in<O: Serialize>(
+        self,
+        threads: Arc<Semaphore>,
+        work: impl FnOnce(&Studio) -> Result<O, Refusal> + Send + 'static,
+    ) -> Response {
+        let Ok(place) = threads.acquire_owned().await else { return broken() };
         let studio = self.studio;
         let done = tokio::task::spawn_blocking(move || {
             // Written here too: it may be as much work as the rest.
@@ -127,6 +138,42 @@ pub(crate) fn asked<I: DeserializeOwned + Send + 'static, O: Serialize + 'static
             Ok(asked) => serving.answer(move |studio| work(studio, asked)).await,
             Err(refusal) => refusal.into_response(),
         }
+    };
+    post(answer)
+}
+
+/// Tells whether someone still waits for an answer.
+pub(crate) struct Asker(Arc<AtomicBool>);
+
+impl Asker {
+    /// Tests whether nobody waits any more: the work can end.
+    pub(crate) fn is_gone(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Someone who waits; gone once this is dropped, as the server drops it when the connection closes.
+struct Waiting(Arc<AtomicBool>);
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// A question with a body whose answer takes long, and ends early if nobody waits for it any more.
+pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
+    work: fn(&Studio, I, &Asker) -> Result<O, Refusal>,
+) -> MethodRouter<Serving> {
+    let answer = move |State(serving): State<Serving>, body: Body| async move {
+        let asked = match serving.read(body).await {
+            Ok(asked) => asked,
+            Err(refusal) => return refusal.into_response(),
+        };
+        let gone = Arc::<AtomicBool>::default();
+        let _waiting = Waiting(gone.clone());
+        let long = serving.long.clone();
+        serving.answer_in(long, move |studio| work(studio, asked, &Asker(gone))).await
     };
     post(answer)
 }

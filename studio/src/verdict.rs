@@ -76,43 +76,31 @@ impl Subject<'_> {
         Ok(heard?)
     }
 
-    /// Looks for a win with more and more calls, and sends the answer.
+    /// Looks for a win, and sends the answer.
     fn search(&self, lines: &Lines) -> Result<Solution, Ended> {
         let Subject { compiled, level, seed, budget } = *self;
-        let most = budget.unwrap_or(SEARCHES[SEARCHES.len() - 1]).clamp(1, MOST_CALLS);
-        let steps = SEARCHES.into_iter().filter(|&calls| calls < most).chain([most]);
-        let mut spent = 0;
-        for calls in steps {
-            lines.check()?;
-            let config = PortfolioConfig {
-                budget: calls,
-                foresight: FORESIGHT,
-                bytes: BYTES,
-                ..PortfolioConfig::default()
-            };
-            let gone = || lines.check().is_err();
-            let Solved { solution, calls, .. } = solve_until(&compiled.analysis, level, &config, seed, &gone);
-            spent += calls;
-            match &solution {
-                Solution::Won { episode, shortest } => {
-                    let ticks = episode.actions.len();
-                    lines.send(&json!({
-                        "stage": "win", "ticks": ticks, "shortest": shortest, "calls": spent, "episode": episode,
-                    }))?;
-                    return Ok(solution);
-                }
-                Solution::Impossible { states, .. } => {
-                    let text =
-                        format!("the level cannot be won: all {states} reachable states were searched");
-                    lines.send(&json!({ "stage": "impossible", "text": text, "states": states }))?;
-                    return Ok(solution);
-                }
-                Solution::Unknown => lines.send(&json!({ "stage": "search", "calls": spent }))?,
+        let most = budget.unwrap_or(SEARCHES[SEARCHES.len() - 1]);
+        let gone = || lines.check().is_err();
+        let tell = &mut |spent| lines.send(&json!({ "stage": "search", "calls": spent })).is_ok();
+        let (solution, spent) = look_for_win(&compiled.analysis, level, most, seed, &gone, tell);
+        lines.check()?;
+        match &solution {
+            Solution::Won { episode, shortest } => {
+                let ticks = episode.actions.len();
+                lines.send(&json!({
+                    "stage": "win", "ticks": ticks, "shortest": shortest, "calls": spent, "episode": episode,
+                }))?;
+            }
+            Solution::Impossible { states, .. } => {
+                let text = format!("the level cannot be won: all {states} reachable states were searched");
+                lines.send(&json!({ "stage": "impossible", "text": text, "states": states }))?;
+            }
+            Solution::Unknown => {
+                let text = format!("no win found with {spent} forward-model calls; a win may still exist");
+                lines.send(&json!({ "stage": "unknown", "calls": spent, "text": text }))?;
             }
         }
-        let text = format!("no win found with {spent} forward-model calls; a win may still exist");
-        lines.send(&json!({ "stage": "unknown", "calls": spent, "text": text }))?;
-        Ok(Solution::Unknown)
+        Ok(solution)
     }
 
     /// Returns the judgement on a level that cannot be won, with the chain of causes.
@@ -123,6 +111,36 @@ impl Subject<'_> {
         let mut report = panel.judge(&self.compiled.game, self.level, self.seed);
         report.judgements.pop().expect("one criterion was asked")
     }
+}
+
+/// Looks for a win with more and more calls, at most `most` in one search, until `gone` returns `true`. `tell` gets the calls spent
+/// after each search without an answer, and ends the work by returning `false`. Returns the answer, and the calls spent.
+pub(crate) fn look_for_win(
+    analysis: &Analysis,
+    level: &Level,
+    most: u64,
+    seed: Seed,
+    gone: &(dyn Fn() -> bool + Sync),
+    tell: &mut dyn FnMut(u64) -> bool,
+) -> (Solution, u64) {
+    let most = most.clamp(1, MOST_CALLS);
+    let mut spent = 0;
+    for budget in SEARCHES.into_iter().filter(|&calls| calls < most).chain([most]) {
+        if gone() {
+            break;
+        }
+        let config =
+            PortfolioConfig { budget, foresight: FORESIGHT, bytes: BYTES, ..PortfolioConfig::default() };
+        let Solved { solution, calls, .. } = solve_until(analysis, level, &config, seed, gone);
+        spent += calls;
+        if !matches!(solution, Solution::Unknown) {
+            return (solution, spent);
+        }
+        if !tell(spent) {
+            break;
+        }
+    }
+    (Solution::Unknown, spent)
 }
 
 /// The sprites that matter to the player where they are placed.

@@ -1,6 +1,8 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { expect, HOSTILE, open, type Studio, test } from './studio';
+import { expect, HOSTILE, isMock, open, type Studio, test } from './studio';
 
 test('a release is browsed, filtered, verified and compared', async ({ page, studio }) => {
   await open(page, await studio('snapshot'), '');
@@ -21,22 +23,66 @@ test('a release is browsed, filtered, verified and compared', async ({ page, stu
   await expect(page.getByText(/^Beside/)).toBeVisible();
 });
 
-test('one pair is judged blind, and the report counts it', async ({ page, studio }) => {
-  await open(page, await studio('judge'), 'judge');
-  await expect(page.getByRole('heading', { level: 1 })).toHaveText(/^Pair 1 of/);
-  const left = page.locator('.player').first();
-  await left.focus();
-  await page.keyboard.press('ArrowDown');
-  await expect(left.locator('.tick')).toHaveText('1/1');
-  await expect(page.locator('.player').last().locator('.tick')).toHaveText('0/0');
-  await expect(page.getByRole('button', { name: 'Next' })).toBeDisabled();
+/** Answers the two questions that have to be answered, and goes on. */
+async function judge(page: Page): Promise<void> {
   await page.getByRole('group', { name: 'Which is the better game?' }).getByText('Right').click();
   await page.getByRole('group', { name: 'Which would you play again?' }).getByText('Both').click();
   await page.getByLabel(/In a few words/).fill('The hedges matter.');
   await page.getByRole('button', { name: 'Next' }).click();
-  await expect(page.getByRole('heading', { level: 1 })).toHaveText(/^(Pair 2 of|All pairs)/);
-  await page.getByRole('link', { name: /Report|See what/ }).click();
+}
+
+test('a pair is played, watched and judged blind, and the report waits', async ({ page, studio }) => {
+  const running = await studio('judge');
+  await open(page, running, 'judge');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText(/^Pair 1 of/);
+  const [left, right] = [page.getByRole('region', { name: /^Left/ }), page.getByRole('region', { name: /^Right/ })];
+  await left.locator('.player').focus();
+  await page.keyboard.press('ArrowDown');
+  await expect(left.locator('.tick')).toHaveText('1/1');
+  await expect(right.locator('.tick')).toHaveText('0/0');
+  // With the keyboard alone: the button keeps the focus while it changes.
+  const watch = right.getByRole('button', { name: 'Watch a program play it' });
+  await watch.focus();
+  await page.keyboard.press('Enter');
+  await expect(right.getByRole('region', { name: /played by a program/ })).toBeVisible();
+  await expect(right.getByText('Won', { exact: true })).toBeVisible();
+  await expect(right.getByRole('button', { name: 'Play it yourself' })).toBeFocused();
+  await page.keyboard.press('Enter');
+  await expect(watch).toBeFocused();
+  await expect(right.locator('.tick')).toHaveText('0/0');
+  // What was played of the other side stays.
+  await left.getByRole('button', { name: 'Watch a program play it' }).click();
+  await left.getByRole('button', { name: 'Play it yourself' }).click();
+  await expect(left.locator('.tick')).toHaveText('1/1');
+  await expect(page.getByRole('button', { name: 'Next' })).toBeDisabled();
+  await judge(page);
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText(/^Pair 2 of/);
+
+  await page.getByRole('link', { name: 'Report' }).click();
+  await expect(page.getByText(/^1 of \d+ pairs are judged\./)).toBeVisible();
+  await expect(page.getByRole('table')).toHaveCount(0);
+  await page.getByRole('button', { name: 'Show the report and end blinding' }).click();
   await expect(page.getByRole('cell').first()).toBeVisible();
+  await page.getByRole('link', { name: 'Back to judging' }).click();
+  await judge(page);
+  if (isMock) return;
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText(/^Pair 3 of/);
+  interface Line { watched: { right: boolean }; played: { left: number }; after_report?: boolean }
+  const lines = readFileSync(join(running.folder, 'judged.jsonl'), 'utf8').trim().split('\n').map((line) => JSON.parse(line) as Line);
+  expect(lines.map((line) => [line.watched.right, line.played.left, line.after_report ?? false])).toEqual([[true, 1, false], [false, 0, true]]);
+});
+
+test('a program is watched on a phone', async ({ browser, studio }) => {
+  const running = await studio('judge');
+  const context = await browser.newContext({ viewport: { width: 375, height: 812 }, hasTouch: true, isMobile: true });
+  const page = await context.newPage();
+  await open(page, running, 'judge');
+  const right = page.getByRole('region', { name: /^Right/ });
+  await right.getByRole('button', { name: 'Watch a program play it' }).tap();
+  await expect(right.getByText('Won', { exact: true })).toBeVisible();
+  await right.getByRole('button', { name: 'Play it yourself' }).tap();
+  await expect(right.getByText('Won', { exact: true })).toBeHidden();
+  await context.close();
 });
 
 test('hostile names are shown as text and run nothing', async ({ page, studio }) => {

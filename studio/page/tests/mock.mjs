@@ -146,9 +146,10 @@ const entry = (id) => {
 const sessions = new Map();
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 let judged = 0;
+let ended = false;
 const side = (id) => {
   const of = game(id);
-  return { title: of.title, describe: of.describe, source: of.source.text, levels: of.levels.map((level) => ({ level: level.text })), episodes: of.levels.map((level) => ({ actions: search(begin(of.source.text, level.text)).actions })) };
+  return { title: of.title, describe: of.describe, source: of.source.text, levels: of.levels.map((level) => level.text) };
 };
 
 const ROUTES = {
@@ -196,9 +197,15 @@ const ROUTES = {
     const { actions } = search(begin(of.source.text, of.levels[0].text));
     return { title: 'a-model on Moth and Lamps, level 0', tiles: TILES, frames: play(of.source.text, of.levels[0].text, actions).map(frame), actions, talk: actions.map((action, at) => ({ frame: at, prompt: `Tick ${at}. The board:\n${of.levels[0].text}`, answer: `I go on.\n${action}`, parsed: action, validity: 'valid' })) };
   },
-  'GET judge': () => (judged >= 2 ? { pair: 2, of: 2, done: true } : { pair: judged, of: 2, done: false, left: side([...dirs.keys()][0]), right: side([...dirs.keys()][1]) }),
+  'GET judge': () => (judged >= 2 ? { pair: 2, of: 2, done: true, left: null, right: null } : { pair: judged, of: 2, done: false, left: side([...dirs.keys()][0]), right: side([...dirs.keys()][1]) }),
   'POST judge': () => { judged += 1; return {}; },
-  'GET judge/report': () => ({ sources: [{ name: 'a', wins: judged, losses: 0, ties: 0, rate: 1, low: 0.3, high: 1 }], measures: [{ name: 'drama', agrees: 1, pairs: 2, rate: 0.5, low: 0.1, high: 0.9 }] }),
+  'POST judge/watch': ({ side, level }) => {
+    const of = game([...dirs.keys()][side === 'left' ? 0 : 1]);
+    const { actions } = search(begin(of.source.text, of.levels[level].text));
+    return { tiles: TILES, frames: play(of.source.text, of.levels[level].text, actions).map(frame), actions, agrees: true, note: null };
+  },
+  'POST judge/end': () => { ended = true; return {}; },
+  'GET judge/report': () => (judged < 2 && !ended ? { blind: true, judged, of: 2 } : { blind: false, judged, of: 2, sources: [{ name: 'a', wins: judged, losses: 0, ties: 0, rate: 1, low: 0.3, high: 1 }], measures: [{ name: 'drama', agrees: 1, pairs: 2, rate: 0.5, low: 0.1, high: 0.9 }] }),
 };
 const STREAMS = {
   async *verdict({ source, level }) {

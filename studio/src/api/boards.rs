@@ -1,10 +1,11 @@
 //! Boards and recordings.
 
+use crate::compiled::Compiled;
 use crate::frames::{Frame, Frames, TileSvg, Tiles, action_name};
 use crate::positions;
 use crate::refusal::Refusal;
 use crate::studio::Studio;
-use engine::{Diagnostics, Episode, MAX_TICKS, Seed};
+use engine::{Diagnostics, Episode, Level, MAX_TICKS, Seed};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -66,23 +67,36 @@ pub(crate) fn replay(studio: &Studio, asked: Replay) -> Result<Replayed, Refusal
     let compiled = studio.compiled.need(&asked.source)?;
     let level = compiled.level(&asked.level)?;
     let divergence = asked.episode.replay(&compiled.game, &level).err();
-    let mut tiles = Tiles::default();
-    let mut state = compiled.game.start(&level, asked.episode.seed);
-    let mut frames = Frames::new();
-    frames.push(Frame::of(&compiled, &state, 0, &mut tiles)?);
-    let mut actions = Vec::new();
-    let mut note = divergence.as_ref().map(ToString::to_string);
-    for &action in asked.episode.actions.iter().take(MAX_TICKS.unsigned_abs() as usize + 1) {
-        if state.is_over() {
-            break;
+    let note = divergence.as_ref().map(ToString::to_string);
+    Replayed::of(&compiled, &level, &asked.episode, divergence.is_none(), note)
+}
+
+impl Replayed {
+    /// Plays the actions of an episode, and draws each tick.
+    pub(crate) fn of(
+        compiled: &Compiled,
+        level: &Level,
+        episode: &Episode,
+        agrees: bool,
+        mut note: Option<String>,
+    ) -> Result<Replayed, Refusal> {
+        let mut tiles = Tiles::default();
+        let mut state = compiled.game.start(level, episode.seed);
+        let mut frames = Frames::new();
+        frames.push(Frame::of(compiled, &state, 0, &mut tiles)?);
+        let mut actions = Vec::new();
+        for &action in episode.actions.iter().take(MAX_TICKS.unsigned_abs() as usize + 1) {
+            if state.is_over() {
+                break;
+            }
+            compiled.game.step(&mut state, action);
+            if !frames.push(Frame::of(compiled, &state, actions.len() + 1, &mut tiles)?) {
+                note.get_or_insert_with(|| CUT.to_owned());
+                break;
+            }
+            actions.push(action_name(action));
         }
-        compiled.game.step(&mut state, action);
-        if !frames.push(Frame::of(&compiled, &state, actions.len() + 1, &mut tiles)?) {
-            note.get_or_insert_with(|| CUT.to_owned());
-            break;
-        }
-        actions.push(action_name(action));
+        let (tiles, frames) = (tiles.fresh(), frames.finish());
+        Ok(Replayed { tiles, frames, actions, agrees, note })
     }
-    let (tiles, frames) = (tiles.fresh(), frames.finish());
-    Ok(Replayed { tiles, frames, actions, agrees: divergence.is_none(), note })
 }

@@ -1,6 +1,9 @@
 //! Judging pairs of games.
 
-use crate::judging::{Asked, Judging, Report};
+use super::boards::Replayed;
+use super::release::Nothing;
+use crate::answers::Asker;
+use crate::judging::{Asked, Judging, Wanted};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
 use serde_json::{Value, json};
@@ -19,6 +22,15 @@ pub(crate) fn add(studio: &Studio, asked: Asked) -> Result<Value, Refusal> {
     Ok(json!({}))
 }
 
-pub(crate) fn report(studio: &Studio) -> Result<Report, Refusal> {
+pub(crate) fn watch(studio: &Studio, wanted: Wanted, asker: &Asker) -> Result<Replayed, Refusal> {
+    opened(studio)?.watch(&studio.compiled, wanted, &|| asker.is_gone())
+}
+
+pub(crate) fn report(studio: &Studio) -> Result<Value, Refusal> {
     Ok(opened(studio)?.report())
+}
+
+pub(crate) fn end(studio: &Studio, _: Nothing) -> Result<Value, Refusal> {
+    opened(studio)?.end_blinding();
+    Ok(json!({}))
 }

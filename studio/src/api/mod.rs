@@ -9,9 +9,10 @@ mod results;
 mod verdict;
 mod workspace;
 
-use crate::answers::{Serving, asked, of_game, of_part, put_part, streamed, told};
+use crate::answers::{Serving, asked, awaited, of_game, of_part, put_part, streamed, told};
 use axum::Router;
 
+pub(crate) use boards::Replayed;
 pub(crate) use release::release as release_of;
 pub(crate) use workspace::game as game_of;
 
@@ -46,6 +47,8 @@ pub(crate) fn routes() -> Router<Serving> {
         .route("/api/results", told(results::results))
         .route("/api/results/{index}", of_game(results::episode))
         .route("/api/judge", told(judge::next).merge(asked(judge::add)))
+        .route("/api/judge/watch", awaited(judge::watch))
+        .route("/api/judge/end", asked(judge::end))
         .route("/api/judge/report", told(judge::report))
         .route("/api/planners", told(play::planners))
 }

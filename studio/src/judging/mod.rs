@@ -3,21 +3,27 @@
 mod measures;
 mod record;
 mod report;
+mod watch;
 
-pub use record::{Better, Judgement, Judgements, Played, Side, Which};
+pub use record::{Better, Judgement, Judgements, Played, Side, Watched, Which};
 pub use report::{MeasureRow, Report, Share, SourceRow};
 
+use crate::api::Replayed;
+use crate::compiled::Cache;
 use crate::refusal::Refusal;
 use engine::syntax::print_bare;
 use engine::{Game, Level, Seed};
 use measures::Measures;
 use record::Keeper;
-
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
+use watch::{Hand, Play, Plays};
+
+pub(crate) use watch::Wanted;
 
 /// The games of one source, such as a folder.
 #[derive(Clone, Debug)]
@@ -56,6 +62,9 @@ pub struct Judging {
     /// By number: the entries on the left and on the right.
     pairs: Vec<[usize; 2]>,
     keeper: Mutex<Keeper>,
+    plays: Plays,
+    /// `true` once the judge asked for the report before the end: answers from then on are not blind.
+    ended: AtomicBool,
 }
 
 /// The reasons why games cannot be judged.
@@ -130,9 +139,10 @@ impl Judging {
         }
         let (keeper, remarks) = Keeper::open(record)?;
         let pairs = draw(&counts, Seed::from_text(seed), pairs.min(MOST_PAIRS));
-        let judging =
-            Judging { sources: names, entries, seed: seed.to_owned(), pairs, keeper: Mutex::new(keeper) };
-        Ok((judging, remarks))
+        let own = keeper.judgements.0.iter().filter(|judgement| judgement.seed == seed);
+        let ended = AtomicBool::new(own.into_iter().any(|judgement| judgement.after_report));
+        let (seed, keeper, plays) = (seed.to_owned(), Mutex::new(keeper), Plays::default());
+        Ok((Judging { sources: names, entries, seed, pairs, keeper, plays, ended }, remarks))
     }
 
     /// Measures the games in the background, in the order of the pairs, until the session ends.
@@ -149,9 +159,13 @@ impl Judging {
         });
     }
 
+    fn keeper(&self) -> MutexGuard<'_, Keeper> {
+        self.keeper.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Returns the numbers of the pairs that are judged.
     fn judged(&self) -> BTreeSet<usize> {
-        let keeper = self.keeper.lock().unwrap_or_else(PoisonError::into_inner);
+        let keeper = self.keeper();
         let own = keeper.judgements.0.iter().filter(|judgement| judgement.seed == self.seed);
         own.map(|judgement| judgement.pair).collect()
     }
@@ -164,21 +178,58 @@ impl Judging {
         match next {
             None => json!({ "pair": of, "of": of, "done": true, "left": null, "right": null }),
             Some(pair) => {
-                let both = self.pairs[pair].map(|at| &self.entries[at].candidate);
-                // As many levels of the one as of the other: their number tells sources apart.
-                let levels = both.iter().map(|candidate| candidate.levels.len()).min().unwrap_or_default();
+                let (both, levels) = self.both(self.pairs[pair]);
                 let [left, right] = both.map(|candidate| shown(candidate, levels));
                 json!({ "pair": pair, "of": of, "done": false, "left": left, "right": right })
             }
         }
     }
 
+    /// Returns the games of a pair, and the number of levels that are shown of each.
+    fn both(&self, pair: [usize; 2]) -> ([&Candidate; 2], usize) {
+        let both = pair.map(|at| &self.entries[at].candidate);
+        // As many levels of the one as of the other: their number tells sources apart.
+        let levels = both.iter().map(|candidate| candidate.levels.len()).min().unwrap_or_default();
+        (both, levels)
+    }
+
+    /// Returns a play of a level, frame by frame; always the same one. It ends early, with a refusal, once `gone` returns `true`.
+    pub(crate) fn watch(
+        &self,
+        cache: &Cache,
+        wanted: Wanted,
+        gone: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Replayed, Refusal> {
+        let pair = self.pair(wanted.pair)?;
+        let ([left, right], levels) = self.both(pair);
+        let candidate = match wanted.side {
+            Hand::Left => left,
+            Hand::Right => right,
+        };
+        let Some(level) = candidate.levels.get(wanted.level).filter(|_| wanted.level < levels) else {
+            return Err(Refusal::bad("there is no such level").help("load the page again"));
+        };
+        // The text that the page plays.
+        let compiled = cache.need(&source_of(candidate))?;
+        let level = compiled.level(&level.to_string())?;
+        let number = u64::try_from(wanted.pair).unwrap_or_default();
+        let seed = Seed::from_text(&self.seed).child("watch", number).child(&level.digest().to_string(), 0);
+        let found = self.plays.find(wanted, || watch::play(&compiled, &level, seed, gone));
+        let Some(play) = found.filter(|_| !gone()) else {
+            return Err(Refusal::failed("the play was given up"));
+        };
+        let Play { episode, note } = &*play;
+        Replayed::of(&compiled, &level, episode, true, note.map(str::to_owned))
+    }
+
+    fn pair(&self, number: usize) -> Result<[usize; 2], Refusal> {
+        let found = self.pairs.get(number).copied();
+        found.ok_or_else(|| Refusal::bad("there is no such pair").help("load the page again"))
+    }
+
     /// Adds a judgement to the record.
     pub(crate) fn add(&self, asked: Asked) -> Result<(), Refusal> {
-        let Some(&pair) = self.pairs.get(asked.pair) else {
-            return Err(Refusal::bad("there is no such pair").help("load the page again"));
-        };
-        let [left, right] = pair.map(|at| self.side(at));
+        let [left, right] = self.pair(asked.pair)?.map(|at| self.side(at));
         let judgement = Judgement {
             seed: self.seed.clone(),
             pair: asked.pair,
@@ -189,9 +240,10 @@ impl Judging {
             machine: asked.machine,
             words: asked.words.chars().take(MOST_WORDS).collect(),
             played: asked.played,
+            watched: asked.watched,
+            after_report: self.ended.load(Ordering::Relaxed),
         };
-        let mut keeper = self.keeper.lock().unwrap_or_else(PoisonError::into_inner);
-        keeper.add(judgement).map_err(|error| {
+        self.keeper().add(judgement).map_err(|error| {
             Refusal::failed(format_args!("the judgement was not written: {error}"))
                 .help("check the space on the disk, and answer again")
         })
@@ -207,9 +259,21 @@ impl Judging {
         }
     }
 
-    /// Returns the results of the record so far.
-    pub(crate) fn report(&self) -> Report {
-        Report::of(&self.keeper.lock().unwrap_or_else(PoisonError::into_inner).judgements)
+    /// Returns the results of the record; while pairs are left to be judged blindly, only how many are judged.
+    pub(crate) fn report(&self) -> Value {
+        let (judged, of) = (self.judged().len(), self.pairs.len());
+        if judged < of && !self.ended.load(Ordering::Relaxed) {
+            return json!({ "blind": true, "judged": judged, "of": of });
+        }
+        let mut report = json!(Report::of(&self.keeper().judgements));
+        report["blind"] = json!(false);
+        report["of"] = json!(of);
+        report
+    }
+
+    /// Shows the report from now on. Later judgements are marked as made after that.
+    pub(crate) fn end_blinding(&self) {
+        self.ended.store(true, Ordering::Relaxed);
     }
 }
 
@@ -219,16 +283,19 @@ impl Entry {
     }
 }
 
-/// Returns a game as its judge sees it: printed anew, since spelling and comments would tell where it is from.
+/// Returns the text of a game as its judge sees it: printed anew, since spelling and comments would tell where it is from.
+fn source_of(candidate: &Candidate) -> String {
+    print_bare(candidate.game.description())
+}
+
 fn shown(candidate: &Candidate, levels: usize) -> Value {
-    let source = print_bare(candidate.game.description());
+    let source = source_of(candidate);
     let levels: Vec<String> = candidate.levels.iter().take(levels).map(ToString::to_string).collect();
     json!({
         "title": candidate.title,
         "describe": engine::describe(&candidate.game),
         "levels": levels,
         "source": source,
-        "episodes": [],
     })
 }
 
@@ -243,6 +310,8 @@ pub(crate) struct Asked {
     words: String,
     #[serde(default)]
     played: Played,
+    #[serde(default)]
+    watched: Watched,
 }
 
 /// Draws pairs of games of different sources: each combination of sources as often as the others, each game of a source about as often

@@ -54,6 +54,16 @@ pub struct Played {
     pub right: u64,
 }
 
+/// The games of which a program's play was watched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Watched {
+    /// The one on the left.
+    pub left: bool,
+    /// The one on the right.
+    pub right: bool,
+}
+
 /// A game of a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Side {
@@ -91,6 +101,12 @@ pub struct Judgement {
     /// The ticks played.
     #[serde(default)]
     pub played: Played,
+    /// The games that were watched.
+    #[serde(default)]
+    pub watched: Watched,
+    /// `true` if the judge had asked for the report before: the answers are not blind.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub after_report: bool,
 }
 
 /// The judgements of a record: for each pair the last one.
@@ -166,8 +182,7 @@ impl Keeper {
             .open(path)
             .map_err(JudgingError::io("open", path))?;
         let mut bytes = Vec::new();
-        let limited = Read::by_ref(&mut file).take(MOST_BYTES + 1);
-        let mut limited = limited;
+        let mut limited = Read::by_ref(&mut file).take(MOST_BYTES + 1);
         limited.read_to_end(&mut bytes).map_err(JudgingError::io("read", path))?;
         if bytes.len() as u64 > MOST_BYTES {
             let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
@@ -220,6 +235,8 @@ mod tests {
             machine: None,
             words: "two\nlines \u{2028} </script>".to_owned(),
             played: Played { left: 3, right: 4 },
+            watched: Watched { left: true, right: false },
+            after_report: false,
         }
     }
 
@@ -236,6 +253,20 @@ mod tests {
         assert_eq!(fs::read_to_string(&file).unwrap().lines().count(), 3);
         let (read, _) = Judgements::read(&file).unwrap();
         assert_eq!(read.0, [judgement(1, Better::Same), judgement(0, Better::Right)]);
+    }
+
+    #[test]
+    fn records_of_earlier_versions_are_read() {
+        let home = tempfile::tempdir().unwrap();
+        let file = home.path().join("judged.jsonl");
+        let mut line = serde_json::to_value(judgement(0, Better::Left)).unwrap();
+        for later in ["watched", "after_report"] {
+            line.as_object_mut().unwrap().remove(later);
+        }
+        fs::write(&file, format!("{line}\n")).unwrap();
+        let (read, remarks) = Judgements::read(&file).unwrap();
+        let before = Judgement { watched: Watched::default(), ..judgement(0, Better::Left) };
+        assert_eq!((read.0, remarks.len()), (vec![before], 0));
     }
 
     #[test]

@@ -143,7 +143,7 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::{Played, Side, Which};
+    use super::super::record::{Played, Side, Watched, Which};
     use super::*;
     use engine::Digest;
 
@@ -164,6 +164,8 @@ mod tests {
             machine,
             words: String::new(),
             played: Played::default(),
+            watched: Watched::default(),
+            after_report: false,
         }
     }
 

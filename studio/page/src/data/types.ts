@@ -255,8 +255,7 @@ export interface JudgeSide {
   title: string;
   describe: string;
   source: string;
-  levels: (string | { text?: string; level?: string; name?: string })[];
-  episodes: (Episode | null)[];
+  levels: string[];
 }
 
 export type Side = 'left' | 'right';
@@ -265,11 +264,17 @@ export interface JudgePair {
   pair: number;
   of: number;
   done: boolean;
-  left?: JudgeSide;
-  right?: JudgeSide;
+  left: JudgeSide | null;
+  right: JudgeSide | null;
 }
 
-export interface JudgeReport {
-  sources: { name: string; wins: number; losses: number; ties: number; rate: number; low: number; high: number }[];
-  measures: { name: string; agrees: number; pairs: number; rate: number; low: number; high: number }[];
-}
+/** What the judgements say; while pairs are left to be judged blindly, only how many are judged. */
+export type JudgeReport =
+  | { blind: true; judged: number; of: number }
+  | {
+      blind: false;
+      judged: number;
+      of: number;
+      sources: { name: string; wins: number; losses: number; ties: number; rate: number | null; low: number; high: number }[];
+      measures: { name: string; agrees: number; pairs: number; rate: number | null; low: number; high: number }[];
+    };

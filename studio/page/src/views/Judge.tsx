@@ -1,8 +1,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import { get, post, words } from '../data/api';
-import { replay } from '../data/studio';
 import { Run } from '../data/run';
-import type { Episode, JudgePair, JudgeReport, JudgeSide, Side } from '../data/types';
+import type { JudgePair, JudgeReport, JudgeSide, Replay, Side } from '../data/types';
 import { Icon } from '../parts/Icon';
 import { Markdown } from '../parts/Markdown';
 import { Player } from '../parts/Player';
@@ -20,6 +19,7 @@ export function Judge() {
   const asked = useAsked<JudgePair>((signal) => get('/api/judge', signal), [round]);
   const [form, setForm] = useState(NOBODY);
   const [played, setPlayed] = useState({ left: 0, right: 0 });
+  const [watched, setWatched] = useState({ left: false, right: false });
   const [error, setError] = useState<string | null>(null);
   const [sending, setSending] = useState(false);
   const pair = asked.value;
@@ -29,9 +29,10 @@ export function Judge() {
     setSending(true);
     setError(null);
     try {
-      await post('/api/judge', { pair: pair.pair, better: form.better, again: form.again, machine: form.machine || null, words: form.words, played });
+      await post('/api/judge', { pair: pair.pair, better: form.better, again: form.again, machine: form.machine || null, words: form.words, played, watched });
       setForm(NOBODY);
       setPlayed({ left: 0, right: 0 });
+      setWatched({ left: false, right: false });
       setRound(round + 1);
       window.scrollTo(0, 0);
     } catch (failure) {
@@ -63,7 +64,14 @@ export function Judge() {
       </header>
       <div class="pair" key={pair.pair}>
         {(['left', 'right'] as const).map((side) => (
-          <One key={side} side={side} game={pair[side] as JudgeSide} onPlayed={(ticks) => setPlayed((before) => ({ ...before, [side]: Math.max(before[side], ticks) }))} />
+          <One
+            key={side}
+            pair={pair.pair}
+            side={side}
+            game={pair[side] as JudgeSide}
+            onPlayed={(ticks) => setPlayed((before) => ({ ...before, [side]: Math.max(before[side], ticks) }))}
+            onWatched={() => setWatched((before) => ({ ...before, [side]: true }))}
+          />
         ))}
       </div>
       <form class="verdict-form" onSubmit={(event) => { event.preventDefault(); if (ready) void send(); }}>
@@ -99,37 +107,60 @@ function Question({ name, title, note, value, options, onChange }: { name: strin
   );
 }
 
-function levelText(level: JudgeSide['levels'][number]): string {
-  return typeof level === 'string' ? level : (level.text ?? level.level ?? '');
-}
-
-function One({ side, game, onPlayed }: { side: Side; game: JudgeSide; onPlayed: (ticks: number) => void }) {
+/** A game of the pair: its levels to play, or to watch a program play. */
+function One({ pair, side, game, onPlayed, onWatched }: { pair: number; side: Side; game: JudgeSide; onPlayed: (ticks: number) => void; onWatched: () => void }) {
   const [level, setLevel] = useState(0);
   const [watching, setWatching] = useState(false);
-  const [run, setRun] = useState<Run | null>(null);
+  const [played, setPlayed] = useState<Run | null>(null);
+  const [shown, setShown] = useState<Run | null>(null);
   const [error, setError] = useState<string | null>(null);
-  const episode: Episode | null = game.episodes[level] ?? null;
   useEffect(() => {
     let dropped = false;
     let made: Run | null = null;
+    setPlayed(null);
     setError(null);
-    const text = levelText(game.levels[level] ?? '');
-    const make = watching && episode
-      ? replay(game.source, text, episode).then((answer) => Run.replay(answer))
-      : Run.begin(game.source, text, 'judge', isTurnBased(null, game.describe));
-    make.then(
+    Run.begin(game.source, game.levels[level] ?? '', 'judge', isTurnBased(null, game.describe)).then(
       (one) => {
         if (dropped) return one.close();
         made = one;
-        if (one.kind === 'replay') one.start();
-        else one.listen(() => onPlayed(one.reached));
-        return setRun(one);
+        one.listen(() => onPlayed(one.reached));
+        return setPlayed(one);
       },
       (failure: unknown) => { if (!dropped) setError(words(failure)); },
     );
     return () => { dropped = true; made?.close(); };
-  }, [game, level, watching]);
+  }, [game, level]);
+  useEffect(() => {
+    if (!watching) return undefined;
+    const abort = new AbortController();
+    let made: Run | null = null;
+    setError(null);
+    post<Replay>('/api/judge/watch', { pair, side, level }, abort.signal).then(
+      (answer) => {
+        if (abort.signal.aborted) return;
+        made = Run.replay(answer);
+        setShown(made);
+        made.start();
+        onWatched();
+      },
+      (failure: unknown) => {
+        if (abort.signal.aborted) return;
+        setError(words(failure));
+        setWatching(false);
+      },
+    );
+    return () => {
+      abort.abort();
+      made?.close();
+      setShown(null);
+    };
+  }, [pair, side, level, watching]);
+  const toggle = (): void => {
+    played?.stop();
+    setWatching(!watching);
+  };
   const name = side === 'left' ? 'Left' : 'Right';
+  const run = watching && shown ? shown : played;
   return (
     <section class="one" aria-label={`${name}: ${game.title}`}>
       <header>
@@ -139,10 +170,10 @@ function One({ side, game, onPlayed }: { side: Side; game: JudgeSide; onPlayed: 
         </nav>
       </header>
       {error && <p class="notice bad" role="alert">{error}</p>}
-      {run ? <Player run={run} keys="focus" compact label={`${name} game, level ${level + 1}`} /> : <div class="board" aria-busy="true" />}
+      {run ? <Player run={run} keys="focus" compact label={`${name} game, level ${level + 1}${run.kind === 'replay' ? ', played by a program' : ''}`} /> : <div class="board" aria-busy="true" />}
       <p class="row">
-        {episode && !watching && <button type="button" onClick={() => setWatching(true)}><Icon name="play" /> Watch it won</button>}
-        {watching && <button type="button" class="strong" onClick={() => setWatching(false)}>Play it yourself</button>}
+        <button type="button" class={watching ? 'strong' : ''} onClick={toggle}>{watching ? 'Play it yourself' : <><Icon name="play" /> Watch a program play it</>}</button>
+        {watching && !shown && <span class="soft" role="status"><span class="spinner" aria-hidden="true" /> A program is playing</span>}
         {!watching && <span class="soft hint">Click the board, then use the arrow keys.</span>}
       </p>
       <details><summary>How it is played</summary><Markdown text={game.describe} /></details>
@@ -150,16 +181,29 @@ function One({ side, game, onPlayed }: { side: Side; game: JudgeSide; onPlayed: 
   );
 }
 
-/** What the judgements say so far: of the sources, and of the measures against them. */
+/** What the judgements say: of the sources, and of the measures against them. While judging goes on it would tell which source wins. */
 export function JudgeReportPage() {
   useTitle('Report of the judgements');
-  const asked = useAsked<JudgeReport>((signal) => get('/api/judge/report', signal), []);
+  const [round, setRound] = useState(0);
+  const asked = useAsked<JudgeReport>((signal) => get('/api/judge/report', signal), [round]);
+  const [error, setError] = useState<string | null>(null);
   const report = asked.value;
+  const end = (): void => {
+    post('/api/judge/end', {}).then(() => setRound(round + 1), (failure: unknown) => setError(words(failure)));
+  };
+  const left = report ? report.of - report.judged : 0;
   return (
     <main class="judge-report">
-      <header class="heading"><div><h1>What the judgements say</h1><p class="soft">Shares with 95 % intervals.</p></div><a href={href('judge')}>Back to judging</a></header>
-      {asked.error && <p class="notice bad" role="alert">{asked.error}</p>}
-      {report && (
+      <header class="heading"><div><h1>What the judgements say</h1>{report && !report.blind && <p class="soft">Shares with 95 % intervals.</p>}</div><a href={href('judge')}>Back to judging</a></header>
+      {(asked.error ?? error) && <p class="notice bad" role="alert">{asked.error ?? error}</p>}
+      {report?.blind && (
+        <section class="blind">
+          <p>{`${report.judged} of ${report.of} pairs are judged.`} The report is shown when all are.</p>
+          <p class="soft">{`It tells which source wins: the ${left === 1 ? 'answer' : `${left} answers`} still to come would no longer be blind, and would be marked so in the record.`}</p>
+          <p><button type="button" onClick={end}>Show the report and end blinding</button></p>
+        </section>
+      )}
+      {report && !report.blind && (
         <>
           <h2>Sources</h2>
           {report.sources.length === 0 && <p class="soft">Nothing is judged yet.</p>}
@@ -186,9 +230,10 @@ export function JudgeReportPage() {
 }
 
 /** A share with its interval, as a bar and in numbers. */
-export function Share({ rate, low, high }: { rate: number; low: number; high: number }) {
-  const percent = (value: number): string => (Number.isFinite(value) ? `${Math.round(value * 100)}` : '–');
-  const x = (value: number): number => Math.max(0, Math.min(1, value || 0)) * 100;
+export function Share({ rate, low, high }: { rate: number | null; low: number; high: number }) {
+  if (rate === null) return <span class="soft">no answer yet</span>;
+  const percent = (value: number): string => `${Math.round(value * 100)}`;
+  const x = (value: number): number => Math.max(0, Math.min(1, value)) * 100;
   return (
     <span class="share">
       <svg viewBox="0 0 100 10" width="100" height="10" role="img" aria-label={`${percent(rate)} %, between ${percent(low)} and ${percent(high)} %`}>

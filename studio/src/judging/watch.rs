@@ -1,0 +1,88 @@
+//! Plays to watch: made on both sides in the same way, so that they tell nothing of where a game is from. Recorded wins, which only some
+//! sources have, are not shown.
+
+use crate::compiled::Compiled;
+use crate::verdict::look_for_win;
+use agents::{Budget, Planner, PlannerSpec, Solution};
+use engine::{Episode, Level, Seed};
+use serde::Deserialize;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The most forward-model calls of one search for a win.
+const SEARCH: u64 = 400_000;
+/// The planner that plays where no win is found, its calls a decision, and the most ticks that it plays.
+const PLANNER: &str = "olets";
+const DECISION: Budget = Budget(400);
+const TICKS: usize = 300;
+/// The most plays that a session keeps.
+const KEPT: usize = 256;
+
+/// A side of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Hand {
+    Left,
+    Right,
+}
+
+/// A level of a pair to be watched.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+pub(crate) struct Wanted {
+    pub(super) pair: usize,
+    pub(super) side: Hand,
+    pub(super) level: usize,
+}
+
+/// A play that was made.
+pub(crate) struct Play {
+    pub(crate) episode: Episode,
+    pub(crate) note: Option<&'static str>,
+}
+
+/// Plays a level: the win that a search finds, or else the play of a planner; `None` once `gone` returns `true`. The same seed makes
+/// the same play.
+pub(super) fn play(
+    compiled: &Compiled,
+    level: &Level,
+    seed: Seed,
+    gone: &(dyn Fn() -> bool + Sync),
+) -> Option<Play> {
+    let (solution, _) = look_for_win(&compiled.analysis, level, SEARCH, seed, gone, &mut |_| true);
+    if let Solution::Won { episode, .. } = solution {
+        return Some(Play { episode: *episode, note: None });
+    }
+    let spec: PlannerSpec = PLANNER.parse().expect("the planner is known");
+    let mut player = spec.player(seed.child("planner", 0));
+    let (mut episode, mut state) = Episode::begin(&compiled.game, level, seed.child("chance", 0));
+    while !state.is_over() && episode.actions.len() < TICKS {
+        if gone() {
+            return None;
+        }
+        let (action, ..) = player.plan(&compiled.game, &state, DECISION);
+        episode.play(&compiled.game, &mut state, action);
+    }
+    Some(Play { episode, note: Some("A short search found no win here: a planner plays as well as it can.") })
+}
+
+/// The plays that were made last.
+#[derive(Default)]
+pub(super) struct Plays(Mutex<VecDeque<(Wanted, Arc<Play>)>>);
+
+impl Plays {
+    /// Returns a play, which is known or made now; `None` if it was given up.
+    pub(super) fn find(&self, wanted: Wanted, make: impl FnOnce() -> Option<Play>) -> Option<Arc<Play>> {
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = lock().iter().find(|(known, _)| *known == wanted).map(|(_, play)| play.clone());
+        if known.is_some() {
+            return known;
+        }
+        let play = Arc::new(make()?);
+        let mut kept = lock();
+        if kept.len() == KEPT {
+            kept.pop_front();
+        }
+        kept.push_back((wanted, play.clone()));
+        Some(play)
+    }
+}
