@@ -1,15 +1,22 @@
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { expect, test } from './studio';
 
 const ARCADE = process.env.ARCADE;
+const folders: string[] = [];
+
+test.afterEach(() => {
+  for (const folder of folders.splice(0)) rmSync(folder, { recursive: true, force: true });
+});
 
 test('a static gallery is browsed and watched from the disk, without a server', async ({ page }) => {
   test.skip(ARCADE === undefined, 'the mock writes no gallery');
-  const out = join(mkdtempSync(join(tmpdir(), 'gallery-')), 'out');
+  const folder = mkdtempSync(join(tmpdir(), 'gallery-'));
+  folders.push(folder);
+  const out = join(folder, 'out');
   execFileSync(ARCADE ?? '', ['gallery', process.env.SNAPSHOT ?? '', '--out', out, '--quiet']);
   await page.goto(pathToFileURL(join(out, 'index.html')).href);
   const first = page.locator('a.card').first();

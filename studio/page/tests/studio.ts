@@ -1,5 +1,5 @@
 import { type ChildProcess, spawn } from 'node:child_process';
-import { cpSync, mkdtempSync, renameSync } from 'node:fs';
+import { cpSync, mkdtempSync, renameSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { expect, test as base, type Page } from '@playwright/test';
@@ -18,7 +18,7 @@ export interface Studio {
   folder: string;
 }
 
-export type Mode = 'games' | 'corpus' | 'snapshot' | 'judge' | 'results';
+export type Mode = 'games' | 'corpus' | 'snapshot' | 'line' | 'judge' | 'results';
 
 interface Fixtures {
   /** Starts a studio on a fresh copy of the tests' games, and ends it after the test. */
@@ -39,6 +39,8 @@ function command(mode: Mode, folder: string): [string, string[]] {
       return [ARCADE, [...common, '--out', folder]];
     case 'snapshot':
       return [ARCADE, [...common, process.env.SNAPSHOT ?? '', '--against', process.env.SNAPSHOT ?? '']];
+    case 'line':
+      return [ARCADE, [...common, join(folder, 'line/two')]];
     case 'results':
       return [ARCADE, [...common, process.env.RESULTS ?? '']];
     case 'judge':
@@ -46,30 +48,46 @@ function command(mode: Mode, folder: string): [string, string[]] {
   }
 }
 
+/** Ends a program and waits for it: until then it may write. */
+function ended(child: ChildProcess): Promise<unknown> {
+  if (child.exitCode !== null || child.signalCode !== null) return Promise.resolve();
+  const gone = new Promise((resolve) => child.once('exit', resolve));
+  child.kill();
+  return gone;
+}
+
 export const test = base.extend<Fixtures>({
   studio: async ({}, use) => {
     const children: ChildProcess[] = [];
-    await use(async (mode) => {
-      const folder = mkdtempSync(join(tmpdir(), 'studio-'));
-      cpSync(GAMES, folder, { recursive: true });
-      renameSync(join(folder, 'hostile-words'), join(folder, HOSTILE));
-      const [program, words] = command(mode, folder);
-      const child = spawn(program, words, { stdio: ['ignore', 'pipe', 'pipe'] });
-      children.push(child);
-      let said = '';
-      const address = await new Promise<string>((resolve, reject) => {
-        const hear = (chunk: Buffer): void => {
-          said += chunk.toString();
-          const found = /http:\/\/[^\s]+token=[^\s]+/.exec(said);
-          if (found) resolve(found[0]);
-        };
-        child.stdout.on('data', hear);
-        child.stderr.on('data', hear);
-        child.on('exit', () => reject(new Error(`${program} ${words.join(' ')} ended: ${said}`)));
+    const folders: string[] = [];
+    // Also after a test that failed.
+    try {
+      await use(async (mode) => {
+        const folder = mkdtempSync(join(tmpdir(), 'studio-'));
+        folders.push(folder);
+        cpSync(GAMES, folder, { recursive: true });
+        renameSync(join(folder, 'hostile-words'), join(folder, HOSTILE));
+        if (mode === 'line') cpSync(process.env.LINE ?? '', join(folder, 'line'), { recursive: true });
+        const [program, words] = command(mode, folder);
+        const child = spawn(program, words, { stdio: ['ignore', 'pipe', 'pipe'] });
+        children.push(child);
+        let said = '';
+        const address = await new Promise<string>((resolve, reject) => {
+          const hear = (chunk: Buffer): void => {
+            said += chunk.toString();
+            const found = /http:\/\/[^\s]+token=[^\s]+/.exec(said);
+            if (found) resolve(found[0]);
+          };
+          child.stdout.on('data', hear);
+          child.stderr.on('data', hear);
+          child.on('exit', () => reject(new Error(`${program} ${words.join(' ')} ended: ${said}`)));
+        });
+        return { address, folder };
       });
-      return { address, folder };
-    });
-    for (const child of children) child.kill();
+    } finally {
+      await Promise.all(children.map(ended));
+      for (const folder of folders) rmSync(folder, { recursive: true, force: true });
+    }
   },
   quiet: [
     async ({ page }, use) => {
