@@ -124,7 +124,7 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
 ///
 /// `known` is compared as a whole if this version of arcade would state it in the same way. Of a release of another
 /// generation, only the names of its predecessors are compared.
-fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
+pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     let (mut forms, mut items) = (BTreeMap::new(), BTreeMap::new());
     let mut before: Option<(Manifest, Holdings)> = None;
@@ -181,7 +181,7 @@ fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
 }
 
 /// The releases that are `folder` or lie in it, by name. Everything else there is ignored, and no link is followed.
-fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
+pub(crate) fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {
         ErrorKind::NotFound => SnapshotError::NotASnapshot(folder.to_path_buf()),

@@ -58,6 +58,7 @@ pub mod export;
 pub mod folder;
 mod integrity;
 mod known;
+pub mod lineage;
 mod manifest;
 pub mod marks;
 pub mod memory;

@@ -3,6 +3,7 @@
 
 mod archives;
 mod chains;
+mod lineage;
 mod old;
 mod proofs;
 mod small;
