@@ -6,6 +6,7 @@ use crate::paths;
 use engine::Digest;
 use serde::Serialize;
 use serde_json::json;
+use snapshots::{MANIFEST_FILE, Verification};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -18,7 +19,7 @@ pub(crate) const SIGNATURES: &str = "papers/signatures";
 const MAX_ANCHOR: u64 = 1 << 16;
 
 /// The source of trust in a release's root.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 pub(crate) struct TrustArgs {
     /// The publisher's public key (NAME.pub) or set of keys (keys-N.json), from elsewhere: the root has to be signed by it
     #[arg(long, value_name = "FILE")]
@@ -29,6 +30,28 @@ pub(crate) struct TrustArgs {
 }
 
 impl TrustArgs {
+    /// Returns `true` if no key was given.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.key.is_none()
+    }
+
+    /// Reads the key, if one was given, so that a wrong one is reported at once.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        self.key.as_deref().map_or(Ok(()), |file| anchor(file).map(drop))
+    }
+
+    /// Judges whether a release that was read is signed, and its lock file with it; `None` if no key was given.
+    pub(crate) fn judge_release(&self, place: &Path, of: &Verification) -> Result<Option<Signed>, Failure> {
+        let Some(mut signed) = self.judge(place, &of.name, &of.root)? else { return Ok(None) };
+        let lockfile = of.manifest.lockfile;
+        if signed.problems.is_empty() && signed.lockfile != Some(lockfile) {
+            signed.problems.push(format!(
+                "{MANIFEST_FILE}: its `lockfile` is {lockfile}, and the signed statement names another"
+            ));
+        }
+        Ok(Some(signed))
+    }
+
     /// Judges whether the root of a release is signed; `None` if no key was given.
     pub(crate) fn judge(&self, place: &Path, name: &str, root: &Digest) -> Result<Option<Signed>, Failure> {
         let Some(file) = &self.key else { return Ok(None) };

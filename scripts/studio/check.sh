@@ -68,4 +68,23 @@ if [ ! -d "$held/results" ]; then
     "$arcade" --quiet evaluate "$held/tiny" --model openai:reflex --base-url "$url" --max-steps 40 --out "$held/results" >"$scratch/evaluate.log"
     kill "$player"
 fi
-ARCADE=$arcade CHROMIUM=$chromium SNAPSHOT=$held/tiny RESULTS=$held/results npx playwright test
+# Two releases, one after the other, within a second.
+if [ ! -d "$held/line/two" ]; then
+    rm -rf "$held/line"
+    small="description = 'x'
+[corpus]
+games = 1
+levels = 1
+candidates = 2.0
+[criteria]
+decision = 100
+budget = 80000
+depths = [10, 25]
+random_plays = 10"
+    for name in one two; do
+        printf "name = '%s'\nseed = '%s'\n%s\n" "$name" "$name" "$small" >"$scratch/$name.toml"
+    done
+    "$arcade" --quiet release "$scratch/one.toml" --out "$held/line/one" >"$scratch/release.log"
+    "$arcade" --quiet release "$scratch/two.toml" --parent "$held/line/one" --out "$held/line/two" >"$scratch/release.log"
+fi
+ARCADE=$arcade CHROMIUM=$chromium SNAPSHOT=$held/tiny LINE=$held/line RESULTS=$held/results npx playwright test

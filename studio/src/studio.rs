@@ -5,6 +5,7 @@ use crate::judging::Judging;
 use crate::running::Running;
 use crate::sessions::Sessions;
 use crate::workspace::Workspace;
+use snapshots::Verification;
 use std::fmt;
 use std::sync::{Arc, Mutex};
 
@@ -18,6 +19,7 @@ pub struct Studio {
     pub(crate) sessions: Sessions,
     pub(crate) verdicts: Running,
     pub(crate) judging: Option<Arc<Judging>>,
+    pub(crate) vouch: Option<Vouch>,
     /// Held while a file is compared and written, so that no two requests do so at once.
     pub(crate) saving: Mutex<()>,
 }
@@ -37,6 +39,7 @@ impl Studio {
             sessions: Sessions::default(),
             verdicts: Running::default(),
             judging: None,
+            vouch: None,
             saving: Mutex::default(),
         }
     }
@@ -48,6 +51,19 @@ impl Studio {
         let judging = Arc::new(judging);
         Judging::measure_ahead(&judging);
         Studio { judging: Some(judging), ..self }
+    }
+}
+
+/// Tells what vouches for the root of a verified release, such as signatures, or the problems with that.
+type Vouch = Box<dyn Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync>;
+
+impl Studio {
+    /// Adds a check of what vouches for the opened release, made whenever it is verified.
+    pub fn vouched(
+        self,
+        check: impl Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync + 'static,
+    ) -> Studio {
+        Studio { vouch: Some(Box::new(check)), ..self }
     }
 }
 

@@ -105,6 +105,8 @@ pub struct Workspace {
     pub released: Option<Arc<Released>>,
     /// The release to compare it with.
     pub against: Option<(PathBuf, Arc<Released>)>,
+    /// Further places to look for the releases before it: releases, and folders of releases.
+    pub chain: Vec<PathBuf>,
     games: RwLock<Vec<Arc<GameEntry>>>,
 }
 
@@ -119,6 +121,7 @@ impl Workspace {
             results: Vec::new(),
             released: None,
             against: None,
+            chain: Vec::new(),
             games: RwLock::default(),
         };
         for game in games {

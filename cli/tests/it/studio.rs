@@ -27,6 +27,11 @@ impl Running {
     }
 
     fn ask(&self, method: &str, path: &str, body: &Value) -> (u16, Value) {
+        let (status, body) = self.exchange(method, path, body);
+        (status, serde_json::from_str(&body).unwrap_or_else(|error| panic!("{error}: {body}")))
+    }
+
+    fn exchange(&self, method: &str, path: &str, body: &Value) -> (u16, String) {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         let body = if method == "GET" { String::new() } else { body.to_string() };
         let (port, token, length) = (self.port, &self.token, body.len());
@@ -38,7 +43,7 @@ impl Running {
         stream.read_to_string(&mut answer).unwrap();
         let (head, body) = answer.split_once("\r\n\r\n").unwrap();
         let status = head.split(' ').nth(1).unwrap().parse().unwrap();
-        (status, serde_json::from_str(body).unwrap_or_else(|error| panic!("{error}: {answer}")))
+        (status, body.to_owned())
     }
 
     fn get(&self, path: &str) -> Value {
@@ -112,6 +117,73 @@ fn releases_are_shown_and_never_changed() {
     fs::write(root.join("games").join(&id).join("lvl0.txt"), "tampered").unwrap();
     let refused = run(home.path(), &["studio", "tiny", "--no-open"], 2);
     assert!(text(&refused.stderr).contains("does not verify"), "{}", text(&refused.stderr));
+}
+
+/// Asks for the verification of the opened release; returns the lines on earlier releases, and the verdict.
+fn verified(running: &Running) -> (Vec<Value>, Value) {
+    let (status, said) = running.exchange("POST", "/api/release/verify", &json!({}));
+    assert_eq!(status, 200, "{said}");
+    let lines: Vec<Value> =
+        said.lines().filter_map(|line| serde_json::from_str(line).ok()).filter(Value::is_object).collect();
+    let of = |stage: &str| lines.iter().filter(|line| line["stage"] == stage).cloned().collect::<Vec<_>>();
+    assert_eq!(of("done").len(), 1, "{said}");
+    let [verdict] = &of("verdict")[..] else { panic!("{said}") };
+    (of("ancestor"), verdict.clone())
+}
+
+#[test]
+fn verification_follows_the_parents() {
+    let home = tempfile::tempdir().unwrap();
+    let at = |path: &str| home.path().join(path);
+    let recipe = "description = 'x'\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 100\n\
+        budget = 80000\ndepths = [10, 25]\nrandom_plays = 10\n";
+    fs::create_dir_all(at("new")).unwrap();
+    for (name, out, parent) in [
+        ("one", "old/one", None),
+        ("two", "old/two", Some("old/one")),
+        ("three", "new/three", Some("old/two")),
+    ] {
+        fs::write(at("recipe.toml"), format!("name = '{name}'\nseed = '{name}'\n{recipe}")).unwrap();
+        let parent = parent.map_or(Vec::new(), |parent| vec!["--parent", parent]);
+        run(home.path(), &[&["release", "recipe.toml", "--out", out, "--quiet"], &parent[..]].concat(), 0);
+    }
+    let told = |ancestors: &[Value]| -> Vec<(Value, Value)> {
+        ancestors.iter().map(|ancestor| (ancestor["name"].clone(), ancestor["ok"].clone())).collect()
+    };
+    // Nothing is found beside it, which is no failure.
+    let alone = Running::start(home.path(), &["new/three"]);
+    let parent = alone.get("/api/release")["parent"].clone();
+    let (ancestors, verdict) = verified(&alone);
+    assert_eq!((told(&ancestors), &ancestors[0]["root"]), (vec![(json!(null), json!(null))], &parent));
+    assert!(ancestors[0]["text"].as_str().unwrap().contains("not found"), "{ancestors:?}");
+    assert_eq!((&verdict["ok"], &verdict["sound"]), (&json!(true), &json!(true)));
+    // The folder that is named, or that the other release is in.
+    for more in [["--chain", "old"], ["--against", "old/two"]] {
+        let running = Running::start(home.path(), &[&["new/three"], &more[..]].concat());
+        let (ancestors, verdict) = verified(&running);
+        assert_eq!(told(&ancestors), [(json!("two"), json!(true)), (json!("one"), json!(true))], "{more:?}");
+        assert_eq!((&ancestors[0]["root"], &verdict["ok"]), (&parent, &json!(true)));
+        assert!(verdict["lines"].to_string().contains("back to the first"), "{verdict}");
+    }
+    // Signatures are checked with a key.
+    run(home.path(), &["keygen", "ada", "--no-password"], 0);
+    let signed = Running::start(home.path(), &["new/three", "--key", "ada.pub"]);
+    let (_, verdict) = verified(&signed);
+    assert_eq!((&verdict["ok"], &verdict["sound"]), (&json!(false), &json!(true)));
+    assert!(verdict["lines"].to_string().contains("no signatures"), "{verdict}");
+    run(home.path(), &["sign", "new/three", "--secret", "ada.key"], 0);
+    let (_, verdict) = verified(&signed);
+    assert!(verdict["ok"] == true && verdict["lines"].to_string().contains("signed by"), "{verdict}");
+    run(home.path(), &["studio", "new/three", "--key", "absent.pub"], 2);
+    run(home.path(), &["studio", "corpus", "--chain", "old"], 2);
+    // A parent that was altered is a failure, also while the studio runs.
+    let running = Running::start(home.path(), &["new/three", "--chain", "old"]);
+    fs::write(at("old/two/README.md"), "tampered").unwrap();
+    let (ancestors, verdict) = verified(&running);
+    assert_eq!(told(&ancestors), [(json!("two"), json!(false))]);
+    assert!(ancestors[0]["text"].as_str().unwrap().contains("README.md"), "{ancestors:?}");
+    assert_eq!((&verdict["ok"], &verdict["sound"]), (&json!(false), &json!(true)));
+    assert!(!verdict.to_string().contains(&*home.path().to_string_lossy()), "{verdict}");
 }
 
 /// Logs can claim anything: what they say is shown as data.

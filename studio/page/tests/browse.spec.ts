@@ -1,4 +1,4 @@
-import { readFileSync } from 'node:fs';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
@@ -20,7 +20,29 @@ test('a release is browsed, filtered, verified and compared', async ({ page, stu
   await page.getByRole('button', { name: 'Verify' }).click();
   await expect(page.getByText('Every digest agrees.')).toBeVisible();
   await expect(page.getByRole('list', { name: 'Files checked' }).getByRole('listitem').first()).toBeVisible();
+  await expect(page.getByText(/first of its line|names as its parent/).first()).toBeVisible();
   await expect(page.getByText(/^Beside/)).toBeVisible();
+});
+
+test('verification follows the parent, and tells one that was altered', async ({ page, studio }) => {
+  test.skip(isMock, 'the mock has no files of releases');
+  const running = await studio('line');
+  await open(page, running, 'release');
+  const before = page.getByRole('list', { name: 'Releases before it' });
+  await page.getByRole('button', { name: 'Verify' }).click();
+  await expect(page.getByText('Every digest agrees.')).toBeVisible();
+  await expect(before.getByRole('listitem')).toHaveCount(1);
+  await expect(before.getByRole('img', { name: 'agrees' })).toBeVisible();
+  await expect(before).toContainText('one');
+  writeFileSync(join(running.folder, 'line/one/README.md'), 'tampered');
+  await page.getByRole('button', { name: 'Verify' }).click();
+  await expect(before.getByRole('img', { name: 'differs' })).toBeVisible();
+  await expect(before).toContainText('README.md');
+  await expect(page.getByText('but not all that belongs to it does')).toBeVisible();
+  rmSync(join(running.folder, 'line/one'), { recursive: true });
+  await page.getByRole('button', { name: 'Verify' }).click();
+  await expect(before.getByRole('img', { name: 'not found' })).toBeVisible();
+  await expect(page.getByText('Every digest agrees.')).toBeVisible();
 });
 
 /** Answers the two questions that have to be answered, and goes on. */

@@ -5,15 +5,19 @@ use crate::answers::Asked;
 use crate::lines::{Ended, Lines};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
+use crate::workspace::Workspace;
 use engine::Digest;
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use snapshots::chain::Link;
 use snapshots::diff::{Diff, Status};
 use snapshots::folder::{self, Limits};
+use snapshots::lineage::{Ancestor, trace};
 use snapshots::released::Released;
 use snapshots::{Verification, Witnesses, verify};
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The opened release.
@@ -84,32 +88,132 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     }
     lines.check()?;
     let verification = verify(root).map_err(Refusal::failed)?;
-    let same = verification.root == released.manifest.root;
-    let mut said = words(&verification);
-    if !same {
-        said.insert(0, "the release changed since the studio opened it: open it again".to_owned());
+    let mut problems = verification.problems.clone();
+    if verification.root != released.manifest.root {
+        problems.insert(0, "the release changed since the studio opened it: open it again".to_owned());
     }
-    let ok = verification.problems.is_empty() && same;
-    lines.send(&json!({ "stage": "verdict", "ok": ok, "lines": said, "root": verification.root }))?;
+    let is_sound = problems.is_empty();
+    let mut said = if is_sound { words(&verification) } else { Vec::new() };
+    match &studio.vouch {
+        Some(vouch) => match vouch(&verification) {
+            Ok(signed) => said.push(signed),
+            Err(unsigned) => problems.extend(unsigned),
+        },
+        None => said.push(format!(
+            "root {}: compare it with the published one, or give the publisher's key with --key",
+            verification.root
+        )),
+    }
+    // Of a release that is not sound, the parent is not known.
+    if is_sound {
+        let (before, found) = parents(studio, Link::of(&verification.manifest, root), lines)?;
+        said.extend(before);
+        problems.extend(found);
+    }
+    let ok = problems.is_empty();
+    problems.extend(said);
+    lines.send(&json!({
+        "stage": "verdict", "ok": ok, "sound": is_sound, "lines": problems, "root": verification.root,
+    }))?;
     Ok(())
 }
 
-fn words(found: &Verification) -> Vec<String> {
-    if !found.problems.is_empty() {
-        return found.problems.clone();
+/// Follows the parents of the opened release as far as they are found, and sends each. Returns what is to be said of them, and the
+/// problems.
+fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, Vec<String>), Ended> {
+    let mut child = start.name.clone();
+    let tell = &mut |ancestor: &Ancestor| {
+        let Ancestor { root, link, problems } = ancestor;
+        let text = match (link, problems.as_slice()) {
+            (None, []) => format!("not found; name its place with --chain to check what `{child}` follows"),
+            (Some(_), []) => format!("every file agrees with this root, which `{child}` names as its parent"),
+            (_, [only]) => only.clone(),
+            (_, [first, rest @ ..]) => format!("{first}; and {} more", rest.len()),
+        };
+        let ok = match (link, problems.is_empty()) {
+            (None, true) => None,
+            (_, ok) => Some(ok),
+        };
+        let name = link.as_ref().map(|link| link.name.clone());
+        let place = link.as_ref().map(|link| base_name(&link.place));
+        child = name.clone().unwrap_or_default();
+        let line = json!({ "stage": "ancestor", "name": name, "root": root, "place": place, "ok": ok, "text": text });
+        lines.send(&line).is_ok()
+    };
+    let lineage = trace(&start, &places(&studio.workspace), tell).map_err(Refusal::failed)?;
+    lines.check()?;
+    let sound =
+        lineage.ancestors.iter().filter(|ancestor| ancestor.link.is_some() && ancestor.problems.is_empty());
+    let Link { name, .. } = &start;
+    let mut said = Vec::new();
+    said.push(match (lineage.complete, sound.count()) {
+        (true, 0) => format!("`{name}` names no parent: it is the first of its line"),
+        (true, count) => {
+            format!("`{name}` and {count} before it, back to the first, name each other's roots")
+        }
+        (false, 0) => format!("nothing is said of the releases before `{name}`"),
+        (false, count) => {
+            format!("{count} before `{name}` agree with the root that is named; older ones were not seen")
+        }
+    });
+    // Places at hand that cannot be read matter only if something is missing.
+    if lineage.ancestors.iter().any(|ancestor| ancestor.link.is_none()) {
+        said.extend(
+            lineage.unread.iter().map(|place| format!("not read: {}", nameless(place, &studio.workspace))),
+        );
     }
+    let damaged = lineage.ancestors.iter().filter(|ancestor| !ancestor.problems.is_empty());
+    let mut problems: Vec<String> = damaged
+        .map(|ancestor| match &ancestor.link {
+            Some(link) => format!("`{}`, which comes before, is not the release with its root", link.name),
+            None => "the chain of parents is a ring".to_owned(),
+        })
+        .collect();
+    problems.extend(lineage.problems.iter().map(|problem| nameless(problem, &studio.workspace)));
+    Ok((said, problems))
+}
+
+/// The places where the releases before the opened one are looked for: those that were named, and the folders that they and it lie in.
+fn places(workspace: &Workspace) -> Vec<PathBuf> {
+    let against = workspace.against.as_ref().map(|(place, _)| place.clone());
+    let beside: Vec<PathBuf> =
+        workspace.root.iter().chain(&against).filter_map(|place| folder_of(place)).collect();
+    workspace.chain.iter().cloned().chain(against).chain(beside).collect()
+}
+
+/// Returns the folder that a release lies in; a sealed one is the folder `public` of its own folder.
+fn folder_of(release: &Path) -> Option<PathBuf> {
+    let real = fs::canonicalize(release).ok()?;
+    let parent = real.parent()?;
+    let is_public = real.file_name().is_some_and(|name| name == "public");
+    Some(if is_public { parent.parent().unwrap_or(parent) } else { parent }.to_owned())
+}
+
+/// Leaves the folders of this machine out of a message.
+fn nameless(message: &str, workspace: &Workspace) -> String {
+    let mut message = message.to_owned();
+    for folder in places(workspace) {
+        message = message.replace(&format!("{}/", folder.display()), "");
+    }
+    message
+}
+
+fn base_name(place: &Path) -> String {
+    place.file_name().unwrap_or(place.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Returns what was found out about a sound release.
+fn words(found: &Verification) -> Vec<String> {
     let Verification { files, games, levels, .. } = found;
-    let mut said =
-        vec![format!("{files} files, {games} games, {levels} levels: every digest and the root are right")];
-    said.push(match &found.witnesses {
+    let said = format!("{files} files, {games} games, {levels} levels: every digest and the root are right");
+    let wins = match &found.witnesses {
         Witnesses::Replayed(count) => format!("{count} recorded wins were replayed, state by state"),
         Witnesses::Held => "sealed: its wins are withheld until the reveal".to_owned(),
         Witnesses::NotReplayed { semantics } => {
             format!("its wins need semantics {semantics} of the engine and were not replayed")
         }
-    });
-    said.push(format!("root {}: compare it with a published one", found.root));
-    said
+    };
+    vec![said, wins]
 }
 
 /// The most nearest neighbours that are shown.

@@ -6,6 +6,7 @@ pub(super) mod open;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::trusted::{self, TrustArgs};
 use crate::{manual, version};
 use serde_json::json;
 use std::path::PathBuf;
@@ -38,6 +39,12 @@ pub(crate) struct Args {
     /// A release to compare the opened one with
     #[arg(long, value_name = "SNAPSHOT")]
     against: Option<PathBuf>,
+    /// Snapshots, or folders of snapshots, to search for the releases before the opened one when it is verified, besides the folder
+    /// that it is in and that of --against
+    #[arg(long, value_name = "DIR", num_args = 1.., requires = "place")]
+    chain: Vec<PathBuf>,
+    #[command(flatten)]
+    trust: TrustArgs,
     /// Games to judge in pairs, blindly: a folder of games, a release, or `corpus`. Given twice or more
     #[arg(long, value_name = "GAMES", conflicts_with = "place")]
     judge: Vec<String>,
@@ -64,8 +71,26 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let workspace = Workspace::new(Kind::Games, "pairs to judge", PathBuf::new(), Vec::new());
         return serve(Studio::new(workspace, version::version(), page).judging(judging), args, console);
     }
-    let workspace = open::workspace(args.place.as_deref(), args.out.as_deref(), args.against.as_deref())?;
-    serve(Studio::new(workspace, version::version(), page), args, console)
+    let mut workspace = open::workspace(args.place.as_deref(), args.out.as_deref(), args.against.as_deref())?;
+    let root = workspace.root.clone();
+    if root.is_none() && !(args.chain.is_empty() && args.trust.is_empty()) {
+        bail!("--chain and --key are about a release: name one to open");
+    }
+    args.trust.check()?;
+    workspace.chain.clone_from(&args.chain);
+    let studio = Studio::new(workspace, version::version(), page);
+    serve(with_signatures(studio, root, &args.trust), args, console)
+}
+
+/// Adds the check of the signatures of the opened release, if a key was given.
+fn with_signatures(studio: Studio, root: Option<PathBuf>, trust: &TrustArgs) -> Studio {
+    let Some(root) = root.filter(|_| !trust.is_empty()) else { return studio };
+    let trust = trust.clone();
+    studio.vouched(move |verification| match trust.judge_release(&root, verification) {
+        Ok(Some(signed)) if signed.problems.is_empty() => Ok(trusted::sentence(&signed)),
+        Ok(signed) => Err(signed.map_or_else(Vec::new, |signed| signed.problems)),
+        Err(failure) => Err(vec![failure.to_string()]),
+    })
 }
 
 fn serve(studio: Studio, args: &Args, console: &Console) -> Answer {

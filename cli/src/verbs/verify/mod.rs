@@ -106,14 +106,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let problem = format!("{MANIFEST_FILE}: the root is {}, not {root}", verification.root);
         verification.problems.push(problem);
     }
-    let signed = args.trust.judge(&args.snapshot, &verification.name, &verification.root)?;
+    let signed = args.trust.judge_release(&args.snapshot, &verification)?;
     verification.problems.extend(signed.iter().flat_map(|signed| signed.problems.clone()));
-    let lockfile = verification.manifest.lockfile;
-    if signed.as_ref().is_some_and(|signed| signed.problems.is_empty() && signed.lockfile != Some(lockfile)) {
-        let problem =
-            format!("{MANIFEST_FILE}: its `lockfile` is {lockfile}, and the signed statement names another");
-        verification.problems.push(problem);
-    }
     let chain = match args.chain.as_slice() {
         [] => None,
         folders => Some(follow(Link::of(&verification.manifest, &args.snapshot), folders)?),

@@ -202,9 +202,20 @@ export interface Release {
   games: ReleaseGame[];
 }
 
+/** A release that a later one names as its parent; without a name if it was not found. */
+export interface Ancestor {
+  stage: 'ancestor';
+  name: string | null;
+  root: string;
+  place: string | null;
+  ok: boolean | null;
+  text: string;
+}
+
 export type VerifyLine =
   | { stage: 'file'; path: string; ok: boolean; done: number; total: number }
-  | { stage: 'verdict'; ok: boolean; lines: string[] }
+  | Ancestor
+  | { stage: 'verdict'; ok: boolean; sound: boolean; lines: string[] }
   | { stage: 'done' }
   | { stage: 'error'; error: string };
 

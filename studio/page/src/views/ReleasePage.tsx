@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { Failure, get, stream, words } from '../data/api';
 import { live } from '../data/studio';
 import * as studio from '../data/studio';
-import type { Comparison, Release, VerifyLine } from '../data/types';
+import type { Ancestor, Comparison, Release, VerifyLine } from '../data/types';
 import { Thumb } from '../parts/Board';
 import { useAsked, useTitle } from '../parts/hooks';
 import { Wide } from '../parts/Wide';
@@ -39,11 +39,12 @@ export function ReleasePage() {
   );
 }
 
-/** Checks every file against its digest, and shows each as it is checked. */
+/** Checks every file against its digest, replays the wins and follows the parents, and shows each as it is checked. */
 function Verify() {
   const [lines, setLines] = useState<{ path: string; ok: boolean }[]>([]);
   const [progress, setProgress] = useState<[number, number]>([0, 0]);
-  const [verdict, setVerdict] = useState<{ ok: boolean; lines: string[] } | null>(null);
+  const [verdict, setVerdict] = useState<Extract<VerifyLine, { stage: 'verdict' }> | null>(null);
+  const [ancestors, setAncestors] = useState<Ancestor[]>([]);
   const [error, setError] = useState<string | null>(null);
   const [abort, setAbort] = useState<AbortController | null>(null);
   const list = useRef<HTMLOListElement>(null);
@@ -56,6 +57,8 @@ function Verify() {
     const control = new AbortController();
     setAbort(control);
     setLines([]);
+    setProgress([0, 0]);
+    setAncestors([]);
     setVerdict(null);
     setError(null);
     try {
@@ -63,7 +66,8 @@ function Verify() {
         if (line.stage === 'file') {
           setLines((before) => [...before.slice(-400), { path: line.path, ok: line.ok }]);
           setProgress([line.done, line.total]);
-        } else if (line.stage === 'verdict') setVerdict(line);
+        } else if (line.stage === 'ancestor') setAncestors((before) => [...before, line]);
+        else if (line.stage === 'verdict') setVerdict(line);
         else if (line.stage === 'error') setError(line.error);
       }
     } catch (failure) {
@@ -74,21 +78,38 @@ function Verify() {
   return (
     <section class="verify">
       <h2>Verify</h2>
-      <p class="soft">Reads every file of the release again, and compares its digest with the manifest.</p>
+      <p class="soft">Reads every file of the release again, compares its digest with the manifest, replays the recorded wins, and follows the parents as far as they are found.</p>
       <p class="row">
         {abort ? <button type="button" onClick={() => abort.abort()}>Stop</button> : <button type="button" class="strong" onClick={() => void verify()}>Verify</button>}
+        {abort && progress[1] > 0 && progress[0] === progress[1] && <span class="spinner" aria-hidden="true" />}
         {progress[1] > 0 && <><progress max={progress[1]} value={progress[0]} aria-label="Files checked" /><span class="soft">{progress[0]} of {progress[1]} files</span></>}
       </p>
       {error && <p class="notice bad" role="alert">{error}</p>}
       {verdict && (
         <div class={`notice ${verdict.ok ? 'good' : 'bad'}`} role="status">
-          <strong>{verdict.ok ? 'Every digest agrees.' : 'This release is not what its manifest says.'}</strong>
+          <strong>{verdict.ok ? 'Every digest agrees.' : verdict.sound ? 'The release agrees with its manifest, but not all that belongs to it does.' : 'This release is not what its manifest says.'}</strong>
           {verdict.lines.map((line) => <p>{line}</p>)}
         </div>
       )}
+      {ancestors.length > 0 && (
+        <>
+          <h3>Releases before it</h3>
+          <ol class="ancestors" aria-label="Releases before it">
+            {ancestors.map((one) => {
+              const [kind, sign, word] = one.ok === null ? ['', '–', 'not found'] : one.ok ? ['ok', '✓', 'agrees'] : ['wrong', '✗', 'differs'];
+              return (
+                <li class={kind}>
+                  <span class="sign" role="img" aria-label={word}>{sign}</span>
+                  <div><strong>{one.name ?? 'Not found'}</strong>{one.place && one.place !== one.name && <span class="soft"> in {one.place}</span>}<code>{one.root}</code><p class="soft">{one.text}</p></div>
+                </li>
+              );
+            })}
+          </ol>
+        </>
+      )}
       {lines.length > 0 && (
         <ol class="digests-seen" ref={list} tabIndex={0} aria-label="Files checked">
-          {lines.map((line) => <li class={line.ok ? 'ok' : 'wrong'}><span aria-label={line.ok ? 'agrees' : 'differs'}>{line.ok ? '✓' : '✗'}</span> {line.path}</li>)}
+          {lines.map((line) => <li class={line.ok ? 'ok' : 'wrong'}><span role="img" aria-label={line.ok ? 'agrees' : 'differs'}>{line.ok ? '✓' : '✗'}</span> {line.path}</li>)}
         </ol>
       )}
     </section>
