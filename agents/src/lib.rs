@@ -41,7 +41,7 @@ pub use olets::{Olets, OletsConfig};
 pub use one_step::{OneStep, OneStepConfig};
 pub use open_loop::OpenLoop;
 pub use planner::{Budget, Planner};
-pub use play::{Limits, Play, play};
+pub use play::{Limits, Play, Stopped, play, play_until};
 pub use portfolio::{PortfolioConfig, Solution, Solved, solve, solve_until};
 pub use random::Random;
 pub use random_search::{RandomSearch, RandomSearchConfig};

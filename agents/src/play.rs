@@ -37,10 +37,10 @@ pub fn play(
 }
 
 /// Returns `true` once nobody waits for an answer any more. An answer that arrives before does not depend on it.
-pub(crate) type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
+pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// [`play`], until nobody waits for it.
-pub(crate) fn play_until(
+/// [`play`], until nobody waits for it: the play is broken off before the next decision.
+pub fn play_until(
     game: &Game,
     level: &Level,
     planner: &mut dyn Planner,

@@ -5,6 +5,7 @@ use crate::ladder::Ladder;
 use crate::panel::{Judgement, Report};
 use crate::recording::{Recorded, Usage};
 use crate::verdict::Finding;
+use agents::Stopped;
 use engine::{Analysis, Game, Seed};
 use serde::Serialize;
 
@@ -40,6 +41,13 @@ pub trait GameValidator: Sync {
 
     /// Judges the case. The same case gives the same answer, on any number of threads.
     fn validate(&self, case: GameCase<'_>) -> Finding;
+
+    /// [`GameValidator::validate`], for someone who may leave: once `stopped` returns `true`, some finding comes soon, and means
+    /// nothing.
+    fn validate_until(&self, case: GameCase<'_>, stopped: Stopped<'_>) -> Finding {
+        let _ = stopped;
+        self.validate(case)
+    }
 }
 
 /// The findings of all validators on a game: on each level, and on all of them together.

@@ -1,7 +1,7 @@
 //! Players from weak to strong on one level: the win rate of each, and the difficulty that follows.
 
 use crate::verdict::{Case, Rate};
-use agents::{Budget, Limits, PlannerSpec, Play, UnknownPlanner, play};
+use agents::{Budget, Limits, PlannerSpec, Play, Stopped, UnknownPlanner, play_until};
 use engine::{Episode, Outcome};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -33,11 +33,12 @@ impl Rung {
         !BASELINES.contains(&self.planner.name())
     }
 
-    fn play(&self, case: Case<'_>, run: u64, limits: Limits) -> Play {
+    fn play(&self, case: Case<'_>, run: u64, limits: Limits, stopped: Stopped<'_>) -> Play {
         // All players get the same seed in plays of the same number, so that they can be compared play by play.
         let chance = case.seed.child("chance", run);
         let seed = case.seed.child(&self.name, run);
-        play(case.game, case.level, &mut self.planner.player(seed), self.budget, chance, limits)
+        let mut player = self.planner.player(seed);
+        play_until(case.game, case.level, &mut player, self.budget, chance, limits, stopped)
     }
 }
 
@@ -197,7 +198,7 @@ impl LadderConfig {
         case: Case<'_>,
         enough: impl Fn(&[Vec<Play>]) -> bool,
     ) -> (Ladder, Vec<Episode>) {
-        let played = self.play_within(case, u64::MAX, |played| enough(&played.plays));
+        let played = self.play_within(case, u64::MAX, |played| enough(&played.plays), &|| false);
         (self.measure(&played), played.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 
@@ -207,16 +208,17 @@ impl LadderConfig {
 
     /// Lets every player play equally often. Rounds go on until the plays, or the calls, are spent.
     pub(crate) fn play_all(&self, case: Case<'_>) -> LadderPlays {
-        self.play_within(case, u64::MAX, |_| false)
+        self.play_within(case, u64::MAX, |_| false, &|| false)
     }
 
     /// Like [`LadderConfig::play_all`], but a play is broken off at the first decision after `calls` calls, or at its tick
-    /// limit, and no round begins once there is `enough`.
+    /// limit, or once `stopped` returns `true`, and no round begins once there is `enough`.
     pub(crate) fn play_within(
         &self,
         case: Case<'_>,
         calls: u64,
         enough: impl Fn(&LadderPlays) -> bool,
+        stopped: Stopped<'_>,
     ) -> LadderPlays {
         let patient = |witness: &Episode| self.patience.saturating_mul(witness.actions.len()) + GRACE;
         let ticks = self.ticks.min(case.witness.map_or(usize::MAX, patient));
@@ -226,13 +228,15 @@ impl LadderConfig {
         let mut all = LadderPlays { plays: vec![Vec::new(); players.len()] };
         let mut spent = 0;
         let mut played = 0;
-        while played < self.plays && (played == 0 || spent < self.calls && !enough(&all)) {
+        while played < self.plays && (played == 0 || spent < self.calls && !enough(&all) && !stopped()) {
             let runs = played..self.plays.min(played + ROUND);
             played = runs.end;
             // The strongest players take longest, so they start first.
             let tasks: Vec<(usize, u64)> = (0..players.len()).rev().cartesian_product(runs.clone()).collect();
-            let done: Vec<Play> =
-                tasks.par_iter().map(|&(player, run)| players[player].play(case, run, limits)).collect();
+            let done: Vec<Play> = tasks
+                .par_iter()
+                .map(|&(player, run)| players[player].play(case, run, limits, stopped))
+                .collect();
             spent += done.iter().map(|play| play.calls + play.episode.actions.len() as u64).sum::<u64>();
             for ((player, _), play) in tasks.into_iter().zip(done) {
                 all.plays[player].push(play);

@@ -13,9 +13,8 @@ use crate::{
     Case, Criteria, CriteriaError, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom,
     Reachable, Readable, RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
 };
-use agents::PortfolioConfig;
+use agents::{PortfolioConfig, Stopped};
 use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
-use itertools::Itertools;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -266,7 +265,8 @@ impl Panel {
     }
 
     /// Like [`Panel::judge`], for someone who watches: `heard` gets each judgement when it is made, once more if it changes later, and
-    /// ends the judging by returning `false`. A known win can be given; the criterion `winnable` looks for one regardless.
+    /// ends the judging by returning `false`. Once `stopped` returns `true`, the judging ends soon, and its last judgement means nothing
+    /// and is not heard. A known win can be given; the criterion `winnable` looks for one regardless.
     pub fn judge_aloud(
         &self,
         game: &Game,
@@ -274,13 +274,14 @@ impl Panel {
         witness: Option<Episode>,
         seed: Seed,
         heard: &mut dyn FnMut(&Judgement) -> bool,
+        stopped: Stopped<'_>,
     ) -> Report {
         match &self.bound {
-            None => self.run_aloud(game, level, witness, seed, false, heard),
+            None => self.run_aloud(game, level, witness, seed, false, (heard, stopped)),
             Some((criteria, calls)) => {
                 let allowance = Allowance::of(*calls, game, [level]);
                 let panel = Panel::with_allowance(criteria, Some(allowance), Purpose::Reports);
-                panel.run_aloud(game, level, witness, seed, false, heard)
+                panel.run_aloud(game, level, witness, seed, false, (heard, stopped))
             }
         }
     }
@@ -312,7 +313,20 @@ impl Panel {
         reports: &[Report],
         seed: Seed,
     ) -> Vec<Judgement> {
-        self.together(game, levels, reports, seed, false)
+        self.together(game, levels, reports, seed, &mut |_| true, &|| false)
+    }
+
+    /// Like [`Panel::judge_together`], for someone who watches, as [`Panel::judge_aloud`] does it.
+    pub fn judge_together_aloud(
+        &self,
+        game: &Game,
+        levels: &[Level],
+        reports: &[Report],
+        seed: Seed,
+        heard: &mut dyn FnMut(&Judgement) -> bool,
+        stopped: Stopped<'_>,
+    ) -> Vec<Judgement> {
+        self.together(game, levels, reports, seed, heard, stopped)
     }
 
     /// Like [`Panel::judge_together`], until a validator does not pass.
@@ -323,7 +337,14 @@ impl Panel {
         reports: &[Report],
         seed: Seed,
     ) -> Vec<Judgement> {
-        self.together(game, levels, reports, seed, true)
+        self.together(
+            game,
+            levels,
+            reports,
+            seed,
+            &mut |judgement| judgement.finding.verdict.is_pass(),
+            &|| false,
+        )
     }
 
     fn together(
@@ -332,7 +353,8 @@ impl Panel {
         levels: &[Level],
         reports: &[Report],
         seed: Seed,
-        screen: bool,
+        heard: &mut dyn FnMut(&Judgement) -> bool,
+        stopped: Stopped<'_>,
     ) -> Vec<Judgement> {
         if self.of_game.is_empty() || levels.is_empty() {
             return Vec::new();
@@ -340,7 +362,7 @@ impl Panel {
         if let Some((criteria, calls)) = &self.bound {
             let allowance = Allowance::of(*calls, game, levels);
             let panel = Panel::with_allowance(criteria, Some(allowance), Purpose::Reports);
-            return panel.together(game, levels, reports, seed, screen);
+            return panel.together(game, levels, reports, seed, heard, stopped);
         }
         let analysis = Analysis::of(game);
         let explores = self.of_game.iter().any(|(_, validator)| validator.asks_for_usage());
@@ -350,7 +372,11 @@ impl Panel {
         let usage = Usage::within(game, &recording, ticks);
         let ladders: Vec<Option<&Ladder>> = reports.iter().map(Report::ladder).collect();
         let careless = CarelessPlays::new(levels.len(), seed.child("careless", 0));
-        let judge = |(subject, validator): &(Subject, Box<dyn GameValidator + Send>)| {
+        let mut judgements = Vec::new();
+        for (subject, validator) in &self.of_game {
+            if stopped() {
+                break;
+            }
             let criterion = validator.name();
             let seed = seed.child(criterion, 0);
             let case = GameCase {
@@ -362,16 +388,20 @@ impl Panel {
                 careless: &careless,
                 seed,
             };
-            let finding = validator.validate(case);
+            let finding = validator.validate_until(case, stopped);
             let why = consequence(reports, &finding.verdict).filter(|_| *subject == Subject::Rules);
-            Judgement { criterion, finding: why.map_or(finding, |why| skipped(&why)) }
-        };
-        let goes_on = |judgement: &Judgement| !screen || judgement.finding.verdict.is_pass();
-        self.of_game.iter().map(judge).take_while_inclusive(goes_on).collect()
+            let judgement = Judgement { criterion, finding: why.map_or(finding, |why| skipped(&why)) };
+            let goes_on = !stopped() && heard(&judgement);
+            judgements.push(judgement);
+            if !goes_on {
+                break;
+            }
+        }
+        judgements
     }
 
     fn run(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {
-        self.run_aloud(game, level, witness, seed, screen, &mut |_| true)
+        self.run_aloud(game, level, witness, seed, screen, (&mut |_| true, &|| false))
     }
 
     fn run_aloud(
@@ -381,15 +411,15 @@ impl Panel {
         witness: Option<Episode>,
         seed: Seed,
         screen: bool,
-        heard: &mut dyn FnMut(&Judgement) -> bool,
+        (heard, stopped): (&mut dyn FnMut(&Judgement) -> bool, Stopped<'_>),
     ) -> Report {
         let analysis = Analysis::of(game);
         let mut report = Report { judgements: Vec::new(), witness };
         let run = |stage: Stage, validator: &(dyn Validator + Send), witness: Option<&Episode>| {
             let criterion = validator.name();
             let case = Case { game, level, seed: seed.child(criterion, 0), analysis: &analysis, witness };
-            let mut finding = validator.validate(case);
-            if stage == Stage::Search && !screen {
+            let mut finding = validator.validate_until(case, stopped);
+            if stage == Stage::Search && !screen && !stopped() {
                 causes::explain(case, &mut finding);
                 too_soon::explain(case, &mut finding, &self.search);
             }
@@ -420,7 +450,7 @@ impl Panel {
             let passed = judgement.finding.verdict.is_pass();
             let is_decided = matches!(judgement.finding.verdict, Verdict::Fail { witness: Some(_), .. });
             let is_start = judgement.criterion == "well-formed" && is_decided;
-            let goes_on = heard(&judgement);
+            let goes_on = !stopped() && heard(&judgement);
             report.judgements.push(judgement);
             if !goes_on || screen && !passed {
                 return report;
@@ -528,6 +558,48 @@ mod tests {
             assert_eq!(witness.replay(&game, &level).unwrap().outcome(), Outcome::Won);
         }
         report
+    }
+
+    #[test]
+    fn judging_aloud_is_judging_and_ends_when_nobody_listens() {
+        let game = Game::from_source(GAME).unwrap();
+        let levels = [game.level(GOOD).unwrap()];
+        let criteria = Criteria { budget: 20_000, ..Criteria::default() };
+        let panel = Panel::new(&criteria).unwrap();
+        let seed = Seed::from_text("panel");
+        let together = |reports: &[Report], stopped: Stopped<'_>| {
+            let mut heard = Vec::new();
+            let tell = &mut |judged: &Judgement| {
+                heard.push(judged.clone());
+                true
+            };
+            let judgements = panel.judge_together_aloud(&game, &levels, reports, seed, tell, stopped);
+            (judgements, heard)
+        };
+        let mut heard = Vec::new();
+        let tell = &mut |judged: &Judgement| {
+            heard.push(judged.clone());
+            true
+        };
+        let report = panel.judge_aloud(&game, &levels[0], None, seed, tell, &|| false);
+        assert_eq!((&report, &heard), (&panel.judge(&game, &levels[0], seed), &report.judgements));
+        let (judgements, heard) = together(&[report.clone()], &|| false);
+        assert_eq!(
+            (&judgements, &heard),
+            (&panel.judge_together(&game, &levels, &[report.clone()], seed), &judgements)
+        );
+        // Whoever left hears nothing more.
+        let count = std::sync::atomic::AtomicUsize::new(0);
+        let mut heard = 0;
+        let tell = &mut |_: &Judgement| {
+            heard += 1;
+            count.store(heard, std::sync::atomic::Ordering::Relaxed);
+            true
+        };
+        let left = || count.load(std::sync::atomic::Ordering::Relaxed) >= 2;
+        let ended = panel.judge_aloud(&game, &levels[0], None, seed, tell, &left);
+        assert!(heard == 2 && ended.judgements.len() < report.judgements.len(), "{heard}");
+        assert_eq!(together(&[report], &|| true), (Vec::new(), Vec::new()));
     }
 
     const GOOD: &str = "wwwwwwwww\nwA   w  w\nw wp wp w\nw  w   gw\nw pww   w\nwwwwwwwww\n";

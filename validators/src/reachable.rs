@@ -3,6 +3,7 @@
 use crate::causes::lower;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
+use agents::Stopped;
 use engine::analysis::Cause;
 use engine::describe;
 
@@ -18,10 +19,14 @@ impl<V: Validator> Validator for Reachable<V> {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
+        self.validate_until(case, &|| false)
+    }
+
+    fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
         let Case { game, level, analysis, .. } = case;
         let reach = analysis.reach(level);
         if reach.can_win() {
-            return self.0.validate(case);
+            return self.0.validate_until(case, stopped);
         }
         let wins = reach
             .impossible_goals()

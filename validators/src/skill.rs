@@ -3,7 +3,7 @@
 use crate::evidence::Evidence;
 use crate::ladder::{Ladder, LadderConfig, LadderPlays, PlayerResult};
 use crate::verdict::{Case, Finding, Validator, Verdict};
-use agents::Play;
+use agents::{Play, Stopped};
 use engine::Outcome;
 use statistics::{Interval, Z95};
 
@@ -79,8 +79,12 @@ impl Validator for SkillPays {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
+        self.validate_until(case, &|| false)
+    }
+
+    fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
         let enough = |played: &LadderPlays| self.sequential && self.is_sure(case, played);
-        let played = self.players.play_within(case, self.play_calls, enough);
+        let played = self.players.play_within(case, self.play_calls, enough, stopped);
         let cut = played.broken_off(self.play_calls);
         let spent = played.plays.iter().flatten().map(|play| play.calls).sum();
         let Some(answer) = self.answer(case, &played, FINAL) else {

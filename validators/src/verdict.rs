@@ -2,6 +2,7 @@
 
 use crate::evidence::Evidence;
 use crate::ladder::Ladder;
+use agents::Stopped;
 use engine::{Analysis, Episode, Game, Level, Seed};
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +28,12 @@ pub trait Validator: Sync {
 
     /// Judges the case. The same case gives the same answer, on any number of threads.
     fn validate(&self, case: Case<'_>) -> Finding;
+
+    /// [`Validator::validate`], for someone who may leave: once `stopped` returns `true`, some finding comes soon, and means nothing.
+    fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
+        let _ = stopped;
+        self.validate(case)
+    }
 }
 
 /// A verdict, with the observations and measurements made on the way.

@@ -3,7 +3,7 @@
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
-use agents::{PortfolioConfig, Solution, solve};
+use agents::{PortfolioConfig, Solution, Stopped, solve_until};
 use engine::Action;
 use engine::analysis::Condition;
 
@@ -20,7 +20,11 @@ impl Validator for Winnable {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        let solved = solve(case.analysis, case.level, &self.0, case.seed);
+        self.validate_until(case, &|| false)
+    }
+
+    fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
+        let solved = solve_until(case.analysis, case.level, &self.0, case.seed, stopped);
         let mut finding = match solved.solution {
             Solution::Won { episode, shortest } => {
                 let optimal = shortest.then_some(episode.actions.len());

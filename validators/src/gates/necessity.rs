@@ -6,6 +6,7 @@ use crate::evidence::Evidence;
 use crate::game_measures::{Guards, mechanics};
 use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
+use agents::Stopped;
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
 use rayon::prelude::*;
@@ -39,6 +40,10 @@ impl GameValidator for Necessity {
     }
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
+        self.validate_until(case, &|| false)
+    }
+
+    fn validate_until(&self, case: GameCase<'_>, stopped: Stopped<'_>) -> Finding {
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let gates = &self.0;
         let plays: Vec<&[Episode]> = wins.iter().map(|&won| careless::plays(case, won, gates)).collect();
@@ -65,8 +70,11 @@ impl GameValidator for Necessity {
         };
         let mut elements = elements(case, &executed);
         elements.retain(|element| !is_open(element));
-        let matters: Vec<(bool, String)> =
-            elements.par_iter().map(|element| self.matters(case, element, &subjects)).collect();
+        let judge = |element| match stopped() {
+            true => (false, String::new()),
+            false => self.matters(case, element, &subjects, stopped),
+        };
+        let matters: Vec<(bool, String)> = elements.par_iter().map(judge).collect();
         let needed = matters.iter().filter(|(matters, _)| *matters).count();
         let share = if elements.is_empty() { 1.0 } else { needed as f64 / elements.len() as f64 };
         let idle = elements.iter().zip(&matters).filter(|(_, (matters, _))| !matters);
@@ -94,7 +102,13 @@ struct Subject<'a> {
 
 impl Necessity {
     /// Returns whether an element matters, and a sentence that says on how many of its levels.
-    fn matters(&self, case: GameCase<'_>, element: &Element, subjects: &[Subject<'_>]) -> (bool, String) {
+    fn matters(
+        &self,
+        case: GameCase<'_>,
+        element: &Element,
+        subjects: &[Subject<'_>],
+        stopped: Stopped<'_>,
+    ) -> (bool, String) {
         let on = subjects.iter().filter(|subject| element.levels.contains(&subject.won.number));
         let on: Vec<&Subject<'_>> = on.collect();
         if on.is_empty() {
@@ -106,7 +120,7 @@ impl Necessity {
         let open: Vec<&Subject<'_>> =
             on.iter().zip(&shown).filter(|(_, shown)| !**shown).map(|(subject, _)| *subject).collect();
         for (tried, subject) in open.iter().enumerate() {
-            if count >= wanted || count + (open.len() - tried) < wanted {
+            if count >= wanted || count + (open.len() - tried) < wanted || stopped() {
                 break;
             }
             count += usize::from(self.hinders(case, element, subject));
