@@ -4,16 +4,36 @@ use crate::lines::Lines;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The most verdicts at a time.
+/// The most verdicts of a kind at a time.
 const MOST: usize = 2;
+
+/// The subject of a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Work {
+    /// A level that is drawn: somebody looks at it.
+    Level,
+    /// A game with all its levels: it waits its turn.
+    Game,
+}
 
 /// The running verdicts, the oldest first.
 #[derive(Default)]
 pub(crate) struct Running(Mutex<Vec<Entry>>);
 
 struct Entry {
+    work: Work,
     page: Option<String>,
     switch: Arc<AtomicBool>,
+}
+
+impl Entry {
+    fn is_live(&self) -> bool {
+        !self.switch.load(Ordering::Relaxed)
+    }
+
+    fn end(&self) {
+        self.switch.store(true, Ordering::Relaxed);
+    }
 }
 
 /// A running verdict; it ends when this is dropped.
@@ -23,22 +43,19 @@ pub(crate) struct Place<'a> {
 }
 
 impl Running {
-    /// Begins a verdict. It supersedes the one of the same page, and the oldest if there are too many.
-    pub(crate) fn begin(&self, page: Option<String>, lines: &Lines) -> Place<'_> {
+    /// Begins a verdict. It supersedes the one of the same page and kind, and the oldest of the kind if there are too many; one on a
+    /// level also that on the whole game of the same page, which has changed with it or can wait.
+    pub(crate) fn begin(&self, work: Work, page: Option<String>, lines: &Lines) -> Place<'_> {
         let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let switch = lines.switch();
-        for entry in entries.iter().filter(|entry| page.is_some() && entry.page == page) {
-            entry.switch.store(true, Ordering::Relaxed);
-        }
-        entries.push(Entry { page, switch: switch.clone() });
-        let live = entries.iter().filter(|entry| !entry.switch.load(Ordering::Relaxed)).count();
-        for entry in entries
-            .iter()
-            .filter(|entry| !entry.switch.load(Ordering::Relaxed))
-            .take(live.saturating_sub(MOST))
-        {
-            entry.switch.store(true, Ordering::Relaxed);
-        }
+        let gives_way = |entry: &&Entry| {
+            page.is_some() && entry.page == page && (entry.work == work || work == Work::Level)
+        };
+        entries.iter().filter(gives_way).for_each(Entry::end);
+        entries.push(Entry { work, page, switch: switch.clone() });
+        let live = || entries.iter().filter(|entry| entry.work == work && entry.is_live());
+        let surplus = live().count().saturating_sub(MOST);
+        live().take(surplus).for_each(Entry::end);
         Place { running: self, switch }
     }
 }
@@ -47,5 +64,32 @@ impl Drop for Place<'_> {
     fn drop(&mut self) {
         let mut entries = self.running.0.lock().unwrap_or_else(PoisonError::into_inner);
         entries.retain(|entry| !Arc::ptr_eq(&entry.switch, &self.switch));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_come_before_games() {
+        let running = Running::default();
+        let page = || Some("page".to_owned());
+        let ask = || Lines::new();
+        let is_ended = |lines: &Lines| lines.switch().load(Ordering::Relaxed);
+        let ((game, _one), (level, _two), (other, _three)) = (ask(), ask(), ask());
+        let _game = running.begin(Work::Game, page(), &game);
+        let _other = running.begin(Work::Game, Some("other".to_owned()), &other);
+        let _level = running.begin(Work::Level, page(), &level);
+        assert_eq!([&game, &level, &other].map(is_ended), [true, false, false]);
+        // A game does not end the verdict on a level, and only one of them is judged for a page.
+        let ((again, _four), (newest, _five)) = (ask(), ask());
+        let _again = running.begin(Work::Game, page(), &again);
+        let _newest = running.begin(Work::Game, page(), &newest);
+        assert_eq!([&level, &again, &newest, &other].map(is_ended), [false, true, false, false]);
+        // Of other pages, the oldest gives way.
+        let (last, _six) = ask();
+        let _last = running.begin(Work::Game, None, &last);
+        assert_eq!([&other, &newest, &last, &level].map(is_ended), [true, false, false, false]);
     }
 }

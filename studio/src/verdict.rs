@@ -65,15 +65,17 @@ impl Subject<'_> {
             .ask
             .retain(|name| *name != "winnable" && (is_open || !["length", "skill"].contains(&name.as_str())));
         let Ok(panel) = Panel::bounded(&criteria, CRITERIA) else { return Ok(()) };
+        let gone = || lines.check().is_err();
         let mut heard = Ok(());
-        panel.judge_aloud(game, level, witness, seed, &mut |judged| {
+        let tell = &mut |judged: &Judgement| {
             heard = lines.send(&criterion(judged, source));
             if let (Ok(()), Some(ladder)) = (heard, &judged.finding.ladder) {
                 heard = lines.send(&ladder_rows(ladder));
             }
             heard.is_ok()
-        });
-        Ok(heard?)
+        };
+        panel.judge_aloud(game, level, witness, seed, tell, &gone);
+        Ok(heard.and_then(|()| lines.check())?)
     }
 
     /// Looks for a win, and sends the answer.

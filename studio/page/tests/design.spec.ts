@@ -156,3 +156,31 @@ test('fingers paint on a phone, and the verdict is a tap away', async ({ browser
   await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
   await context.close();
 });
+
+test('the whole game is judged in the background, and never in the way', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  const whole = page.locator('.whole');
+  const judged: string[] = [];
+  page.on('request', (request) => { if (request.url().endsWith('/api/necessity')) judged.push(request.url()); });
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await expect(whole.locator('.criteria')).toContainText('necessity');
+  expect(judged).toHaveLength(1);
+  await expect(whole.getByText('of an earlier text')).toBeHidden();
+  // A change keeps the result, marked, until there is a new one.
+  await page.getByRole('radio', { name: /^hedge/ }).click();
+  await paint(page, 1, 3);
+  await expect(whole.getByText('of an earlier text')).toBeVisible();
+  await expect(whole.locator('.criteria')).toContainText('necessity');
+  await expect(page.getByText(/^Can be won in/)).toBeVisible();
+  await expect(whole.getByText('of an earlier text')).toBeHidden();
+  expect(judged).toHaveLength(2);
+  // Switched off, it waits for the button.
+  await whole.getByRole('checkbox', { name: 'in the background' }).uncheck();
+  await page.locator('.paint canvas').focus();
+  await page.keyboard.press('Control+z');
+  await expect(whole.getByText('of an earlier text')).toBeVisible();
+  await page.waitForTimeout(5000);
+  expect(judged).toHaveLength(2);
+  await whole.getByRole('button', { name: 'Judge all levels' }).click();
+  await expect(whole.getByText('of an earlier text')).toBeHidden();
+});

@@ -6,6 +6,7 @@ use crate::frames::{Frame, Tiles};
 use crate::lines::{Ended, Lines};
 use crate::positions;
 use crate::refusal::Refusal;
+use crate::running::Work;
 use crate::studio::Studio;
 use crate::verdict::{BYTES, FORESIGHT, Subject, criterion};
 use agents::{PortfolioConfig, Solution, solve_until};
@@ -15,7 +16,7 @@ use generators::levels::{Examples, LevelConfig};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
-use validators::{Criteria, Demand, Difficulty, GATES, Panel, Report, Tier};
+use validators::{Criteria, Demand, Difficulty, GATES, Judgement, Panel, Report, Tier};
 
 /// A level to judge.
 #[derive(Deserialize)]
@@ -36,7 +37,7 @@ fn problems(place: &str, text: &str, problems: &[Diagnostic]) -> Vec<Value> {
 }
 
 pub(crate) fn verdict(studio: &Studio, asked: Asked<Judge>, lines: &Lines) -> Result<(), Ended> {
-    let _running = studio.verdicts.begin(asked.page, lines);
+    let _running = studio.verdicts.begin(Work::Level, asked.page, lines);
     let Judge { source, level, budget, seed } = asked.body;
     let send = |problems: Vec<Value>| lines.send(&json!({ "stage": "problems", "problems": problems }));
     let compiled = match studio.compiled.find(&source) {
@@ -68,6 +69,7 @@ pub(crate) struct Necessity {
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
+    let _running = studio.verdicts.begin(Work::Game, asked.page, lines);
     let compiled = studio.compiled.need(&asked.body.source)?;
     let texts = asked.body.levels.iter();
     let levels: Vec<Level> = texts.map(|text| compiled.level(text)).collect::<Result<_, Refusal>>()?;
@@ -80,18 +82,17 @@ pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines)
     criteria.ask.dedup();
     let panel = Panel::bounded(&criteria, CALLS).map_err(Refusal::failed)?;
     let seed = Seed::from_text("studio");
+    let gone = &|| lines.check().is_err();
     let mut reports: Vec<Report> = Vec::new();
     for (number, level) in levels.iter().enumerate() {
         lines.send(&json!({ "stage": "judging", "level": number, "of": levels.len() }))?;
         let own = seed.child(&level.digest().to_string(), 0);
-        let goes_on = &mut |_: &validators::Judgement| lines.check().is_ok();
-        reports.push(panel.judge_aloud(&compiled.game, level, None, own, goes_on));
+        reports.push(panel.judge_aloud(&compiled.game, level, None, own, &mut |_| true, gone));
         lines.check()?;
     }
-    for judged in panel.judge_together(&compiled.game, &levels, &reports, seed) {
-        lines.send(&criterion(&judged, &compiled.source))?;
-    }
-    Ok(())
+    let tell = &mut |judged: &Judgement| lines.send(&criterion(judged, &compiled.source)).is_ok();
+    panel.judge_together_aloud(&compiled.game, &levels, &reports, seed, tell, gone);
+    Ok(lines.check()?)
 }
 
 /// Levels to make.

@@ -63,8 +63,6 @@ export function VerdictPanel(props: Props) {
   const [said, setSaid] = useState<Said>(NOTHING);
   const [stale, setStale] = useState(true);
   const [budget, setBudget] = useState<number | null>(null);
-  const text = useRef(level);
-  if (text.current !== level) text.current = level;
 
   useEffect(() => setBudget(null), [source, level]);
   useEffect(() => {
@@ -80,7 +78,8 @@ export function VerdictPanel(props: Props) {
           setStale(false);
         }
       } catch (failure) {
-        if (!abort.signal.aborted) setSaid({ ...now, done: true, error: words(failure) });
+        if (abort.signal.aborted) return;
+        setSaid({ ...now, done: true, error: words(failure) });
         setStale(false);
       }
     }, 120);
@@ -90,6 +89,7 @@ export function VerdictPanel(props: Props) {
     };
   }, [source, level, budget]);
 
+  const settled = said.done && !stale && said.error === null && !said.problems?.problems.some((one) => one.severity === 'error');
   return (
     <div class={`verdict ${stale ? 'stale' : ''}`} aria-live="polite" aria-busy={!said.done || stale}>
       <Headline said={said} onEpisode={props.onEpisode} onLonger={(calls) => setBudget(calls * 10)} />
@@ -121,7 +121,7 @@ export function VerdictPanel(props: Props) {
           </tbody></table>
         </section>
       )}
-      <Whole {...props} />
+      <Whole settled={settled} {...props} />
     </div>
   );
 }
@@ -240,43 +240,84 @@ function Seen({ evidence, episode, ...props }: Props & { evidence: Evidence; epi
   );
 }
 
-/** The gates over all levels; on request, since they take longer. */
-function Whole(props: Props) {
-  const [criteria, setCriteria] = useState<Criterion[]>([]);
-  const [abort, setAbort] = useState<AbortController | null>(null);
-  const [error, setError] = useState<string | null>(null);
+/** A criterion without links: in another text, its places are elsewhere. */
+function unlinked(one: Criterion): Criterion {
+  return { ...one, episode: null, evidence: one.evidence.map((seen) => ({ ...seen, tick: null, cell: null, rule: null })) };
+}
+
+/** The pause after the verdict on the level before all levels are judged, in milliseconds. */
+const PAUSE = 4000;
+
+/** The choice to judge all levels in the background, for as long as the page is open. */
+let inBackground = true;
+
+/** The criteria of the whole game, over all levels: by themselves when nothing changes for a while, or on request. A change ends it. */
+function Whole({ settled, ...props }: Props & { settled: boolean }) {
   const key = `${props.source}\n${props.levels.join('\n')}`;
-  const [judged, setJudged] = useState('');
-  const [level, setLevel] = useState('');
-  useEffect(() => () => abort?.abort(), [abort]);
+  const [result, setResult] = useState<{ key: string; criteria: Criterion[] } | null>(null);
+  const [failed, setFailed] = useState<{ key: string; text: string } | null>(null);
+  const [progress, setProgress] = useState<string | null>(null);
+  const [background, setBackground] = useState(inBackground);
+  const [stopped, setStopped] = useState('');
+  const running = useRef<AbortController | null>(null);
+
+  const stop = (): void => {
+    running.current?.abort();
+    running.current = null;
+    setProgress(null);
+  };
   const judge = async (): Promise<void> => {
+    stop();
     const control = new AbortController();
-    setAbort(control);
-    setCriteria([]);
-    setError(null);
-    setJudged(key);
-    setLevel('');
+    running.current = control;
+    setFailed(null);
+    setProgress('judging');
+    const criteria: Criterion[] = [];
+    let error: string | null = null;
     try {
       for await (const line of stream<VerdictLine>('/api/necessity', { source: props.source, levels: props.levels }, control.signal)) {
-        if (line.stage === 'criterion') setCriteria((before) => [...before, line]);
-        else if (line.stage === 'judging') setLevel(`level ${line.level + 1} of ${line.of}`);
-        else if (line.stage === 'error') setError(line.error);
+        if (control.signal.aborted) return;
+        if (line.stage === 'criterion') criteria.push(line);
+        else if (line.stage === 'judging') setProgress(`judging level ${line.level + 1} of ${line.of}`);
+        else if (line.stage === 'error') error = line.error;
       }
     } catch (failure) {
-      setError(words(failure));
+      error = words(failure);
     }
-    setAbort(null);
+    if (control.signal.aborted) return;
+    running.current = null;
+    setProgress(null);
+    if (error === null) setResult({ key, criteria });
+    else setFailed({ key, text: error === 'superseded' ? 'other pages of this studio came first.' : error });
   };
+
+  // Another text, or a verdict on a level that has begun, comes first.
+  useEffect(() => stop, [key, settled]);
+  const wanted = background && settled && result?.key !== key && failed?.key !== key && stopped !== key;
+  useEffect(() => {
+    if (!wanted) return undefined;
+    const timer = window.setTimeout(() => void judge(), PAUSE);
+    return () => window.clearTimeout(timer);
+  }, [wanted, key]);
   return (
     <section class="whole">
       <h3>The whole game</h3>
       <p class="row">
-        {abort ? <button type="button" onClick={() => abort.abort()}>Stop</button> : <button type="button" onClick={() => void judge()}>Judge all levels</button>}
-        {abort && <><span class="spinner" aria-hidden="true" /><span class="soft">{level}</span></>}
-        {criteria.length > 0 && judged !== key && <span class="soft">of an earlier state</span>}
+        {progress !== null
+          ? <button type="button" onClick={() => { setStopped(key); stop(); }}>Stop</button>
+          : <button type="button" disabled={!settled} onClick={() => void judge()}>Judge all levels</button>}
+        <label class="check"><input type="checkbox" checked={background} onChange={(event) => {
+          inBackground = event.currentTarget.checked;
+          setBackground(inBackground);
+          if (!inBackground) stop();
+        }} /> in the background</label>
       </p>
-      {error && <p class="notice bad" role="alert">{error}</p>}
-      {criteria.length > 0 && <Criteria criteria={criteria} {...props} />}
+      <p class="row soft progress" aria-live="off">
+        {progress !== null && <><span class="spinner" aria-hidden="true" />{progress}</>}
+        {result && result.key !== key && <span class="chip">of an earlier text</span>}
+      </p>
+      {failed?.key === key && <p class="soft">Not judged: {failed.text}</p>}
+      {result && <Criteria criteria={result.key === key ? result.criteria : result.criteria.map(unlinked)} {...props} />}
     </section>
   );
 }
