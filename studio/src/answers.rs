@@ -7,7 +7,7 @@ use axum::body::Body;
 use axum::extract::{Path, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use axum::routing::{MethodRouter, get, post, put};
+use axum::routing::{MethodFilter, MethodRouter, get, on, post};
 use evaluation::serve::Bounds;
 use evaluation::serve::loopback::{Bodies, Unread};
 use serde::Serialize;
@@ -114,8 +114,9 @@ pub(crate) fn of_part<O: Serialize + 'static>(
     })
 }
 
-/// A change of a part of a game.
-pub(crate) fn put_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
+/// A change of a part of a game, by this method.
+pub(crate) fn change_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
+    method: MethodFilter,
     work: fn(&Studio, &str, &str, I) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
     let answer = move |State(serving): State<Serving>,
@@ -126,7 +127,7 @@ pub(crate) fn put_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'sta
             Err(refusal) => refusal.into_response(),
         }
     };
-    put(answer)
+    on(method, answer)
 }
 
 /// A question with a body.

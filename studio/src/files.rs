@@ -94,6 +94,14 @@ pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
     })
 }
 
+/// Removes a file.
+pub(crate) fn remove(file: &Path) -> Result<(), Refusal> {
+    fs::remove_file(file).map_err(|error| {
+        Refusal::failed(format_args!("cannot remove {}: {}", shown(file), error.kind()))
+            .help("check the folder")
+    })
+}
+
 fn unreadable(path: &Path, error: &io::Error) -> Refusal {
     match error.kind() {
         ErrorKind::NotFound => Refusal::missing(format_args!("{} is gone", shown(path))),

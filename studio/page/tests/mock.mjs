@@ -2,7 +2,7 @@
 // Usage: node mock.mjs games|snapshot|judge|results [FOLDER]; the first line of output is the address.
 import { createServer } from 'node:http';
 import { createHash, randomUUID } from 'node:crypto';
-import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -285,6 +285,10 @@ const server = createServer(async (request, response) => {
       if (parts[2] === 'witness') return answer(200, { actions: search(begin(of.source.text, of.levels[Number(parts[3].slice(3))].text)).actions });
       const now = files.find((file) => file.name === parts[3]);
       if ((now?.digest ?? null) !== body.base) return answer(409, { error: `${parts[3]} was changed by another program`, help: null, text: now?.text, digest: now?.digest });
+      if (request.method === 'DELETE') {
+        rmSync(join(dirs.get(parts[1]), parts[3]));
+        return answer(200, {});
+      }
       writeFileSync(join(dirs.get(parts[1]), parts[3]), body.text);
       return answer(200, { digest: digest(body.text) });
     }

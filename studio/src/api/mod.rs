@@ -9,8 +9,9 @@ mod results;
 mod verdict;
 mod workspace;
 
-use crate::answers::{Serving, asked, awaited, of_game, of_part, put_part, streamed, told};
+use crate::answers::{Serving, asked, awaited, change_part, of_game, of_part, streamed, told};
 use axum::Router;
+use axum::routing::MethodFilter;
 
 pub(crate) use boards::Replayed;
 pub(crate) use release::release as release_of;
@@ -18,12 +19,14 @@ pub(crate) use workspace::game as game_of;
 
 /// Returns the routes of all questions.
 pub(crate) fn routes() -> Router<Serving> {
+    let files = change_part(MethodFilter::PUT, workspace::save)
+        .merge(change_part(MethodFilter::DELETE, workspace::remove));
     Router::new()
         .route("/api/workspace", told(workspace::workspace))
         .route("/api/games/{id}", of_game(workspace::game))
         .route("/api/games/{id}/versions", of_game(workspace::versions))
         .route("/api/games/{id}/witness/{name}", of_part(workspace::witness))
-        .route("/api/games/{id}/files/{name}", put_part(workspace::save))
+        .route("/api/games/{id}/files/{name}", files)
         .route("/api/copy", asked(workspace::copy))
         .route("/api/check", asked(editor::check))
         .route("/api/hover", asked(editor::hover))

@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
+use std::path::Path;
 use std::sync::PoisonError;
 
 pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
@@ -123,20 +124,49 @@ pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result
         ));
     }
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
-    let now = files::content(&path)?;
-    let digest = now.as_ref().map(|text| Digest::of(text.as_bytes()));
-    if digest != asked.base {
-        let error = match now {
-            Some(_) => format!("{name} was changed by another program"),
-            None => format!("{name} was removed by another program"),
-        };
-        return Err(Refusal::new(StatusCode::CONFLICT, error)
-            .help("keep one of the two texts, or merge them, and save again")
-            .with("text", now)
-            .with("digest", json!(digest)));
-    }
+    unchanged(&path, name, asked.base, "keep one of the two texts, or merge them, and save again")?;
     files::write(&path, &asked.text)?;
     Ok(json!({ "digest": Digest::of(asked.text.as_bytes()) }))
+}
+
+/// Refuses to go on if a file is not what the page has seen.
+fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Result<(), Refusal> {
+    let now = files::content(path)?;
+    let digest = now.as_ref().map(|text| Digest::of(text.as_bytes()));
+    if digest == base {
+        return Ok(());
+    }
+    let error = match now {
+        Some(_) => format!("{name} was changed by another program"),
+        None => format!("{name} was removed by another program"),
+    };
+    let refusal = Refusal::new(StatusCode::CONFLICT, error).help(help);
+    Err(refusal.with("text", now).with("digest", json!(digest)))
+}
+
+/// The digest of a file that is to be removed.
+#[derive(Deserialize)]
+pub(crate) struct Remove {
+    base: Digest,
+}
+
+pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Result<Value, Refusal> {
+    let game = studio.workspace.game(id)?;
+    let path = game.path_of(name)?;
+    let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
+    // Without the last one, the numbers of the others have no gap.
+    let last =
+        path.parent().map(files::level_numbers).transpose()?.and_then(|numbers| numbers.last().copied());
+    let Some(last) = last.filter(|_| files::level_number(name).is_some()) else {
+        return Err(Refusal::forbidden("only levels can be removed"));
+    };
+    if files::level_number(name) < Some(last) {
+        return Err(Refusal::forbidden(format_args!("only the last level can be removed, lvl{last}.txt"))
+            .help("move what you want to keep to the levels before it"));
+    }
+    unchanged(&path, name, Some(asked.base), "look at what it is now before you remove it")?;
+    files::remove(&path)?;
+    Ok(json!({}))
 }
 
 /// A game to copy, and the title of the copy.

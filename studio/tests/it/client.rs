@@ -144,6 +144,10 @@ impl Running {
         self.send("PUT", path, &self.own(), body.to_string().as_bytes())
     }
 
+    pub(crate) fn delete(&self, path: &str, body: &Value) -> Answer {
+        self.send("DELETE", path, &self.own(), body.to_string().as_bytes())
+    }
+
     /// Asks, and returns the answer, which must be one.
     pub(crate) fn ask(&self, path: &str, body: &Value) -> Value {
         let answer = self.post(path, body);

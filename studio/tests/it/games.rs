@@ -190,6 +190,43 @@ fn saving_replaces_only_what_was_seen() {
 }
 
 #[test]
+fn only_the_last_level_is_removed() {
+    let home = tempfile::tempdir().expect("temporary folder");
+    let running =
+        run(studio(home.path(), vec![in_folder("one", home.path()), in_memory("two", GAME, &[LEVEL])]));
+    let at = |name: &str| home.path().join(name);
+    let path = |name: &str| format!("/api/games/one/files/{name}");
+    let base = |text: &str| json!({ "base": Digest::of(text.as_bytes()) });
+    for number in 1..4 {
+        std::fs::write(at(&format!("lvl{number}.txt")), format!("A{number}\n")).expect("written");
+    }
+    for (name, body, status) in [
+        ("lvl0.txt", base(LEVEL), 403),
+        ("lvl2.txt", base("A2\n"), 403),
+        ("lvl4.txt", base("A4\n"), 409),
+        ("game.vgdl", base(GAME), 403),
+        ("CARD.toml", base(""), 404),
+        ("..%2Flvl3.txt", base("A3\n"), 404),
+        ("lvl3.txt", base("A2\n"), 409),
+        ("lvl3.txt", json!({ "base": null }), 400),
+        ("lvl3.txt", json!({}), 400),
+    ] {
+        let answer = running.delete(&path(name), &body);
+        assert_eq!(answer.status, status, "{name} {body}");
+    }
+    assert_eq!(running.delete("/api/games/two/files/lvl0.txt", &base(LEVEL)).status, 403);
+    // Changed by another program since the page read it: it is kept, and shown.
+    std::fs::write(at("lvl3.txt"), "wA\n").expect("written");
+    let answer = running.delete(&path("lvl3.txt"), &base("A3\n"));
+    assert_eq!((answer.status, &answer.json()["text"]), (409, &json!("wA\n")));
+    assert_eq!(running.delete(&path("lvl3.txt"), &base("wA\n")).status, 200);
+    assert_eq!(running.delete(&path("lvl3.txt"), &base("wA\n")).status, 409);
+    assert_eq!(running.delete(&path("lvl2.txt"), &base("A2\n")).status, 200);
+    let names = running.get("/api/games/one/versions").json()["files"].as_object().expect("files").len();
+    assert_eq!(names, 3);
+}
+
+#[test]
 fn games_that_cannot_be_changed_are_copied() {
     let home = tempfile::tempdir().expect("temporary folder");
     let running = run(studio(home.path(), vec![in_memory("one", GAME, &[LEVEL])]));

@@ -4,7 +4,7 @@ use crate::client::{GAME, LEVEL, in_folder, run, studio, usual};
 use serde_json::json;
 
 /// Paths that read or change something.
-const QUESTIONS: [(&str, &str); 9] = [
+const QUESTIONS: [(&str, &str); 11] = [
     ("GET", "/api/workspace"),
     ("GET", "/api/games/one"),
     ("GET", "/api/planners"),
@@ -12,6 +12,8 @@ const QUESTIONS: [(&str, &str); 9] = [
     ("POST", "/api/verdict"),
     ("POST", "/api/copy"),
     ("PUT", "/api/games/one/files/lvl0.txt"),
+    ("DELETE", "/api/games/one/files/lvl0.txt"),
+    ("POST", "/api/judge/watch"),
     ("GET", "/api/judge/report"),
     ("GET", "/api/nothing"),
 ];
@@ -171,7 +173,12 @@ fn links_are_neither_followed_nor_replaced() {
         let answer = running.put("/api/games/one/files/lvl1.txt", &json!({ "text": "x", "base": base }));
         assert_eq!(answer.status, 403);
     }
+    let base = json!({ "base": engine::Digest::of(b"target") });
+    let answer =
+        running.send("DELETE", "/api/games/one/files/lvl1.txt", &running.own(), base.to_string().as_bytes());
+    assert_eq!(answer.status, 403);
     assert_eq!(std::fs::read_to_string(&target).expect("read"), "target");
+    assert!(folder.join("lvl1.txt").is_symlink());
 }
 
 fn names(folder: &std::path::Path) -> Vec<std::ffi::OsString> {

@@ -84,6 +84,10 @@ export async function put<T>(path: string, body: unknown): Promise<T> {
   return (await (await request('PUT', path, body)).json()) as T;
 }
 
+export async function remove(path: string, body: unknown): Promise<void> {
+  await request('DELETE', path, body);
+}
+
 /** Yields the objects of a stream as they come; ends quietly when the signal aborts it. */
 export async function* stream<T>(path: string, body: unknown, signal: AbortSignal): AsyncGenerator<T> {
   try {

@@ -1,5 +1,5 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { Failure, get, post, put, segment, words } from '../data/api';
+import { Failure, get, post, put, remove, segment, words } from '../data/api';
 import { replay } from '../data/studio';
 import { Run } from '../data/run';
 import type { Check, Edit, Episode, Game, Problem, RuleSpan } from '../data/types';
@@ -42,6 +42,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
   const [levels, setLevels] = useState<Draft[]>(() => game.levels.map(draft));
   const [check, setCheck] = useState<Check>(EMPTY);
   const [checked, setChecked] = useState('');
+  const [checkedLevels, setCheckedLevels] = useState<string[]>([]);
   const [sound, setSound] = useState(game.source.text);
   const [panel, setPanel] = useState<Panel>('verdict');
   const [pane, setPane] = useState<'rules' | 'board' | 'panel'>('board');
@@ -53,10 +54,14 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
   const [conflict, setConflict] = useState<Conflict | null>(null);
   const [renaming, setRenaming] = useState<{ at: number; word: string } | null>(null);
   const [copying, setCopying] = useState(false);
+  const [removing, setRemoving] = useState(false);
   const [brush, setBrush] = useState<string | null>(null);
   const pasts = useRef(new Map<string, { past: string[]; future: string[]; stroke: number }>());
   const editor = useRef<EditorHandle>(null);
   const saves = useRef(0);
+  const saving = useRef(false);
+  const runs = useRef(0);
+  const pages = useRef(0);
   const at = Math.max(0, Math.min(level, levels.length - 1));
   const now = levels[at];
   const texts = useMemo(() => levels.map((one) => one.text), [levels]);
@@ -73,6 +78,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
           // The palette of the last rules that compiled stays.
           setCheck((before) => (answer.legend.length > 0 ? answer : { ...answer, legend: before.legend, tiles: before.tiles }));
           setChecked(source.text);
+          setCheckedLevels(texts);
           // Boards are drawn by the last rules that compiled.
           if (!answer.problems.some((problem) => problem.severity === 'error')) setSound(source.text);
         },
@@ -92,6 +98,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
     stopRun();
   }, [at]);
   useEffect(() => () => run?.close(), [run]);
+  useEffect(() => () => { runs.current += 1; }, []);
 
   useEffect(() => {
     const unsaved = (): boolean => [state.current.source, ...state.current.levels].some((one) => one.text !== one.saved);
@@ -120,16 +127,21 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
     const began = saves.current;
     try {
       const { files } = await get<{ files: Record<string, string> }>(`/api/games/${segment(game.id)}/versions`);
-      const { source, levels } = state.current;
-      const known = new Map([source, ...levels].map((one) => [one.name, one]));
+      const before = [state.current.source, ...state.current.levels];
+      const known = new Map(before.map((one) => [one.name, one]));
       const changed = Object.entries(files).filter(([name, digest]) => known.get(name)?.base !== digest);
-      if (changed.length === 0 || began !== saves.current) return;
+      const isGone = (one: Draft): boolean => one.base !== null && !(one.name in files);
+      if ((changed.length === 0 && !before.some(isGone)) || began !== saves.current) return;
       const fresh = await get<Game>(`/api/games/${segment(game.id)}`);
       if (began !== saves.current) return;
+      // As it is now: someone may have typed while the files were read.
+      const { source, levels } = state.current;
       const taken: string[] = [];
       const kept: string[] = [];
       const renew = (one: Draft): Draft => {
         const file = [fresh.source, ...fresh.levels].find((other) => other.name === one.name);
+        // Saving writes it anew.
+        if (!file && one.base !== null) return { ...one, saved: '', base: null };
         if (!file || file.digest === one.base) return one;
         if (one.text === file.text) return { ...one, saved: file.text, base: file.digest };
         if (one.text !== one.saved) {
@@ -140,7 +152,8 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         return draft(file);
       };
       const nextSource = renew(source);
-      const nextLevels = levels.map(renew);
+      const gone = levels.filter((one) => one.base !== null && one.text === one.saved && !fresh.levels.some((file) => file.name === one.name));
+      const nextLevels = levels.filter((one) => !gone.includes(one)).map(renew);
       for (const file of fresh.levels) {
         if (nextLevels.some((one) => one.name === file.name)) continue;
         taken.push(file.name);
@@ -153,6 +166,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
       setLevels(nextLevels);
       if (kept.length > 0) setNotice({ text: `${kept.join(', ')} changed outside, and here too. Saving will ask which to keep.`, bad: true });
       else if (taken.length > 0) setNotice({ text: `${taken.join(', ')} changed outside and was read again.`, bad: false });
+      else if (gone.length > 0) setNotice({ text: `${gone.map((one) => one.name).join(', ')} was removed outside.`, bad: false });
     } catch {
       return; // The next look may succeed; saving reports what is wrong.
     }
@@ -165,7 +179,17 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
 
   const save = async (): Promise<void> => {
     if (!game.writable) return setCopying(true);
+    if (saving.current) return undefined;
     if (dirty.length === 0) return setNotice({ text: 'Everything is saved.', bad: false });
+    saving.current = true;
+    try {
+      await saveAll();
+    } finally {
+      saving.current = false;
+    }
+    return undefined;
+  };
+  const saveAll = async (): Promise<void> => {
     for (const file of dirty) {
       saves.current += 1;
       try {
@@ -226,22 +250,46 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
     setFile(now.name, (one) => ({ ...one, text }));
   };
   const addLevel = (text: string): void => {
-    let number = levels.length;
-    while (levels.some((one) => one.name === `lvl${number}.txt`)) number += 1;
+    const number = 1 + Math.max(-1, ...levels.map((one) => Number(/\d+/.exec(one.name)?.[0] ?? -1)));
     setLevels([...levels, { name: `lvl${number}.txt`, text, saved: '', base: null }]);
     go('design', game.id, levels.length);
   };
 
-  const stopRun = (): void => setRun((before) => { before?.close(); return null; });
+  /** Removes the last level, from the disk too if it was saved. */
+  const removeLevel = async (): Promise<void> => {
+    const last = levels[levels.length - 1];
+    if (!last) return;
+    saves.current += 1;
+    try {
+      if (last.base !== null) await remove(`/api/games/${segment(game.id)}/files/${segment(last.name)}`, { base: last.base });
+    } finally {
+      saves.current += 1;
+    }
+    pasts.current.delete(last.name);
+    setLevels((all) => all.filter((one) => one.name !== last.name));
+    setRemoving(false);
+    setNotice({ text: `Removed ${last.name}.`, bad: false });
+    go('design', game.id, Math.max(0, levels.length - 2));
+    if (last.base !== null) onChanged();
+  };
+
+  const stopRun = (): void => {
+    runs.current += 1;
+    setRun((before) => { before?.close(); return null; });
+  };
   const showRun = (make: Promise<Run>, name: string, then?: (run: Run) => void): void => {
+    runs.current += 1;
+    const mine = runs.current;
     make.then(
       (made) => {
+        // Something else was asked for meanwhile.
+        if (mine !== runs.current) return made.close();
         setRun((before) => { before?.close(); return made; });
         setRunName(name);
         setPane('board');
-        then?.(made);
+        return then?.(made);
       },
-      (failure: unknown) => setNotice({ text: words(failure), bad: true }),
+      (failure: unknown) => { if (mine === runs.current) setNotice({ text: words(failure), bad: true }); },
     );
   };
   const tryOut = (): void => showRun(Run.begin(source.text, now?.text ?? '', 'design', isTurnBased(null, check.describe)), 'Trying it out');
@@ -261,22 +309,29 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
     window.setTimeout(() => editor.current?.show(problem.start, problem.end), 0);
   };
   const showPage = (name: string): void => {
+    pages.current += 1;
+    const mine = pages.current;
     post<{ markdown: string }>('/api/page', { name }).then(
       ({ markdown }) => {
+        if (mine !== pages.current) return;
         setPage({ name, markdown });
         setPanel('page');
         setPane('panel');
       },
-      (failure: unknown) => setNotice({ text: words(failure), bad: true }),
+      (failure: unknown) => { if (mine === pages.current) setNotice({ text: words(failure), bad: true }); },
     );
   };
   const format = (): void => {
-    post<{ text: string }>('/api/format', { source: source.text }).then(
-      ({ text }) => editor.current?.replace(text),
+    const asked = source.text;
+    post<{ text: string }>('/api/format', { source: asked }).then(
+      // Whoever typed on does not lose that.
+      ({ text }) => { if (state.current.source.text === asked) editor.current?.replace(text); },
       (failure: unknown) => setNotice({ text: words(failure), bad: true }),
     );
   };
 
+  // Only the last one, so that the numbers have no gap; a game keeps one level.
+  const removable = levels.length > 1 && at === levels.length - 1 && (game.writable || now?.base === null);
   const grid = parse(now?.text ?? '');
   const problems = checked === source.text ? check.problems : [];
   const levelProblems = check.levels[at]?.problems ?? [];
@@ -291,6 +346,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
             </a>
           ))}
           <button type="button" aria-label="Add a level" title="Add a level" onClick={() => addLevel(now?.text ?? '')}><Icon name="plus" /></button>
+          {removable && <button type="button" aria-label="Remove this level" title="Remove this level" onClick={() => setRemoving(true)}><Icon name="minus" /></button>}
         </nav>
         <div class="segments panes" role="group" aria-label="Shown">
           {(['rules', 'board', 'panel'] as const).map((one) => (
@@ -352,7 +408,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
             problems={levelProblems}
             onShow={(problem) => showCells(spanOf(problem))}
             onPage={showPage}
-            onFix={(edits) => edit(applied(now.text, edits), -2 - Math.random())}
+            onFix={(edits) => { if (checkedLevels[at] === now.text) edit(applied(now.text, edits), -2 - Math.random()); }}
           />
         )}
       </section>
@@ -402,6 +458,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
           }}
         />
       )}
+      {removing && now && <RemoveDialog level={at + 1} name={now.name} isSaved={now.base !== null} onClose={() => setRemoving(false)} onRemove={removeLevel} />}
       {copying && (
         <CopyWithChanges
           game={game}
@@ -449,6 +506,20 @@ function ConflictDialog({ conflict, mine, onClose, onMine, onTheirs }: { conflic
         <button type="button" onClick={onClose}>Decide later</button>
         <button type="button" onClick={onTheirs}>Take the file's</button>
         <button type="button" class="strong" onClick={onMine}>Keep mine</button>
+      </div>
+    </Dialog>
+  );
+}
+
+function RemoveDialog({ level, name, isSaved, onClose, onRemove }: { level: number; name: string; isSaved: boolean; onClose: () => void; onRemove: () => Promise<void> }) {
+  const [error, setError] = useState<string | null>(null);
+  return (
+    <Dialog title={`Remove level ${level}?`} onClose={onClose}>
+      <p>{isSaved ? <>The file <code>{name}</code> is deleted from the disk. This cannot be undone.</> : <><code>{name}</code> was never saved. This cannot be undone.</>}</p>
+      {error && <p class="notice bad" role="alert">{error}</p>}
+      <div class="buttons">
+        <button type="button" onClick={onClose} autofocus>Keep it</button>
+        <button type="button" class="strong" onClick={() => void onRemove().catch((failure: unknown) => setError(words(failure)))}>Remove it</button>
       </div>
     </Dialog>
   );
