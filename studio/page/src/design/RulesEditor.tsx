@@ -218,9 +218,10 @@ function rename(view: EditorView, call: (at: number, word: string) => void): voi
 
 /** Goes to where the name under the cursor is defined. */
 async function define(view: EditorView): Promise<void> {
+  const { doc } = view.state;
   try {
-    const found = await post<{ start: number; end: number } | null>('/api/definition', { source: view.state.doc.toString(), at: view.state.selection.main.head });
-    if (found) view.dispatch({ selection: { anchor: found.start, head: found.end }, scrollIntoView: true });
+    const found = await post<{ start: number; end: number } | null>('/api/definition', { source: doc.toString(), at: view.state.selection.main.head });
+    if (found && view.state.doc.eq(doc)) view.dispatch({ selection: { anchor: found.start, head: found.end }, scrollIntoView: true });
   } catch {
     return; // Stays where it is.
   }

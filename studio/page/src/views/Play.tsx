@@ -26,22 +26,25 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
   const [budget, setBudget] = useState('400');
   const planners = useAsked<{ name: string; help: string }[]>((signal) => (live ? get('/api/planners', signal) : Promise.resolve([])), []);
   const file = useRef<HTMLInputElement>(null);
+  const holds = useRef(0);
   const witness = watch === null ? null : (game.witnesses.find((one) => one.name === watch) ?? null);
   const shownLevel = witness ? studio.levelOf(game, witness) : Math.min(level, game.levels.length - 1);
   useTitle(`${game.title}, level ${shownLevel + 1}`);
   useRun(run);
 
+  /** Shows a run when it is there, unless another one was asked for meanwhile. */
   const hold = (make: Promise<Run>): (() => void) => {
-    let dropped = false;
+    holds.current += 1;
+    const mine = holds.current;
     setError(null);
     make.then(
       (made) => {
-        if (dropped) made.close();
+        if (mine !== holds.current) made.close();
         else setRun((before) => { before?.close(); return made; });
       },
-      (failure: unknown) => { if (!dropped) setError(words(failure)); },
+      (failure: unknown) => { if (mine === holds.current) setError(words(failure)); },
     );
-    return () => { dropped = true; };
+    return () => { holds.current += 1; };
   };
   const begin = (): Promise<Run> => {
     setSown(seed);
