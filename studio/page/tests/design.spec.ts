@@ -1,7 +1,7 @@
-import { readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from '@playwright/test';
-import { expect, open, test } from './studio';
+import { expect, isMock, open, test } from './studio';
 
 const VIEW = 'design/moth-and-lamps/0';
 
@@ -183,4 +183,123 @@ test('the whole game is judged in the background, and never in the way', async (
   expect(judged).toHaveLength(2);
   await whole.getByRole('button', { name: 'Judge all levels' }).click();
   await expect(whole.getByText('of an earlier text')).toBeHidden();
+});
+
+test('the manual opens at a word and at a problem', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  const title = page.getByRole('tabpanel').locator('.prose h3').first();
+  await page.locator('.cm-line', { hasText: 'lamp moth' }).getByText('killSprite').click();
+  await page.keyboard.press('F1');
+  await expect(page.getByRole('tab', { name: 'Manual' })).toHaveAttribute('aria-selected', 'true');
+  await expect(title).toHaveText(/killSprite/);
+  await misspell(page);
+  await expect(page.locator('.cm-lintRange-error').first()).toBeVisible();
+  await page.locator('.cm-lintRange-error').first().click();
+  await page.keyboard.press('F1');
+  await expect(title).toHaveText('unknown-sprite');
+});
+
+test('a name leads to its definition, by key and by click', async ({ page, studio }) => {
+  test.skip(isMock, 'the mock knows no definitions');
+  await open(page, await studio('games'), VIEW);
+  const definition = page.locator('.cm-activeLine', { hasText: 'lamp > Immovable' });
+  const use = page.locator('.cm-line', { hasText: 'stype=lamp' });
+  await use.click();
+  await page.keyboard.press('Home');
+  for (let step = 0; step < 'SpriteCounter stype=l'.length; step += 1) await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('F12');
+  await expect(definition).toBeVisible();
+  await page.locator('.cm-line', { hasText: 'moth hedge' }).click();
+  await expect(definition).toBeHidden();
+  // Plain names have no element of their own.
+  const place = await page.locator('.cm-line', { hasText: 'lamp moth' }).evaluate((line) => {
+    const texts = document.createTreeWalker(line, NodeFilter.SHOW_TEXT);
+    for (let text = texts.nextNode(); text; text = texts.nextNode()) {
+      const at = text.nodeValue?.indexOf('lamp') ?? -1;
+      if (at < 0) continue;
+      const range = document.createRange();
+      range.setStart(text, at + 1);
+      range.setEnd(text, at + 3);
+      const { x, y, width, height } = range.getBoundingClientRect();
+      return [x + width / 2, y + height / 2] as const;
+    }
+    throw new Error('the name is not shown');
+  });
+  await page.keyboard.down('Control');
+  await page.mouse.click(...place);
+  await page.keyboard.up('Control');
+  await expect(definition).toBeVisible();
+});
+
+test('evidence leads to the rule that it names', async ({ page, studio }) => {
+  await open(page, await studio('games'), VIEW);
+  await page.getByRole('radio', { name: /^hedge/ }).click();
+  await paint(page, 2, 3);
+  await paint(page, 4, 3);
+  const cause = page.locator('.verdict .evidence li', { hasText: / line \d/ }).first();
+  await expect(cause).toBeVisible();
+  const line = Number(/ line (\d+)/.exec((await cause.textContent()) ?? '')?.[1]);
+  await cause.getByRole('button').click();
+  await expect(page.locator('.cm-shown')).toHaveCount(1);
+  const shown = await page.locator('.cm-shown').evaluate((node) => [...(node.parentElement?.children ?? [])].indexOf(node) + 1);
+  expect(shown).toBe(line);
+  await expect(page.locator('.cm-content')).toBeFocused();
+});
+
+test('a game of the corpus is saved as a copy with the changes', async ({ page, studio }) => {
+  test.skip(isMock, 'the mock has no corpus');
+  const running = await studio('corpus');
+  await open(page, running, 'design/hailglass/0');
+  await page.getByRole('button', { name: 'Text', exact: true }).click();
+  const level = page.getByLabel('Level as text');
+  const before = await level.inputValue();
+  const after = `${before.split('\n')[0]}\n${before}`;
+  await level.fill(after);
+  await page.locator('.cm-line').first().click();
+  await page.keyboard.press('End');
+  await page.keyboard.type(' # mine');
+  await page.keyboard.press('Control+s');
+  await page.getByRole('dialog').getByLabel('Title').fill('My Hail');
+  await page.getByRole('dialog').getByRole('button', { name: 'Save' }).click();
+  await expect(page).toHaveURL(/#\/design\/my-hail\/0$/);
+  await expect(page.getByRole('link', { name: 'My Hail' })).toBeVisible();
+  const file = (name: string): string => readFileSync(join(running.folder, 'my-hail', name), 'utf8');
+  expect(file('lvl0.txt')).toBe(after);
+  expect(file('game.vgdl').split('\n')[0]).toBe('BasicGame # mine');
+  await page.getByRole('button', { name: 'Text', exact: true }).click();
+  await expect(level).toHaveValue(after);
+  await expect(page.getByRole('button', { name: 'Save', exact: true })).toBeVisible();
+});
+
+test('the last level is removed after a question, and no other', async ({ page, studio }) => {
+  const running = await studio('games');
+  const file = join(running.folder, 'moth-and-lamps/lvl1.txt');
+  await open(page, running, VIEW);
+  const tabs = page.getByRole('navigation', { name: 'Levels' });
+  const remove = tabs.getByRole('button', { name: 'Remove this level' });
+  await expect(tabs.getByRole('link')).toHaveCount(2);
+  await expect(remove).toBeHidden();
+  await tabs.getByRole('link').last().click();
+  await remove.click();
+  await page.getByRole('dialog').getByRole('button', { name: 'Keep it' }).click();
+  expect(existsSync(file)).toBe(true);
+  await remove.click();
+  await expect(page.getByRole('dialog')).toContainText('lvl1.txt');
+  await page.getByRole('dialog').getByRole('button', { name: 'Remove it' }).click();
+  await expect(tabs.getByRole('link')).toHaveCount(1);
+  await expect(page.getByText('Removed lvl1.txt.')).toBeVisible();
+  expect(existsSync(file)).toBe(false);
+  await expect(remove).toBeHidden();
+  // One that was never saved goes without a trace, and the next takes its number.
+  await tabs.getByRole('button', { name: 'Add a level' }).click();
+  await remove.click();
+  await page.getByRole('dialog').getByRole('button', { name: 'Remove it' }).click();
+  await expect(tabs.getByRole('link')).toHaveCount(1);
+  await tabs.getByRole('button', { name: 'Add a level' }).click();
+  await page.keyboard.press('Control+s');
+  await expect(page.getByText('Saved lvl1.txt.')).toBeVisible();
+  // Removed by another program, it goes here too.
+  rmSync(file);
+  await expect(page.getByText('lvl1.txt was removed outside.')).toBeVisible();
+  await expect(tabs.getByRole('link')).toHaveCount(1);
 });
