@@ -9,11 +9,15 @@ const VIEWS: [string, Mode, string][] = [
   ['game', 'corpus', 'game/first-ice'],
   ['play', 'corpus', 'play/first-ice/4'],
   ['design', 'corpus', 'design/quiet-jars/1'],
+  ['whole', 'games', 'design/moth-and-lamps/0'],
+  ['removal', 'games', 'design/moth-and-lamps/1'],
   ['broken', 'games', 'design/moth-and-lamps/0'],
   ['snapshot', 'snapshot', ''],
   ['release', 'snapshot', 'release'],
+  ['line', 'line', 'release'],
   ['watch', 'snapshot', ''],
   ['judge', 'judge', 'judge'],
+  ['watched', 'judge', 'judge'],
   ['report', 'judge', 'judge/report'],
   ['results', 'results', 'results'],
   ['result', 'results', 'results/2'],
@@ -42,7 +46,16 @@ for (const [name, mode, route] of VIEWS) {
           await page.keyboard.press('Escape');
           await expect(page.getByRole('list', { name: 'Problems' })).toBeVisible();
         }
-        if (name === 'release') await page.getByRole('button', { name: 'Verify' }).click();
+        if (name === 'whole') {
+          if (width === 375) await page.getByRole('button', { name: 'Verdict', exact: true }).click();
+          await page.locator('.whole .criteria').scrollIntoViewIfNeeded();
+        }
+        if (name === 'removal') await page.getByRole('button', { name: 'Remove this level' }).click();
+        if (name === 'watched') {
+          await page.getByRole('button', { name: 'Watch a program play it' }).first().click();
+          await expect(page.getByText('Won', { exact: true })).toBeVisible();
+        }
+        if (name === 'release' || name === 'line') await page.getByRole('button', { name: 'Verify' }).click();
         await page.waitForTimeout(name === 'design' ? 2500 : 900);
         await page.screenshot({ path: `shots/${name}-${width}-${scheme}.png` });
         if (width === 375) await page.screenshot({ path: `shots/${name}-${width}-${scheme}-full.png`, fullPage: true });

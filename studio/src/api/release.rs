@@ -90,7 +90,7 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     let verification = verify(root).map_err(Refusal::failed)?;
     let mut problems = verification.problems.clone();
     if verification.root != released.manifest.root {
-        problems.insert(0, "the release changed since the studio opened it: open it again".to_owned());
+        problems.insert(0, "The release changed since the studio opened it: open it again.".to_owned());
     }
     let is_sound = problems.is_empty();
     let mut said = if is_sound { words(&verification) } else { Vec::new() };
@@ -100,7 +100,7 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
             Err(unsigned) => problems.extend(unsigned),
         },
         None => said.push(format!(
-            "root {}: compare it with the published one, or give the publisher's key with --key",
+            "Root {}: compare it with the published one, or give the publisher's key with --key.",
             verification.root
         )),
     }
@@ -125,8 +125,10 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let tell = &mut |ancestor: &Ancestor| {
         let Ancestor { root, link, problems } = ancestor;
         let text = match (link, problems.as_slice()) {
-            (None, []) => format!("not found; name its place with --chain to check what `{child}` follows"),
-            (Some(_), []) => format!("every file agrees with this root, which `{child}` names as its parent"),
+            (None, []) => format!("Not found. Name its place with --chain to check what `{child}` follows."),
+            (Some(_), []) => {
+                format!("Every file agrees with this root, which `{child}` names as its parent.")
+            }
             (_, [only]) => only.clone(),
             (_, [first, rest @ ..]) => format!("{first}; and {} more", rest.len()),
         };
@@ -145,28 +147,29 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let sound =
         lineage.ancestors.iter().filter(|ancestor| ancestor.link.is_some() && ancestor.problems.is_empty());
     let Link { name, .. } = &start;
-    let mut said = Vec::new();
-    said.push(match (lineage.complete, sound.count()) {
-        (true, 0) => format!("`{name}` names no parent: it is the first of its line"),
-        (true, count) => {
-            format!("`{name}` and {count} before it, back to the first, name each other's roots")
-        }
-        (false, 0) => format!("nothing is said of the releases before `{name}`"),
-        (false, count) => {
-            format!("{count} before `{name}` agree with the root that is named; older ones were not seen")
-        }
-    });
+    let mut said = vec![match (lineage.complete, sound.count()) {
+        (true, 0) => format!("`{name}` names no parent: it is the first of its line."),
+        (true, count) => format!(
+            "{} before `{name}`, back to the first, and each has the root that the next one names.",
+            releases(count)
+        ),
+        (false, 0) => format!("The releases before `{name}` were not seen."),
+        (false, count) => format!(
+            "{} before `{name}`, and each has the root that the next one names; older ones were not seen.",
+            releases(count)
+        ),
+    }];
     // Places at hand that cannot be read matter only if something is missing.
     if lineage.ancestors.iter().any(|ancestor| ancestor.link.is_none()) {
         said.extend(
-            lineage.unread.iter().map(|place| format!("not read: {}", nameless(place, &studio.workspace))),
+            lineage.unread.iter().map(|place| format!("Not read: {}", nameless(place, &studio.workspace))),
         );
     }
     let damaged = lineage.ancestors.iter().filter(|ancestor| !ancestor.problems.is_empty());
     let mut problems: Vec<String> = damaged
         .map(|ancestor| match &ancestor.link {
-            Some(link) => format!("`{}`, which comes before, is not the release with its root", link.name),
-            None => "the chain of parents is a ring".to_owned(),
+            Some(link) => format!("`{}`, which comes before, is not the release with its root.", link.name),
+            None => "The chain of parents is a ring.".to_owned(),
         })
         .collect();
     problems.extend(lineage.problems.iter().map(|problem| nameless(problem, &studio.workspace)));
@@ -202,15 +205,26 @@ fn base_name(place: &Path) -> String {
     place.file_name().unwrap_or(place.as_os_str()).to_string_lossy().into_owned()
 }
 
+fn counted(count: usize, of: &str) -> String {
+    format!("{count} {of}{}", if count == 1 { "" } else { "s" })
+}
+
+fn releases(count: usize) -> String {
+    format!("{} {}", counted(count, "release"), if count == 1 { "comes" } else { "come" })
+}
+
 /// Returns what was found out about a sound release.
 fn words(found: &Verification) -> Vec<String> {
     let Verification { files, games, levels, .. } = found;
-    let said = format!("{files} files, {games} games, {levels} levels: every digest and the root are right");
+    let [files, games, levels] =
+        [(*files, "file"), (*games, "game"), (*levels, "level")].map(|(count, of)| counted(count, of));
+    let said = format!("{files}, {games}, {levels}: every digest and the root are right.");
     let wins = match &found.witnesses {
-        Witnesses::Replayed(count) => format!("{count} recorded wins were replayed, state by state"),
-        Witnesses::Held => "sealed: its wins are withheld until the reveal".to_owned(),
+        Witnesses::Replayed(1) => "1 recorded win was replayed, state by state.".to_owned(),
+        Witnesses::Replayed(count) => format!("{count} recorded wins were replayed, state by state."),
+        Witnesses::Held => "Sealed: its wins are withheld until the reveal.".to_owned(),
         Witnesses::NotReplayed { semantics } => {
-            format!("its wins need semantics {semantics} of the engine and were not replayed")
+            format!("Its wins need semantics {semantics} of the engine and were not replayed.")
         }
     };
     vec![said, wins]

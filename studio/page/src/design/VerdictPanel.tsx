@@ -190,15 +190,17 @@ function Criteria({ criteria, ...props }: Props & { criteria: Criterion[] }) {
         {[...criteria].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)).map((one) => {
           const [sign, word] = SIGNS[one.verdict] ?? SIGNS.unknown;
           const { episode } = one;
+          // What the head says is not said again, unless it leads somewhere.
+          const evidence = one.evidence.filter((seen) => seen.text !== one.text || seen.cell || seen.rule || (episode && seen.tick !== null));
           return (
             <li class={one.verdict}>
               <span class="sign" role="img" aria-label={word}>{sign}</span>
               <div>
                 <Shown open={one.verdict !== 'pass'} head={<><strong>{one.name}</strong> <span><Words text={one.text} /></span></>}>
-                  {one.evidence.length === 0 && !episode ? null : (
+                  {evidence.length === 0 && !episode ? null : (
                     <ul class="evidence">
-                      {one.evidence.map((seen) => <Seen evidence={seen} episode={episode} {...props} />)}
-                      {episode && !one.evidence.some((seen) => seen.tick !== null) && (
+                      {evidence.map((seen) => <Seen evidence={seen} episode={episode} {...props} />)}
+                      {episode && !evidence.some((seen) => seen.tick !== null) && (
                         <li><button type="button" class="link" onClick={() => props.onEpisode(episode, null, one.name)}>watch</button></li>
                       )}
                     </ul>

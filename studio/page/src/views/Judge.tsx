@@ -78,7 +78,7 @@ export function Judge() {
         <Question name="better" title="Which is the better game?" value={form.better} onChange={choose('better')} options={[['left', 'Left'], ['same', 'Neither'], ['right', 'Right']]} />
         <Question name="again" title="Which would you play again?" value={form.again} onChange={choose('again')} options={[['left', 'Left'], ['both', 'Both'], ['neither', 'Neither'], ['right', 'Right']]} />
         <Question name="machine" title="Which was made by a machine?" note="optional" value={form.machine} onChange={choose('machine')} options={[['left', 'Left'], ['both', 'Both'], ['neither', 'Neither'], ['right', 'Right']]} />
-        <label class="field">In a few words <span class="soft">optional</span>
+        <label class="field"><span>In a few words <span class="soft">optional</span></span>
           <textarea rows={2} maxLength={4000} value={form.words} onInput={(event) => choose('words')(event.currentTarget.value)} />
         </label>
         {error && <p class="notice bad" role="alert">{error}</p>}

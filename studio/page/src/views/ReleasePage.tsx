@@ -4,6 +4,7 @@ import { live } from '../data/studio';
 import * as studio from '../data/studio';
 import type { Ancestor, Comparison, Release, VerifyLine } from '../data/types';
 import { Thumb } from '../parts/Board';
+import { Words } from '../parts/Markdown';
 import { useAsked, useTitle } from '../parts/hooks';
 import { Wide } from '../parts/Wide';
 import { href } from '../parts/route';
@@ -88,7 +89,7 @@ function Verify() {
       {verdict && (
         <div class={`notice ${verdict.ok ? 'good' : 'bad'}`} role="status">
           <strong>{verdict.ok ? 'Every digest agrees.' : verdict.sound ? 'The release agrees with its manifest, but not all that belongs to it does.' : 'This release is not what its manifest says.'}</strong>
-          {verdict.lines.map((line) => <p>{line}</p>)}
+          {verdict.lines.map((line) => <p><Words text={line} /></p>)}
         </div>
       )}
       {ancestors.length > 0 && (
@@ -100,7 +101,7 @@ function Verify() {
               return (
                 <li class={kind}>
                   <span class="sign" role="img" aria-label={word}>{sign}</span>
-                  <div><strong>{one.name ?? 'Not found'}</strong>{one.place && one.place !== one.name && <span class="soft"> in {one.place}</span>}<code>{one.root}</code><p class="soft">{one.text}</p></div>
+                  <div><strong>{one.name ?? 'Not found'}</strong>{one.place && one.place !== one.name && <span class="soft"> in {one.place}</span>}<code>{one.root}</code><p class="soft"><Words text={one.text} /></p></div>
                 </li>
               );
             })}
