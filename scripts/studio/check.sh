@@ -68,22 +68,40 @@ if [ ! -d "$held/results" ]; then
     "$arcade" --quiet evaluate "$held/tiny" --model openai:reflex --base-url "$url" --max-steps 40 --out "$held/results" >"$scratch/evaluate.log"
     kill "$player"
 fi
-# Two releases, one after the other, within a second.
+# Two releases, one after the other, within a second; the levels of the second one have tiers.
 if [ ! -d "$held/line/two" ]; then
     rm -rf "$held/line"
-    small="description = 'x'
-[corpus]
-games = 1
-levels = 1
-candidates = 2.0
-[criteria]
+    quick="[criteria]
 decision = 100
 budget = 80000
 depths = [10, 25]
 random_plays = 10"
-    for name in one two; do
-        printf "name = '%s'\nseed = '%s'\n%s\n" "$name" "$name" "$small" >"$scratch/$name.toml"
-    done
+    cat >"$scratch/one.toml" <<END
+name = 'one'
+description = 'x'
+seed = 'one'
+[corpus]
+games = 1
+levels = 1
+candidates = 2.0
+$quick
+END
+    cat >"$scratch/two.toml" <<END
+name = 'two'
+description = 'x'
+seed = 'tiers'
+[puzzles]
+games = 1
+levels = 4
+level_tries = 12
+candidates = 1.0
+columns = [9, 9]
+rows = [8, 9]
+[tiers]
+1 = 0.5
+2 = 0.5
+$quick
+END
     "$arcade" --quiet release "$scratch/one.toml" --out "$held/line/one" >"$scratch/release.log"
     "$arcade" --quiet release "$scratch/two.toml" --parent "$held/line/one" --out "$held/line/two" >"$scratch/release.log"
 fi

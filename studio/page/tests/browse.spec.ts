@@ -24,6 +24,16 @@ test('a release is browsed, filtered, verified and compared', async ({ page, stu
   await expect(page.getByText(/^Beside/)).toBeVisible();
 });
 
+test('games of tiers are browsed and filtered by them', async ({ page, studio }) => {
+  await open(page, await studio(isMock ? 'snapshot' : 'line'), '');
+  const cards = page.locator('a.card');
+  await expect(cards.filter({ hasText: /tier 1.*tier 2/ }).first()).toBeVisible();
+  await page.getByRole('combobox', { name: 'Tier' }).selectOption('tier 2');
+  await expect(cards.first()).toBeVisible();
+  await cards.first().click();
+  await expect(page.locator('.levels').getByText(/^tier [12]$/).first()).toBeVisible();
+});
+
 test('verification follows the parent, and tells one that was altered', async ({ page, studio }) => {
   test.skip(isMock, 'the mock has no files of releases');
   const running = await studio('line');

@@ -140,7 +140,7 @@ function game(id) {
 }
 const entry = (id) => {
   const of = game(id);
-  return { id, title: of.title, levels: of.levels.length, writable: of.writable, summary: of.card?.description ?? '', tile: frame(begin(of.source.text, of.levels[0].text)), tiles: TILES };
+  return { id, title: of.title, levels: of.levels.length, writable: of.writable, summary: of.card?.description ?? '', tile: frame(begin(of.source.text, of.levels[0].text)), tiles: TILES, kind: of.card?.kind ?? null };
 };
 
 const sessions = new Map();
@@ -162,7 +162,7 @@ const ROUTES = {
   'POST complete': ({ source, at }) => ({ start: at - /\w*$/.exec(source.slice(0, at))[0].length, end: at, items: ['killSprite', 'stepBack', ...sprites(source)].map((label) => ({ label, detail: 'a word', markdown: `\`${label}\``, insert: label })) }),
   'POST rename': ({ source, at, name }) => {
     const word = [...source.matchAll(/\w+/g)].find((found) => found.index <= at && at <= found.index + found[0].length)[0];
-    return { edits: [...source.matchAll(new RegExp(`\\b${word}\\b`, 'g'))].map((found) => ({ start: found.index, end: found.index + word.length, text: name })) };
+    return { levels: [], edits: [...source.matchAll(new RegExp(`\\b${word}\\b`, 'g'))].map((found) => ({ start: found.index, end: found.index + word.length, text: name })) };
   },
   'POST format': ({ source }) => ({ text: source.replace(/[ \t]+$/gm, '') }),
   'POST definition': () => null,
@@ -189,8 +189,8 @@ const ROUTES = {
   'POST play/episode': ({ session }) => ({ actions: sessions.get(session).actions }),
   'GET planners': () => [{ name: 'mcts', help: 'Monte-Carlo tree search' }, { name: 'random', help: 'any action' }],
   'POST replay': ({ source, level, episode }) => ({ tiles: TILES, frames: play(source, level, episode.actions).map(frame), actions: episode.actions, agrees: true, note: null }),
-  'GET release': () => ({ name: 'april', root: digest('root'), parent: digest('parent'), format: 3, semantics: 12, generation: 4, sealed: false, games: [...dirs.keys()].map((id) => ({ id, title: game(id).title, kind: game(id).card.kind, levels: game(id).levels.map((level, at) => ({ name: level.name, tier: null, difficulty: at ? 'very_hard' : 'easy', width: 8, height: 5 })), tiles: TILES, frame: entry(id).tile })) }),
-  'GET release/compare': () => ({ other: 'march', new: [...dirs.keys()], gone: ['old-game'], kept: [], nearest: [...dirs.keys()].map((id) => ({ id, other: 'old-game', distance: 0.41 })) }),
+  'GET release': () => ({ name: 'april', root: digest('root'), parent: digest('parent'), format: 3, semantics: 12, generation: 4, sealed: false, games: [...dirs.keys()].map((id) => ({ id, title: game(id).title, kind: game(id).card.kind, levels: game(id).levels.map((level, at) => ({ name: level.name, tier: at + 1, difficulty: at ? 'very_hard' : 'easy', ticks: 4, width: 8, height: 5 })), tiles: TILES, frame: entry(id).tile })) }),
+  'GET release/compare': () => ({ other: 'march', new: [...dirs.keys()], gone: ['old-game'], kept: [], changed: [], nearest: [...dirs.keys()].map((id) => ({ id, other: 'old-game', distance: 0.41 })) }),
   'GET results': () => ({ players: [{ name: 'a-model', episodes: [{ index: 0, game: 'moth-and-lamps', level: 0, run: 0, outcome: 'won', score: 1, steps: 6 }] }] }),
   'GET results/0': () => {
     const of = game('moth-and-lamps');

@@ -63,8 +63,8 @@ export interface GameEntry {
   writable: boolean;
   summary: string;
   tile: Frame | null;
-  tiles?: Tile[];
-  kind?: string | null;
+  tiles: Tile[];
+  kind: string | null;
 }
 
 export interface Workspace {
@@ -73,7 +73,6 @@ export interface Workspace {
   version: string;
   games: GameEntry[];
   judge: boolean;
-  tiles?: Tile[];
 }
 
 export interface SourceFile {
@@ -117,7 +116,6 @@ export interface BoardAnswer {
   tiles: Tile[];
   frame: Frame | null;
   problems: Problem[];
-  cells?: string[][] | string[][][];
 }
 
 export interface Replay {
@@ -174,10 +172,10 @@ export type MoreLine =
 
 export interface ReleaseLevel {
   name: string;
-  tier: string | null;
+  tier: number | null;
   difficulty: string | null;
   /** The length of the recorded win. */
-  ticks?: number | null;
+  ticks: number | null;
   width: number;
   height: number;
 }
@@ -195,10 +193,10 @@ export interface Release {
   name: string;
   root: string;
   parent: string | null;
-  format: string | number;
-  semantics: string | number;
-  generation: string | number | null;
-  sealed: unknown;
+  format: number;
+  semantics: number;
+  generation: number;
+  sealed: boolean;
   games: ReleaseGame[];
 }
 
@@ -224,7 +222,7 @@ export interface Comparison {
   new: string[];
   gone: string[];
   kept: string[];
-  changed?: string[];
+  changed: string[];
   nearest: { id: string; other: string; distance: number }[];
 }
 

@@ -16,11 +16,11 @@ interface Shown {
 
 function shown(entry: GameEntry, release: Release | null): Shown {
   const released = release?.games.find((game) => game.id === entry.id);
-  const merged = released ? { ...entry, tile: entry.tile ?? released.frame, tiles: entry.tile ? entry.tiles ?? released.tiles : released.tiles } : entry;
+  const merged = released ? { ...entry, tile: entry.tile ?? released.frame, tiles: entry.tile ? entry.tiles : released.tiles } : entry;
   return {
     entry: merged,
-    kind: released?.kind ?? entry.kind ?? null,
-    tiers: unique(released?.levels.map((level) => level.tier) ?? []),
+    kind: released?.kind ?? entry.kind,
+    tiers: unique(released?.levels.map((level) => (level.tier === null ? null : String(level.tier))) ?? []).sort(),
     difficulties: byEase(unique(released?.levels.map((level) => level.difficulty) ?? [])),
   };
 }
@@ -34,6 +34,10 @@ export const EASE = ['very_easy', 'easy', 'medium', 'hard', 'very_hard', 'unbeat
 /** Labels of difficulty, the easiest first. */
 export function byEase(labels: string[]): string[] {
   return [...labels].sort((a, b) => EASE.indexOf(a) - EASE.indexOf(b));
+}
+
+export function tierWords(tier: string | number): string {
+  return `tier ${tier}`;
 }
 
 export function easeWords(label: string): string {
@@ -83,7 +87,7 @@ export function Browse({ workspace }: { workspace: Workspace }) {
         }}>
           <input type="search" placeholder="Find a game" aria-label="Find a game" value={text} onInput={(event) => setText(event.currentTarget.value)} />
           {kinds.length > 1 && <Choice label="Kind" all="All kinds" value={kind} options={kinds} onChange={setKind} />}
-          {tiers.length > 1 && <Choice label="Tier" all="All tiers" value={tier} options={tiers} onChange={setTier} />}
+          {tiers.length > 1 && <Choice label="Tier" all="All tiers" value={tier} options={tiers} words={tierWords} onChange={setTier} />}
           {eases.length > 1 && <Choice label="Difficulty" all="Any difficulty" value={ease} options={eases} words={easeWords} onChange={setEase} />}
         </form>
       </header>
@@ -98,12 +102,12 @@ export function Browse({ workspace }: { workspace: Workspace }) {
         {games.map((one) => (
           <li key={one.entry.id}>
             <a class="card" href={href('game', one.entry.id)}>
-              <Thumb tiles={one.entry.tiles ?? workspace.tiles ?? []} frame={one.entry.tile} label={`Board of ${one.entry.title}`} />
+              <Thumb tiles={one.entry.tiles} frame={one.entry.tile} label={`Board of ${one.entry.title}`} />
               <span class="name">{one.entry.title}</span>
               {one.entry.summary && <span class="summary">{one.entry.summary}</span>}
               <span class="facts">
                 {one.kind && <span class="chip">{one.kind}</span>}
-                {one.tiers.map((word) => <span class="chip">{easeWords(word)}</span>)}
+                {one.tiers.map((number) => <span class="chip">{tierWords(number)}</span>)}
                 <span class="soft">{one.entry.levels} {one.entry.levels === 1 ? 'level' : 'levels'}</span>
                 {one.difficulties.length > 0 && <span class="soft">{easeSpan(one.difficulties)}</span>}
                 {live && one.entry.writable && <span class="soft">yours</span>}

@@ -9,7 +9,7 @@ import { Icon } from '../parts/Icon';
 import { Markdown } from '../parts/Markdown';
 import { useAsked, useTitle } from '../parts/hooks';
 import { go, href } from '../parts/route';
-import { easeWords } from './Browse';
+import { easeWords, tierWords } from './Browse';
 import { intentOf } from './Play';
 
 /** The card of a game: levels as boards, facts, rules in words, witnesses to watch. */
@@ -50,8 +50,8 @@ export function GamePage({ game, workspace, onCopied }: { game: Game; workspace:
               <p class="name">{`Level ${index + 1}`}</p>
               {intent && <p class="summary">{intent}</p>}
               <p class="facts">
-                {facts?.tier && <span class="chip">{facts.tier}</span>}
-                {facts?.ticks !== null && facts?.ticks !== undefined && <span class="soft">won in {facts.ticks} ticks</span>}
+                {facts?.tier && <span class="chip">{tierWords(facts.tier)}</span>}
+                {facts && facts.ticks !== null && <span class="soft">won in {facts.ticks} ticks</span>}
                 {facts?.difficulty && <span class="soft">{easeWords(facts.difficulty)}</span>}
                 {own.map((witness) => (
                   <a href={href('watch', game.id, witness.name)}>{own.length === 1 ? 'watch a win' : `watch ${witness.name}`}</a>

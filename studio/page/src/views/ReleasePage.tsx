@@ -21,8 +21,8 @@ export function ReleasePage() {
     ['Parent', release.parent],
     ['Format', String(release.format)],
     ['Semantics', String(release.semantics)],
-    ['Generation', release.generation === null ? null : String(release.generation)],
-    ['Sealed', typeof release.sealed === 'boolean' ? (release.sealed ? 'yes' : 'no') : release.sealed ? JSON.stringify(release.sealed) : null],
+    ['Generation', String(release.generation)],
+    ['Sealed', release.sealed ? 'yes' : 'no'],
     ['Games', String(release.games.length)],
     ['Levels', String(release.games.reduce((sum, game) => sum + game.levels.length, 0))],
   ];
@@ -128,7 +128,7 @@ function Levels({ release }: { release: Release }) {
           <thead><tr><th>Game</th><th>Kind</th><th class="n">Levels</th>{hasTiers && <th>Tiers</th>}{hasEase && <th>Difficulty</th>}</tr></thead>
           <tbody>
             {release.games.map((game) => {
-              const tiers = [...new Set(game.levels.map((level) => level.tier).filter(Boolean))];
+              const tiers = [...new Set(game.levels.map((level) => level.tier).filter((tier) => tier !== null))].sort();
               const eases = byEase([...new Set(game.levels.map((level) => level.difficulty).filter((one) => one !== null))]);
               return (
                 <tr>
@@ -166,9 +166,9 @@ function Compare({ release }: { release: Release }) {
       {!compared && !asked.error && <p class="soft">Start the studio with <code>--against SNAPSHOT</code> to see what is new beside an earlier release.</p>}
       {compared && (
         <>
-          <p>Beside <strong>{compared.other}</strong>: {compared.new.length} new, {compared.changed?.length ?? 0} changed, {compared.kept.length} kept, {compared.gone.length} gone.</p>
+          <p>Beside <strong>{compared.other}</strong>: {compared.new.length} new, {compared.changed.length} changed, {compared.kept.length} kept, {compared.gone.length} gone.</p>
           <div class="columns four">
-            {([['New', compared.new], ['Changed', compared.changed ?? []], ['Kept', compared.kept], ['Gone', compared.gone]] as const).map(([name, ids]) => (
+            {([['New', compared.new], ['Changed', compared.changed], ['Kept', compared.kept], ['Gone', compared.gone]] as const).map(([name, ids]) => (
               <div>
                 <h3>{name}</h3>
                 {ids.length === 0 && <p class="soft">none</p>}
