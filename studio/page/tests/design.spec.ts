@@ -78,6 +78,18 @@ test('names are renamed everywhere, completed and explained', async ({ page, stu
   await page.getByRole('button', { name: 'Rename everywhere' }).click();
   await expect(page.locator('.cm-line', { hasText: 'lantern' })).toHaveCount(4);
   await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  // A level character changes in the levels too.
+  if (!isMock) {
+    await page.locator('.cm-line', { hasText: 'l > floor lantern' }).click();
+    await page.keyboard.press('Home');
+    await page.keyboard.press('F2');
+    await page.getByLabel('New name').fill('x');
+    await page.getByRole('button', { name: 'Rename everywhere' }).click();
+    await expect(page.locator('.cm-line', { hasText: 'x > floor lantern' })).toBeVisible();
+    await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+    await page.getByRole('button', { name: 'Text', exact: true }).click();
+    await expect(page.getByLabel('Level as text')).toHaveValue(/w\.\.x\.w\.w/);
+  }
   await page.locator('.cm-line', { hasText: 'lantern moth' }).getByText('killSprite').hover();
   await expect(page.locator('.cm-tooltip-hover')).toContainText(/\w/);
   await page.mouse.move(1, 1);
@@ -179,7 +191,7 @@ test('the whole game is judged in the background, and never in the way', async (
   await page.locator('.paint canvas').focus();
   await page.keyboard.press('Control+z');
   await expect(whole.getByText('of an earlier text')).toBeVisible();
-  await page.waitForTimeout(5000);
+  await page.waitForTimeout(3800);
   expect(judged).toHaveLength(2);
   await whole.getByRole('button', { name: 'Judge all levels' }).click();
   await expect(whole.getByText('of an earlier text')).toBeHidden();
@@ -209,6 +221,9 @@ test('a name leads to its definition, by key and by click', async ({ page, studi
   for (let step = 0; step < 'SpriteCounter stype=l'.length; step += 1) await page.keyboard.press('ArrowRight');
   await page.keyboard.press('F12');
   await expect(definition).toBeVisible();
+  // Away from words, which are explained above the others.
+  await page.mouse.move(1, 1);
+  await expect(page.locator('.cm-tooltip-hover')).toBeHidden();
   await page.locator('.cm-line', { hasText: 'moth hedge' }).click();
   await expect(definition).toBeHidden();
   // Plain names have no element of their own.

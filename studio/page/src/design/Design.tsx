@@ -452,9 +452,19 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
           word={renaming.word}
           onClose={() => setRenaming(null)}
           onRename={async (name) => {
-            const { edits } = await post<{ edits: Edit[] }>('/api/rename', { source: source.text, at: renaming.at, name });
+            const asked = { source: source.text, levels: texts };
+            const made = await post<{ edits: Edit[]; levels: Edit[][] }>('/api/rename', { ...asked, at: renaming.at, name });
             setRenaming(null);
-            window.setTimeout(() => editor.current?.apply(edits), 0);
+            if (state.current.source.text !== asked.source) return setNotice({ text: 'The rules changed meanwhile: nothing was renamed.', bad: true });
+            window.setTimeout(() => editor.current?.apply(made.edits), 0);
+            // A level character changes in the levels too.
+            levels.forEach((one, index) => {
+              const edits = made.levels[index] ?? [];
+              if (edits.length === 0) return;
+              past(one.name).past.push(one.text);
+              setFile(one.name, (now) => (now.text === asked.levels[index] ? { ...now, text: applied(now.text, edits) } : now));
+            });
+            return undefined;
           }}
         />
       )}

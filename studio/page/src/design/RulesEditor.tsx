@@ -213,7 +213,9 @@ function diagnostic(problem: Problem, checked: string, latest: { current: Props 
 function rename(view: EditorView, call: (at: number, word: string) => void): void {
   const at = view.state.selection.main.head;
   const word = view.state.wordAt(at);
-  if (word) call(at, view.state.sliceDoc(word.from, word.to));
+  // Level characters need not be letters.
+  const name = word ? view.state.sliceDoc(word.from, word.to) : view.state.sliceDoc(at, at + 1).trim();
+  if (name) call(at, name);
 }
 
 /** Goes to where the name under the cursor is defined. */

@@ -248,7 +248,7 @@ function unlinked(one: Criterion): Criterion {
 }
 
 /** The pause after the verdict on the level before all levels are judged, in milliseconds. */
-const PAUSE = 4000;
+const PAUSE = 3000;
 
 /** The choice to judge all levels in the background, for as long as the page is open. */
 let inBackground = true;
