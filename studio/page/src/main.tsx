@@ -69,6 +69,7 @@ function OfGame({ view, id, rest, workspace, onChanged }: { view: string; id: st
       {!game && !asked.error && <main aria-busy="true" />}
       {game && view === 'game' && <GamePage game={game} workspace={workspace} onCopied={onChanged} />}
       {game && view === 'play' && live && <Play game={game} level={level} watch={null} />}
+      {game && !live && (view === 'play' || view === 'design') && <Trouble text="A gallery has no server to play or write games: it shows recorded wins." />}
       {game && view === 'watch' && <Play game={game} level={0} watch={rest ?? ''} />}
       {game && view === 'design' && live && <Design game={game} level={level} onChanged={onChanged} />}
     </>

@@ -57,7 +57,7 @@ function ended(child: ChildProcess): Promise<unknown> {
 }
 
 export const test = base.extend<Fixtures>({
-  studio: async ({}, use) => {
+  studio: async ({ page }, use) => {
     const children: ChildProcess[] = [];
     const folders: string[] = [];
     // Also after a test that failed.
@@ -85,6 +85,8 @@ export const test = base.extend<Fixtures>({
         return { address, folder };
       });
     } finally {
+      // First, so that it asks nothing of a studio that has ended.
+      await page.close();
       await Promise.all(children.map(ended));
       for (const folder of folders) rmSync(folder, { recursive: true, force: true });
     }

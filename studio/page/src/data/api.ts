@@ -1,6 +1,7 @@
 /** The transport: every request carries the token, failures become `Failure`, streams are read line by line. */
 
 const KEY = 'arcade-studio-token';
+const STOPPED = 'Is `arcade studio` still running in the terminal? Start it again, then reload.';
 
 /** An answer of the server that says no, with the next move if it names one. */
 export class Failure extends Error {
@@ -54,7 +55,7 @@ async function request(method: string, path: string, body?: unknown, signal?: Ab
     answer = await fetch(path, init);
   } catch (error) {
     if (signal?.aborted) throw error;
-    throw new Failure('The studio does not answer.', 'Is `arcade studio` still running in the terminal? Start it again, then reload.', 0, {});
+    throw new Failure('The studio does not answer.', STOPPED, 0, {});
   }
   if (answer.ok) return answer;
   let said: Record<string, unknown> = {};
@@ -104,7 +105,10 @@ export async function* stream<T>(path: string, body: unknown, signal: AbortSigna
       if (done) return;
     }
   } catch (error) {
-    if (!signal.aborted) throw error;
+    if (signal.aborted) return;
+    // A connection that breaks, or a line that is cut off.
+    if (error instanceof Failure) throw error;
+    throw new Failure('The studio broke off its answer.', STOPPED, 0, {});
   }
 }
 

@@ -217,6 +217,9 @@ export class Run {
 
   /** The episode up to the place shown. */
   async episode(): Promise<Episode> {
+    this.stop();
+    // A tick that is under way is part of it.
+    while (this.busy) await new Promise((resolve) => window.setTimeout(resolve, 10));
     await this.catchUp();
     this.frames = this.frames.slice(0, this.at + 1);
     this.actions = this.actions.slice(0, this.at);

@@ -1,4 +1,4 @@
-import { useEffect, useReducer, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useReducer, useState } from 'preact/hooks';
 import { words } from '../data/api';
 import type { Run } from '../data/run';
 
@@ -27,10 +27,10 @@ export function useAsked<T>(ask: (signal: AbortSignal) => Promise<T>, dependenci
   return state;
 }
 
-/** Draws again when a run changes. */
+/** Draws again when a run changes; from the first paint on, since a key may change it then. */
 export function useRun(run: Run | null): void {
   const [, again] = useReducer((count: number) => count + 1, 0);
-  useEffect(() => run?.listen(() => again(undefined as never)), [run]);
+  useLayoutEffect(() => run?.listen(() => again(undefined as never)), [run]);
 }
 
 /** Names the page in the tab and in the history. */
