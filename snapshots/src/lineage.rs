@@ -50,7 +50,7 @@ pub fn trace(
     folders: &[PathBuf],
     heard: &mut dyn FnMut(&Ancestor) -> bool,
 ) -> Result<Lineage, SnapshotError> {
-    let mut shelf = Shelf::of(folders);
+    let mut candidates = Candidates::of(folders);
     let mut chain = vec![start.clone()];
     let (mut ancestors, mut complete) = (Vec::new(), true);
     let mut next = start.parent;
@@ -60,7 +60,7 @@ pub fn trace(
                 let problems = vec!["it follows itself: the chain is a ring".to_owned()];
                 Ancestor { root, link: None, problems }
             }
-            false => shelf.find(root),
+            false => candidates.find(root),
         };
         let goes_on = heard(&ancestor);
         let link = ancestor.link.clone().filter(|_| ancestor.problems.is_empty());
@@ -77,11 +77,11 @@ pub fn trace(
     let mut problems: Vec<String> =
         again.map(|link| format!("two releases of the chain are called `{}`", link.name)).collect();
     problems.extend(history_problems(&chain)?);
-    Ok(Lineage { ancestors, complete, unread: shelf.unread, problems })
+    Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
 }
 
-/// The releases at hand.
-struct Shelf {
+/// The releases that are at hand.
+struct Candidates {
     /// Folders, with the roots that they state.
     folders: Vec<(Digest, PathBuf)>,
     archives: Vec<PathBuf>,
@@ -90,32 +90,32 @@ struct Shelf {
     unread: Vec<String>,
 }
 
-impl Shelf {
-    fn of(folders: &[PathBuf]) -> Shelf {
-        let mut shelf =
-            Shelf { folders: Vec::new(), archives: Vec::new(), opened: Vec::new(), unread: Vec::new() };
+impl Candidates {
+    fn of(folders: &[PathBuf]) -> Candidates {
+        let mut candidates =
+            Candidates { folders: Vec::new(), archives: Vec::new(), opened: Vec::new(), unread: Vec::new() };
         let mut places = BTreeSet::new();
         for folder in folders {
             match releases_in(folder) {
                 Ok(found) => places.extend(found),
                 // Nothing is there to be found.
                 Err(SnapshotError::NoRelease(_)) => {}
-                Err(error) => shelf.put_aside(&error),
+                Err(error) => candidates.put_aside(&error),
             }
         }
         for place in places {
             if is_file(&place) {
-                shelf.archives.push(place);
+                candidates.archives.push(place);
                 continue;
             }
             let named = |error: SnapshotError| error.in_manifest(&place.join(MANIFEST_FILE));
             let bytes = folder::read(&place, MANIFEST_FILE, MANIFEST_LIMIT);
             match bytes.and_then(|bytes| Manifest::parse(&bytes).map_err(named)) {
-                Ok(manifest) => shelf.folders.push((manifest.root, place)),
-                Err(error) => shelf.put_aside(&error),
+                Ok(manifest) => candidates.folders.push((manifest.root, place)),
+                Err(error) => candidates.put_aside(&error),
             }
         }
-        shelf
+        candidates
     }
 
     fn put_aside(&mut self, error: &SnapshotError) {

@@ -562,6 +562,7 @@ mod tests {
 
     #[test]
     fn judging_aloud_is_judging_and_ends_when_nobody_listens() {
+        use std::slice::from_ref;
         let game = Game::from_source(GAME).unwrap();
         let levels = [game.level(GOOD).unwrap()];
         let criteria = Criteria { budget: 20_000, ..Criteria::default() };
@@ -583,10 +584,10 @@ mod tests {
         };
         let report = panel.judge_aloud(&game, &levels[0], None, seed, tell, &|| false);
         assert_eq!((&report, &heard), (&panel.judge(&game, &levels[0], seed), &report.judgements));
-        let (judgements, heard) = together(&[report.clone()], &|| false);
+        let (judgements, heard) = together(from_ref(&report), &|| false);
         assert_eq!(
             (&judgements, &heard),
-            (&panel.judge_together(&game, &levels, &[report.clone()], seed), &judgements)
+            (&panel.judge_together(&game, &levels, from_ref(&report), seed), &judgements)
         );
         // Whoever left hears nothing more.
         let count = std::sync::atomic::AtomicUsize::new(0);

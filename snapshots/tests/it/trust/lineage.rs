@@ -7,6 +7,7 @@ use snapshots::lineage::{Ancestor, Lineage, trace};
 use snapshots::verify;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::slice::from_ref;
 
 fn three() -> [Small; 3] {
     let first = small("2026-12", None);
@@ -51,7 +52,7 @@ fn parents_are_followed_as_far_as_they_are_found() {
     check(&first, &all, &[], true);
     // What follows, and releases of other histories, do not matter.
     check(&second, &all, &[(Some("2026-12"), 0)], true);
-    check(&third, &[second.clone()], &[(Some("2027-01"), 0), (None, 0)], false);
+    check(&third, from_ref(&second), &[(Some("2027-01"), 0), (None, 0)], false);
     check(&third, &[], &[(None, 0)], false);
     // Archives are found too.
     let archive = home.path().join("2026-12.tar.zst");
