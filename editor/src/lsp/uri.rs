@@ -36,7 +36,8 @@ fn decoded(text: &str) -> Option<String> {
     let mut out = Vec::with_capacity(bytes.len());
     let mut at = 0;
     while let Some(&byte) = bytes.get(at) {
-        let code = bytes.get(at + 1..at + 3).and_then(|digits| std::str::from_utf8(digits).ok());
+        let code = bytes.get(at + 1..at + 3).filter(|digits| digits.iter().all(u8::is_ascii_hexdigit));
+        let code = code.and_then(|digits| std::str::from_utf8(digits).ok());
         match code.and_then(|code| u8::from_str_radix(code, 16).ok()).filter(|_| byte == b'%') {
             Some(code) => {
                 out.push(code);
@@ -62,6 +63,7 @@ mod tests {
             assert_eq!(path(&of_path(Path::new(text))), Some(PathBuf::from(text)));
         }
         assert_eq!(path("file:///a%20b%4"), Some(PathBuf::from("/a b%4")));
+        assert_eq!(path("file:///a%+1"), Some(PathBuf::from("/a%+1")));
         assert_eq!(path("file://localhost/a"), Some(PathBuf::from("/a")));
         for other in ["untitled:x", "", "file://host", "file:///%ff"] {
             assert_eq!(path(other), None, "{other}");
