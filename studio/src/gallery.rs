@@ -3,7 +3,7 @@
 //! The data are scripts, because a page opened from `file://` may load scripts and nothing else. Whatever stands in a release
 //! stays data in them: see [`script`].
 
-use crate::api::{game_of, release_of};
+use crate::api::{CUT, game_of, release_of};
 use crate::compiled::Compiled;
 use crate::frames::{Frame, Frames, Tiles, action_name};
 use crate::refusal::Refusal;
@@ -109,16 +109,18 @@ fn witnesses(
         let mut frames = Frames::of_changes();
         frames.push(Frame::of(compiled, &state, 0, tiles)?);
         let mut actions = Vec::new();
+        let mut note = None;
         for &action in &witness.episode.actions {
             compiled.game.step(&mut state, action);
             if !frames.push(Frame::of(compiled, &state, actions.len() + 1, tiles)?) {
+                note = Some(CUT);
                 break;
             }
             actions.push(action_name(action));
         }
         let frames = frames.finish();
         shown.push(
-            json!({ "name": witness.name, "level": witness.level, "frames": frames, "actions": actions }),
+            json!({ "name": witness.name, "level": witness.level, "frames": frames, "actions": actions, "note": note }),
         );
     }
     Ok(shown)

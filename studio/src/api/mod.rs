@@ -13,7 +13,7 @@ use crate::answers::{Serving, asked, awaited, change_part, of_game, of_part, str
 use axum::Router;
 use axum::routing::MethodFilter;
 
-pub(crate) use boards::Replayed;
+pub(crate) use boards::{CUT, Replayed};
 pub(crate) use release::release as release_of;
 pub(crate) use workspace::game as game_of;
 

@@ -9,7 +9,7 @@ import type { Frame, Game, Release, Replay, SentFrame, Tile } from './types';
 export interface StaticGame extends Omit<Game, 'witnesses'> {
   tiles: Tile[];
   boards?: (Frame | null)[];
-  witnesses: { name: string; level: string | number; frames: SentFrame[]; actions: string[]; tiles?: Tile[] }[];
+  witnesses: { name: string; level: string | number; frames: SentFrame[]; actions: string[]; note: string | null }[];
 }
 
 declare global {
@@ -57,5 +57,5 @@ export const loadGame = async (id: string): Promise<StaticGame> =>
 export function replayOf(game: StaticGame, name: string): Replay {
   const witness = game.witnesses.find((one) => one.name === name);
   if (!witness) throw new Error(`The gallery holds no witness named ${name}.`);
-  return { tiles: witness.tiles ?? game.tiles, frames: witness.frames, actions: witness.actions, agrees: true, note: null };
+  return { tiles: game.tiles, frames: witness.frames, actions: witness.actions, agrees: true, note: witness.note };
 }

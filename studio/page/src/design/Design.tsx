@@ -367,7 +367,6 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         <RulesEditor
           handle={editor}
           text={source.text}
-          readOnly={false}
           problems={check.problems}
           checked={checked}
           onChange={(text) => setSource((one) => ({ ...one, text }))}

@@ -22,14 +22,11 @@ export interface EditorHandle {
   show: (start: number, end: number) => void;
   apply: (edits: Edit[]) => void;
   replace: (text: string) => void;
-  focus: () => void;
-  place: () => number;
 }
 
 interface Props {
   handle: Ref<EditorHandle>;
   text: string;
-  readOnly: boolean;
   problems: Problem[];
   /** The text that the problems were found in: positions in another text would be wrong. */
   checked: string;
@@ -97,6 +94,7 @@ const hover = hoverTooltip(async (view, at) => {
 export function RulesEditor(props: Props) {
   const box = useRef<HTMLDivElement>(null);
   const view = useRef<EditorView | null>(null);
+  const unmark = useRef(0);
   const latest = useRef(props);
   latest.current = props;
 
@@ -112,7 +110,7 @@ export function RulesEditor(props: Props) {
         doc: props.text,
         extensions: [
           lineNumbers(), highlightActiveLineGutter(), highlightActiveLine(), drawSelection(), history(), indentUnit.of('    '),
-          EditorState.tabSize.of(4), EditorState.readOnly.of(props.readOnly), EditorState.allowMultipleSelections.of(true),
+          EditorState.tabSize.of(4), EditorState.allowMultipleSelections.of(true),
           highlightSelectionMatches(), EditorView.lineWrapping, language, markedLine, lintGutter({ hoverTime: 200 }), hover,
           autocompletion({ override: [complete], activateOnTypingDelay: 60 }),
           EditorView.contentAttributes.of({ 'aria-label': 'Rules', spellcheck: 'false', autocapitalize: 'off' }),
@@ -142,7 +140,10 @@ export function RulesEditor(props: Props) {
       }),
     });
     view.current = made;
-    return () => made.destroy();
+    return () => {
+      window.clearTimeout(unmark.current);
+      made.destroy();
+    };
   }, []);
 
   useEffect(() => {
@@ -163,7 +164,8 @@ export function RulesEditor(props: Props) {
         effects: [EditorView.scrollIntoView(from, { y: 'center' }), markLine.of(made.state.doc.lineAt(from).from)],
       });
       made.focus();
-      window.setTimeout(() => view.current === made && made.dispatch({ effects: markLine.of(null) }), 2500);
+      window.clearTimeout(unmark.current);
+      unmark.current = window.setTimeout(() => view.current === made && made.dispatch({ effects: markLine.of(null) }), 2500);
     },
     apply(edits) {
       if (view.current) applyEdits(view.current, edits);
@@ -174,8 +176,6 @@ export function RulesEditor(props: Props) {
       const at = Math.min(made.state.selection.main.head, text.length);
       made.dispatch({ changes: { from: 0, to: made.state.doc.length, insert: text }, selection: { anchor: at } });
     },
-    focus: () => view.current?.focus(),
-    place: () => view.current?.state.selection.main.head ?? 0,
   }), []);
 
   return <div class="rules" ref={box} />;

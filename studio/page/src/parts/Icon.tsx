@@ -15,14 +15,13 @@ const PATHS = {
   open: 'M8 9.5v-7M5 5.5l3-3 3 3M3 12.5h10',
   plus: 'M8 3v10M3 8h10',
   minus: 'M3 8h10',
-  dot: 'M8 6.5a1.5 1.5 0 1 0 .01 0z',
 } as const;
 
 export type IconName = keyof typeof PATHS;
 
 /** A small drawing in the colour of the text; hidden from screen readers, since every button has a name. */
 export function Icon({ name }: { name: IconName }) {
-  const solid = name === 'play' || name === 'pause' || name === 'dot';
+  const solid = name === 'play' || name === 'pause';
   return (
     <svg class="icon" viewBox="0 0 16 16" width="16" height="16" aria-hidden="true" focusable="false">
       <path
