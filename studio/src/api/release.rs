@@ -125,7 +125,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let tell = &mut |ancestor: &Ancestor| {
         let Ancestor { root, link, problems } = ancestor;
         let text = match (link, problems.as_slice()) {
-            (None, []) => format!("Not found. Name its place with --chain to check what `{child}` follows."),
+            (None, []) => format!("Name its place with --chain to check what `{child}` follows."),
             (Some(_), []) => {
                 format!("Every file agrees with this root, which `{child}` names as its parent.")
             }
@@ -144,31 +144,37 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     };
     let lineage = trace(&start, &places(&studio.workspace), tell).map_err(Refusal::failed)?;
     lines.check()?;
-    let sound =
-        lineage.ancestors.iter().filter(|ancestor| ancestor.link.is_some() && ancestor.problems.is_empty());
+    let is_damaged = |ancestor: &&Ancestor| !ancestor.problems.is_empty();
+    let sound = lineage.ancestors.iter().filter(|ancestor| ancestor.link.is_some() && !is_damaged(ancestor));
     let Link { name, .. } = &start;
-    let mut said = vec![match (lineage.complete, sound.count()) {
-        (true, 0) => format!("`{name}` names no parent: it is the first of its line."),
-        (true, count) => format!(
+    let mut said = Vec::new();
+    match (lineage.complete, sound.count()) {
+        (true, 0) => said.push(format!("`{name}` names no parent: it is the first of its line.")),
+        (true, count) => said.push(format!(
             "{} before `{name}`, back to the first, and each has the root that the next one names.",
             releases(count)
-        ),
-        (false, 0) => format!("The releases before `{name}` were not seen."),
-        (false, count) => format!(
+        )),
+        // The altered one is told instead.
+        (false, _) if lineage.ancestors.iter().any(|ancestor| is_damaged(&ancestor)) => {}
+        (false, 0) => said.push(format!("The releases before `{name}` were not seen.")),
+        (false, count) => said.push(format!(
             "{} before `{name}`, and each has the root that the next one names; older ones were not seen.",
             releases(count)
-        ),
-    }];
+        )),
+    }
     // Places at hand that cannot be read matter only if something is missing.
     if lineage.ancestors.iter().any(|ancestor| ancestor.link.is_none()) {
         said.extend(
             lineage.unread.iter().map(|place| format!("Not read: {}", nameless(place, &studio.workspace))),
         );
     }
-    let damaged = lineage.ancestors.iter().filter(|ancestor| !ancestor.problems.is_empty());
+    let damaged = lineage.ancestors.iter().filter(is_damaged);
     let mut problems: Vec<String> = damaged
         .map(|ancestor| match &ancestor.link {
-            Some(link) => format!("`{}`, which comes before, is not the release with its root.", link.name),
+            Some(link) => format!(
+                "`{}`, which comes before it, was altered: its files are not those of its root.",
+                link.name
+            ),
             None => "The chain of parents is a ring.".to_owned(),
         })
         .collect();

@@ -51,6 +51,10 @@ export function easeSpan(labels: string[]): string | null {
   return first === last ? easeWords(first) : `${easeWords(first)} to ${easeWords(last)}`;
 }
 
+function counted(count: number, of: string): string {
+  return `${count} ${of}${count === 1 ? '' : 's'}`;
+}
+
 export function Browse({ workspace }: { workspace: Workspace }) {
   useTitle('');
   const [text, setText] = useState('');
@@ -76,7 +80,7 @@ export function Browse({ workspace }: { workspace: Workspace }) {
         <div>
           <h1>{workspace.kind === 'corpus' ? 'The corpus' : workspace.name}</h1>
           <p class="soft">
-            {games.length === all.length ? `${all.length} games` : `${games.length} of ${all.length} games`}
+            {games.length === all.length ? counted(all.length, 'game') : `${games.length} of ${counted(all.length, 'game')}`}
             {workspace.kind === 'snapshot' && <> · <a href={href('release')}>about this release</a></>}
           </p>
         </div>
@@ -108,7 +112,7 @@ export function Browse({ workspace }: { workspace: Workspace }) {
               <span class="facts">
                 {one.kind && <span class="chip">{one.kind}</span>}
                 {one.tiers.map((number) => <span class="chip">{tierWords(number)}</span>)}
-                <span class="soft">{one.entry.levels} {one.entry.levels === 1 ? 'level' : 'levels'}</span>
+                <span class="soft">{counted(one.entry.levels, 'level')}</span>
                 {one.difficulties.length > 0 && <span class="soft">{easeSpan(one.difficulties)}</span>}
                 {live && one.entry.writable && <span class="soft">yours</span>}
               </span>
