@@ -227,22 +227,21 @@ test('a name leads to its definition, by key and by click', async ({ page, studi
   await page.locator('.cm-line', { hasText: 'moth hedge' }).click();
   await expect(definition).toBeHidden();
   // Plain names have no element of their own.
-  const place = await page.locator('.cm-line', { hasText: 'lamp moth' }).evaluate((line) => {
-    const texts = document.createTreeWalker(line, NodeFilter.SHOW_TEXT);
+  const line = page.locator('.cm-line', { hasText: 'lamp moth' });
+  const position = await line.evaluate((node) => {
+    const texts = document.createTreeWalker(node, NodeFilter.SHOW_TEXT);
     for (let text = texts.nextNode(); text; text = texts.nextNode()) {
       const at = text.nodeValue?.indexOf('lamp') ?? -1;
       if (at < 0) continue;
       const range = document.createRange();
       range.setStart(text, at + 1);
       range.setEnd(text, at + 3);
-      const { x, y, width, height } = range.getBoundingClientRect();
-      return [x + width / 2, y + height / 2] as const;
+      const [name, whole] = [range.getBoundingClientRect(), node.getBoundingClientRect()];
+      return { x: name.x + name.width / 2 - whole.x, y: name.y + name.height / 2 - whole.y };
     }
     throw new Error('the name is not shown');
   });
-  await page.keyboard.down('Control');
-  await page.mouse.click(...place);
-  await page.keyboard.up('Control');
+  await line.click({ position, modifiers: ['Control'] });
   await expect(definition).toBeVisible();
 });
 

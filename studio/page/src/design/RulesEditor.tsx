@@ -83,7 +83,8 @@ async function complete(context: CompletionContext): Promise<CompletionResult | 
 const hover = hoverTooltip(async (view, at) => {
   try {
     const answer = await post<{ start: number; end: number; markdown: string } | null>('/api/hover', { source: view.state.doc.toString(), at });
-    if (!answer) return null;
+    // The pointer may have left meanwhile: then nothing would take the explanation away again.
+    if (!answer || !view.contentDOM.matches(':hover')) return null;
     return { pos: answer.start, end: answer.end, above: true, create: () => ({ dom: markdownNode(answer.markdown) }) };
   } catch {
     return null;
