@@ -209,16 +209,19 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
     return onChanged();
   };
 
+  // Set while drawing: an effect would come after a key that is pressed at once.
+  const latestSave = useRef(save);
+  latestSave.current = save;
   useEffect(() => {
     const keys = (event: KeyboardEvent): void => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 's' && !event.defaultPrevented) {
         event.preventDefault();
-        void save();
+        void latestSave.current();
       }
     };
     window.addEventListener('keydown', keys);
     return () => window.removeEventListener('keydown', keys);
-  });
+  }, []);
   useEffect(() => {
     if (!notice || notice.bad) return undefined;
     const timer = window.setTimeout(() => setNotice(null), 4000);
