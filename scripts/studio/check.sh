@@ -62,7 +62,7 @@ if [ ! -d "$held/results" ]; then
     # A player behind chat completions: its prompts and answers are in the results.
     "$arcade" serve-player --player reflex >"$scratch/player" &
     player=$!
-    trap 'kill "$player" 2>/dev/null; rm -rf "$scratch"' EXIT
+    trap 'kill "$player" 2>/dev/null || true; rm -rf "$scratch"' EXIT
     while [ ! -s "$scratch/player" ]; do sleep 0.1; done
     url=$(sed 's/.*"base_url":"\([^"]*\)".*/\1/;q' "$scratch/player")
     "$arcade" --quiet evaluate "$held/tiny" --model openai:reflex --base-url "$url" --max-steps 40 --out "$held/results" >"$scratch/evaluate.log"
