@@ -35,19 +35,12 @@ pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + S
     Ok(pool.map_err(failure)?.install(work))
 }
 
-/// [`in_pool`], with at most so much memory for the searches of all threads together.
-pub(crate) fn in_pool_within<T: Send>(
-    jobs: Option<usize>,
-    memory: Option<Bytes>,
-    work: impl FnOnce() -> T + Send,
-) -> Result<T, Failure> {
-    if let Some(Bytes(bytes)) = memory {
-        let threads = jobs.map_or_else(usual, |jobs| jobs.clamp(1, MAX_THREADS));
-        bound_memory(bytes, threads).map_err(|too_little| {
-            malformed!("--memory: {too_little}; give more, or fewer threads with --jobs")
-        })?;
-    }
-    in_pool(jobs, work)
+/// Bounds the memory of the searches of this number of threads together, if the user does. Asked before any work begins.
+pub(crate) fn bound_searches(jobs: Option<usize>, memory: Option<Bytes>) -> Result<(), Failure> {
+    let Some(Bytes(bytes)) = memory else { return Ok(()) };
+    let threads = jobs.map_or_else(usual, |jobs| jobs.clamp(1, MAX_THREADS));
+    bound_memory(bytes, threads)
+        .map_err(|too_little| malformed!("--memory: {too_little}; give more, or fewer threads with --jobs"))
 }
 
 /// Returns the number of threads if the user gives none.

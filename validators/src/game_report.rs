@@ -2,7 +2,7 @@
 
 use crate::gates::CarelessPlays;
 use crate::ladder::Ladder;
-use crate::panel::{Judgement, Report};
+use crate::level_report::{Judgement, Report};
 use crate::recording::{Recorded, Usage};
 use crate::verdict::Finding;
 use agents::Stopped;

@@ -1,7 +1,7 @@
 //! Measures of a level in play: the axes of archives and of expressive range.
 
 use crate::ladder::{Ladder, PlayerResult};
-use crate::panel::Report;
+use crate::level_report::Report;
 use engine::analysis::EffectSummary;
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteType, State, Watch};
 use serde::{Deserialize, Serialize};

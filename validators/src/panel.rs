@@ -6,6 +6,7 @@ use crate::causes;
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::gates::{self, CarelessPlays};
+use crate::level_report::{Judgement, OVER, Report};
 use crate::recording::{Recorded, Usage, explore};
 use crate::too_soon;
 use crate::well_formed::is_over_at_once;
@@ -14,9 +15,8 @@ use crate::{
     Reachable, Readable, RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
 };
 use agents::{PortfolioConfig, Stopped};
-use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use engine::{Analysis, Episode, Game, Level, Seed};
 use rayon::prelude::*;
-use serde::Serialize;
 
 /// The validators of a set of criteria, cheapest first.
 pub struct Panel {
@@ -69,100 +69,6 @@ enum Subject {
 const UNWINNABLE: &str = "skipped: the level cannot be won";
 /// The message for criteria that are skipped because the game stops in its first tick.
 const STOPPED: &str = "skipped: the game stops in its first tick";
-/// The message for criteria that are skipped because the game is won or lost in its first tick, whatever the player
-/// does.
-const OVER: &str = "skipped: the game is over in its first tick";
-
-/// The finding of one validator.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Judgement {
-    /// The validator.
-    pub criterion: &'static str,
-    /// Its finding.
-    #[serde(flatten)]
-    pub finding: Finding,
-}
-
-/// The findings of all validators on a level.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
-    /// In the order of checking.
-    pub judgements: Vec<Judgement>,
-    /// The shortest win found.
-    #[serde(skip)]
-    pub witness: Option<Episode>,
-}
-
-impl Report {
-    /// Returns `true` if every criterion is met.
-    pub fn passes(&self) -> bool {
-        self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
-    }
-
-    /// Returns the first criterion that is not met.
-    pub fn first_obstacle(&self) -> Option<&Judgement> {
-        self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
-    }
-
-    /// Returns the finding of a criterion, if it was checked.
-    pub fn finding(&self, criterion: &str) -> Option<&Finding> {
-        let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
-        Some(&judgement.finding)
-    }
-
-    /// Returns the results of the ladder, if it was played.
-    pub fn ladder(&self) -> Option<&Ladder> {
-        self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
-    }
-
-    /// Returns `true` if it is proved that the level cannot be won.
-    fn is_unwinnable(&self) -> bool {
-        self.finding("winnable").is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
-    }
-
-    /// Returns `true` if the engine stops the game in its first tick.
-    fn is_stopped(&self) -> bool {
-        let verdict = self.finding("well-formed").map(|finding| &finding.verdict);
-        matches!(verdict, Some(Verdict::Fail { witness: Some(episode), .. })
-            if matches!(episode.outcome, Outcome::Stopped(_)))
-    }
-
-    /// Returns `true` if criteria were skipped because the game is over in its first tick.
-    fn is_over(&self) -> bool {
-        let mut first = self.judgements.iter().filter_map(|judgement| judgement.finding.evidence.first());
-        first.any(|seen| seen.text == OVER)
-    }
-
-    /// Takes the witness of a judgement. If the search found none, a win by another player serves as well.
-    fn accept(&mut self, judgement: &mut Judgement) {
-        if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
-            judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
-        }
-        if let Verdict::Pass { witness: Some(witness) } = &judgement.finding.verdict {
-            self.witness = Some(witness.clone());
-        }
-    }
-
-    fn shortest_win(&self) -> Option<Episode> {
-        let played = self.judgements.iter().flat_map(|judgement| &judgement.finding.episodes);
-        let won = played.filter(|episode| episode.outcome == Outcome::Won);
-        won.min_by_key(|episode| episode.actions.len()).cloned()
-    }
-
-    /// Returns all episodes that the validators played, the most informative ones first: the witness, then those of
-    /// the last validators.
-    pub fn episodes(&self) -> Vec<Episode> {
-        let played = self.judgements.iter().rev().flat_map(|judgement| {
-            let shown = match &judgement.finding.verdict {
-                Verdict::Fail { witness, .. } => witness.as_ref(),
-                _ => None,
-            };
-            shown.into_iter().chain(&judgement.finding.episodes)
-        });
-        self.witness.iter().chain(played).cloned().collect()
-    }
-}
-
 impl Panel {
     /// Returns the panel of these criteria.
     ///
@@ -539,6 +445,7 @@ pub(crate) fn recorded<'a>(levels: &'a [Level], episodes: &'a [Vec<Episode>]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use engine::Outcome;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
 

@@ -3,7 +3,8 @@
 use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
 use crate::is_guard;
-use crate::panel::{Report, record, recorded};
+use crate::level_report::Report;
+use crate::panel::{record, recorded};
 use crate::recording::{Recorded, Usage};
 use crate::verdict::{Finding, Verdict};
 use engine::analysis::{Analysis, Reach};

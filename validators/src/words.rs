@@ -1,7 +1,7 @@
 //! A judgement in words, for people.
 
 use crate::evidence::Evidence;
-use crate::panel::Judgement;
+use crate::level_report::Judgement;
 use crate::verdict::Verdict;
 
 impl Judgement {

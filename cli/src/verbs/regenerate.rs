@@ -9,7 +9,7 @@ use crate::marks;
 use crate::memory::Bytes;
 use crate::protected;
 use crate::shell;
-use crate::threads::in_pool_within;
+use crate::threads::{bound_searches, in_pool};
 use crate::verbs::release::{LONG, ProgressBars, commit};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
@@ -53,6 +53,7 @@ impl Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    bound_searches(args.jobs, args.memory)?;
     args.out.as_deref().map_or(Ok(()), protected::check)?;
     let corpus = embedded::corpus()?;
     let release = Regeneration::of(&args.snapshot)?;
@@ -89,7 +90,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.remark(told);
     }
     let bars = ProgressBars::new(console);
-    let result = in_pool_within(args.jobs, args.memory, || {
+    let result = in_pool(args.jobs, || {
         make_jobs(&plan, plan.jobs(), &*store, &bars)?;
         let mut also = |path: &str, content: &[u8]| match &draft {
             Some(draft) => draft.write(path, content),

@@ -61,60 +61,51 @@ impl<'a> GameGate<'a> {
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
-        tally.spend(Tally::of_lost, |tally| self.judged(genome, number, seed, objection, tally))
-    }
-
-    fn judged(
-        &self,
-        genome: &KernelGenome,
-        number: u32,
-        seed: Seed,
-        objection: &dyn Fn(&Candidate) -> Option<&'static str>,
-        tally: &mut Tally,
-    ) -> Option<MadeGame> {
-        let generator = self.order.method.name();
-        let build = |genome: &KernelGenome| {
-            let KernelGame { game, course } = genome.build().ok()?;
-            Some((Candidate::generated(game, generator, number).ok()?, course))
-        };
-        let Some((first, course)) = build(genome) else {
-            tally.game_rejected("the rules do not compile");
-            return None;
-        };
-        let known = self.is_known(&first).then_some(NEAR_KNOWN);
-        if let Some(why) = known.or_else(|| objection(&first)) {
-            tally.game_rejected(why);
-            return None;
-        }
-        if interactions(&first.game) < self.order.least_interactions {
-            tally.game_rejected(MEAGRE);
-            return None;
-        }
-        let levels = Levels {
-            count: self.order.levels,
-            tries: self.order.level_tries,
-            source: LevelSource::Course(&course),
-            criteria: &self.order.criteria,
-            panel: &self.first,
-            seed,
-        };
-        let found = levels.each(&first.game, tally)?;
-        let longest = found
-            .iter()
-            .filter_map(|found| found.report.witness.as_ref())
-            .map(|win| win.actions.len())
-            .max()?;
-        let (candidate, _) = build(&genome.timed(time_limit(longest)))?;
-        let again = found.iter().map(|found| levels.again(&candidate.game, found, tally));
-        let Some(found) = again.collect::<Option<Vec<_>>>() else {
-            tally.game_rejected("time limit");
-            return None;
-        };
-        if mechanics(&candidate.game, &found) < self.order.least_mechanics {
-            tally.game_rejected(MEAGRE);
-            return None;
-        }
-        self.accept(candidate, &levels, found, tally)
+        tally.spend(Tally::of_lost, |tally| {
+            let generator = self.order.method.name();
+            let build = |genome: &KernelGenome| {
+                let KernelGame { game, course } = genome.build().ok()?;
+                Some((Candidate::generated(game, generator, number).ok()?, course))
+            };
+            let Some((first, course)) = build(genome) else {
+                tally.game_rejected("the rules do not compile");
+                return None;
+            };
+            let known = self.is_known(&first).then_some(NEAR_KNOWN);
+            if let Some(why) = known.or_else(|| objection(&first)) {
+                tally.game_rejected(why);
+                return None;
+            }
+            if interactions(&first.game) < self.order.least_interactions {
+                tally.game_rejected(MEAGRE);
+                return None;
+            }
+            let levels = Levels {
+                count: self.order.levels,
+                tries: self.order.level_tries,
+                source: LevelSource::Course(&course),
+                criteria: &self.order.criteria,
+                panel: &self.first,
+                seed,
+            };
+            let found = levels.each(&first.game, tally)?;
+            let longest = found
+                .iter()
+                .filter_map(|found| found.report.witness.as_ref())
+                .map(|win| win.actions.len())
+                .max()?;
+            let (candidate, _) = build(&genome.timed(time_limit(longest)))?;
+            let again = found.iter().map(|found| levels.again(&candidate.game, found, tally));
+            let Some(found) = again.collect::<Option<Vec<_>>>() else {
+                tally.game_rejected("time limit");
+                return None;
+            };
+            if mechanics(&candidate.game, &found) < self.order.least_mechanics {
+                tally.game_rejected(MEAGRE);
+                return None;
+            }
+            self.accept(candidate, &levels, found, tally)
+        })
     }
 
     /// Judges a game over all its levels, by second judges too, and finishes it.

@@ -8,7 +8,7 @@ use crate::interrupt;
 use crate::memory::Bytes;
 use crate::protected;
 use crate::set_report::game_report;
-use crate::threads::in_pool_within;
+use crate::threads::{bound_searches, in_pool};
 use engine::{Digest, Game, Level, Seed};
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
@@ -99,6 +99,7 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    bound_searches(args.jobs, args.memory)?;
     let mut order = GameOrder::new(args.method, args.count).with_levels(args.levels);
     if !args.kind.is_empty() {
         order.kinds.clone_from(&args.kind);
@@ -116,7 +117,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
     let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
-    let made = in_pool_within(args.jobs, args.memory, || make_games(&order, &known, &canary, seed, &bar))?;
+    let made = in_pool(args.jobs, || make_games(&order, &known, &canary, seed, &bar))?;
     bar.bar.finish_and_clear();
     if let Some(failure) = bar.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(failure.into());
@@ -140,9 +141,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(set.games.len() as u64, "report");
-        in_pool_within(args.jobs, args.memory, || {
-            report(args, report_draft, &corpus, &set, (seconds, &bar))
-        })??;
+        in_pool(args.jobs, || report(args, report_draft, &corpus, &set, (seconds, &bar)))??;
         bar.finish_and_clear();
     }
     console.document(&document(args, &set))?;

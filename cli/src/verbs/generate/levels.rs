@@ -7,7 +7,7 @@ use crate::input::{self, GameInput};
 use crate::memory::Bytes;
 use crate::protected;
 use crate::set_report::level_report;
-use crate::threads::in_pool_within;
+use crate::threads::{bound_searches, in_pool};
 use engine::{Analysis, Game, Level, Seed, SpriteType};
 use forge::levels::report::{LevelSetReport, Sample};
 use forge::levels::{
@@ -97,6 +97,7 @@ fn count(text: &str) -> Result<(String, usize), String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    bound_searches(args.jobs, args.memory)?;
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
     let examples = input.checked_levels(&game)?;
@@ -107,7 +108,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
-    let made = in_pool_within(args.jobs, args.memory, || make_levels(&game, &order, seed, &bar))?;
+    let made = in_pool(args.jobs, || make_levels(&game, &order, seed, &bar))?;
     bar.0.finish_and_clear();
     let set = match made {
         Ok(set) => set,
@@ -128,9 +129,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(0, "report");
-        in_pool_within(args.jobs, args.memory, || {
-            report(args, report_draft, &game, &order, &examples, &set, seconds)
-        })??;
+        in_pool(args.jobs, || report(args, report_draft, &game, &order, &examples, &set, seconds))??;
         bar.finish_and_clear();
     }
     console.document(&document(args, &game, &set))?;

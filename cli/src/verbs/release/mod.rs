@@ -16,8 +16,8 @@ use crate::memory::Bytes;
 use crate::paths;
 use crate::protected;
 use crate::shell;
+use crate::threads::bound_searches;
 pub(crate) use crate::threads::in_pool;
-use crate::threads::in_pool_within;
 pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::{check_beacon, read as read_secret_file};
 use serde_json::json;
@@ -107,6 +107,7 @@ impl Args {
 pub(crate) const LONG: f64 = 30.0;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    bound_searches(args.jobs, args.memory)?;
     if args.commit {
         return sealed::commit(args.recipe(), args.parent.as_deref(), args.out.as_deref(), console);
     }
@@ -216,7 +217,7 @@ fn mint(
     interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     let bars = ProgressBars::new(console);
     let started = Stopwatch::start();
-    in_pool_within(args.jobs, args.memory, || make_jobs(plan, jobs, &store, &bars))??;
+    in_pool(args.jobs, || make_jobs(plan, jobs, &store, &bars))??;
     bars.finish();
     interrupt::defer();
     if let Some(shard) = args.shard {

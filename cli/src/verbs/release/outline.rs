@@ -115,7 +115,7 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crat
     }
 }
 
-/// The seconds of one core from which the speed of the machine is measured: it takes some seconds itself.
+/// The seconds of one core from which it is worth a third of a second to measure the speed of the machine.
 const PROBED: f64 = 30.0;
 
 /// The greatest deviation from the estimate, as a share.

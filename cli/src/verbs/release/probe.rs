@@ -5,7 +5,7 @@ use cpu_time::ThreadTime;
 use engine::{Game, Level, Seed};
 use snapshots::{Corpus, CorpusGame};
 
-/// The games of the probe: one that chases, one that pushes, one that shoots.
+/// The games of the probe: of pushing, of chasing, and of shooting.
 const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
 /// Ticks of a play, and forward-model calls of a decision.
 const TICKS: usize = 200;
@@ -16,7 +16,7 @@ const TIMES: u64 = 3;
 const USUAL: f64 = 0.109;
 
 /// Returns how many times longer this machine takes than the one that costs were measured on, with all threads of the current pool at
-/// work; `None` if the corpus lacks a game of the probe. Cost: about half a second of each thread.
+/// work; `None` if the corpus lacks a game of the probe. Cost: about a third of a second of each thread.
 pub(super) fn slowness(corpus: &Corpus) -> Option<f64> {
     let games = GAMES.iter().map(|name| compiled(corpus.games.iter().find(|game| game.name == *name)?));
     let games = games.collect::<Option<Vec<(Game, Level)>>>()?;

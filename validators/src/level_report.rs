@@ -1,0 +1,99 @@
+//! The findings of a panel on one level.
+
+use crate::{Finding, Ladder, Verdict};
+use engine::{Episode, Outcome};
+use serde::Serialize;
+
+/// The message for criteria that are skipped because the game is won or lost in its first tick, whatever the player
+/// does.
+pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
+
+/// The finding of one validator.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Judgement {
+    /// The validator.
+    pub criterion: &'static str,
+    /// Its finding.
+    #[serde(flatten)]
+    pub finding: Finding,
+}
+
+/// The findings of all validators on a level.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// In the order of checking.
+    pub judgements: Vec<Judgement>,
+    /// The shortest win found.
+    #[serde(skip)]
+    pub witness: Option<Episode>,
+}
+
+impl Report {
+    /// Returns `true` if every criterion is met.
+    pub fn passes(&self) -> bool {
+        self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
+    }
+
+    /// Returns the first criterion that is not met.
+    pub fn first_obstacle(&self) -> Option<&Judgement> {
+        self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
+    }
+
+    /// Returns the finding of a criterion, if it was checked.
+    pub fn finding(&self, criterion: &str) -> Option<&Finding> {
+        let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
+        Some(&judgement.finding)
+    }
+
+    /// Returns the results of the ladder, if it was played.
+    pub fn ladder(&self) -> Option<&Ladder> {
+        self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
+    }
+
+    /// Returns `true` if it is proved that the level cannot be won.
+    pub(crate) fn is_unwinnable(&self) -> bool {
+        self.finding("winnable").is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
+    }
+
+    /// Returns `true` if the engine stops the game in its first tick.
+    pub(crate) fn is_stopped(&self) -> bool {
+        let verdict = self.finding("well-formed").map(|finding| &finding.verdict);
+        matches!(verdict, Some(Verdict::Fail { witness: Some(episode), .. })
+            if matches!(episode.outcome, Outcome::Stopped(_)))
+    }
+
+    /// Returns `true` if criteria were skipped because the game is over in its first tick.
+    pub(crate) fn is_over(&self) -> bool {
+        let mut first = self.judgements.iter().filter_map(|judgement| judgement.finding.evidence.first());
+        first.any(|seen| seen.text == OVER)
+    }
+
+    /// Takes the witness of a judgement. If the search found none, a win by another player serves as well.
+    pub(crate) fn accept(&mut self, judgement: &mut Judgement) {
+        if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
+            judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
+        }
+        if let Verdict::Pass { witness: Some(witness) } = &judgement.finding.verdict {
+            self.witness = Some(witness.clone());
+        }
+    }
+
+    pub(crate) fn shortest_win(&self) -> Option<Episode> {
+        let played = self.judgements.iter().flat_map(|judgement| &judgement.finding.episodes);
+        let won = played.filter(|episode| episode.outcome == Outcome::Won);
+        won.min_by_key(|episode| episode.actions.len()).cloned()
+    }
+
+    /// Returns all episodes that the validators played, the most informative ones first: the witness, then those of
+    /// the last validators.
+    pub fn episodes(&self) -> Vec<Episode> {
+        let played = self.judgements.iter().rev().flat_map(|judgement| {
+            let shown = match &judgement.finding.verdict {
+                Verdict::Fail { witness, .. } => witness.as_ref(),
+                _ => None,
+            };
+            shown.into_iter().chain(&judgement.finding.episodes)
+        });
+        self.witness.iter().chain(played).cloned().collect()
+    }
+}
