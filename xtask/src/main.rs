@@ -8,6 +8,7 @@ mod episode_run;
 mod fidelity;
 mod instructions;
 mod judging;
+mod kernels;
 mod levels;
 mod simulate;
 mod solve;
@@ -31,6 +32,7 @@ enum Task {
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
     Judging(judging::Args),
+    Kernels(kernels::Args),
     Simulate(simulate::Args),
     SideBySide(survey::side_by_side::Args),
     Solve(solve::Args),
@@ -45,6 +47,7 @@ fn main() -> anyhow::Result<()> {
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),
         Task::Judging(args) => judging::run(&args),
+        Task::Kernels(args) => kernels::run(&args),
         Task::Simulate(args) => simulate::run(&args),
         Task::SideBySide(args) => survey::side_by_side::run(&args),
         Task::Solve(args) => solve::run(&args),

@@ -5,12 +5,13 @@ use super::company::{CROWDED, Company};
 use super::gate::GameGate;
 use super::kept::Kept;
 use super::look::{Looker, axes};
-use super::order::GameOrder;
+use super::order::{GameEffort, GameOrder};
+use super::rule_sets::{Own, RuleSets, SetVariation};
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search, spread};
 use crate::tally::{LOOK, Tally};
 use engine::Seed;
-use generators::kernels::{KernelGenome, KernelVariation, Turns};
+use generators::kernels::{KernelGenome, KernelVariation};
 use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -90,29 +91,56 @@ pub fn make_games(
 ) -> Result<GameSet, GamesError> {
     order.check()?;
     let gate = GameGate::new(order, known, canary);
-    let maker = Maker::new(order, gate, seed, progress);
+    let maker = Maker { order, gate, seed, progress };
     let set = match order.method {
         Method::Constructive | Method::Search => maker.in_rounds(),
-        Method::Evolutionary => maker.evolved(),
+        Method::Evolutionary => maker.evolved(None),
     };
-    if set.games.is_empty() && order.count > 0 {
-        return Err(GamesError::NoneAccepted { looks: set.looks, tally: Box::new(set.tally) });
-    }
-    Ok(set)
+    set.unless_empty(order)
 }
 
-/// The game of this number of an order that is made one by one, if it can be made, whatever the others are like: known games
-/// only are kept apart from. Cost, and what decides it: as of [`make_games`].
+/// The game of this number of an order that is made one by one, if it can be made, of the [rules](RuleSets) that are shared out to it
+/// and whatever the others are like: known games only are kept apart from. Cost, and what decides it: as of [`make_games`].
 pub fn make_one(
     order: &GameOrder,
+    sets: &RuleSets,
     known: &[GameForm],
-    canary: &str,
     seed: Seed,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let maker = Maker::new(order, GameGate::new(order, known, canary), seed, &());
-    let Attempted { made, tally, .. } = maker.attempt(number);
+    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
+    let Attempted { made, tally, .. } = maker.attempt(sets, number);
     (made, tally)
+}
+
+/// An attempt at a game of a kernel, by its number: for authors of kernels. Cost: about a second of one core. None if there is no
+/// such kernel, or the attempt fails for a reason in the tally.
+pub fn attempt_kernel(order: &GameOrder, kernel: &str, seed: Seed, number: u32) -> (Option<MadeGame>, Tally) {
+    let maker = Maker { order, gate: GameGate::new(order, &[], ""), seed, progress: &() };
+    let seed = seed.child(kernel, number.into());
+    let drawn = KernelGenome::of_kernel(kernel, |_| true, &BTreeSet::new(), seed.child("rules", 0));
+    let mut attempted = Attempted::default();
+    let is_judged = (number + 1).is_multiple_of(order.effort.unseen.max(1));
+    if let Some(drawn) = drawn {
+        maker.judge_proposed(drawn, None, (number, is_judged), seed, &mut attempted);
+    }
+    (attempted.made, attempted.tally)
+}
+
+/// The games of the archive of this number, of the [rules](RuleSets) that are shared out to it. Otherwise as [`make_games`].
+///
+/// # Errors
+/// Those of [`make_games`].
+pub fn make_archive(
+    order: &GameOrder,
+    sets: &RuleSets,
+    known: &[GameForm],
+    seed: Seed,
+    number: u32,
+) -> Result<GameSet, GamesError> {
+    order.check()?;
+    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
+    maker.evolved(Some((sets, sets.of_archive(number)))).unless_empty(order)
 }
 
 /// The least number of games that are looked at in a round of an archive, and of finalists that are judged on all threads.
@@ -122,8 +150,7 @@ const LEAST_OF_ROUND: usize = 4;
 pub(super) struct Maker<'a> {
     pub(super) order: &'a GameOrder,
     pub(super) gate: GameGate<'a>,
-    seed: Seed,
-    pub(super) turns: Turns,
+    pub(super) seed: Seed,
     pub(super) progress: &'a dyn Progress,
 }
 
@@ -136,6 +163,14 @@ pub(super) struct Attempted {
 }
 
 impl GameSet {
+    /// The set, or an error if it has no game of those that were asked for.
+    fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
+        match self.games.is_empty() && order.count > 0 {
+            true => Err(GamesError::NoneAccepted { looks: self.looks, tally: Box::new(self.tally) }),
+            false => Ok(self),
+        }
+    }
+
     /// Ends the set: if there are fewer games than wanted, those of crowded kinds go.
     pub(super) fn end(&mut self, company: &Company, wanted: usize, shortfall: Shortfall) {
         if self.games.len() < wanted {
@@ -148,10 +183,6 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    fn new(order: &'a GameOrder, gate: GameGate<'a>, seed: Seed, progress: &'a dyn Progress) -> Maker<'a> {
-        Maker { order, gate, seed, turns: Turns::draw(&order.kinds, seed), progress }
-    }
-
     /// The seed of an attempt of a set.
     pub(super) fn seed_of(&self, number: u32) -> Seed {
         self.seed.child("game", u64::from(number))
@@ -168,33 +199,47 @@ impl<'a> Maker<'a> {
     }
 
     /// Attempts at the game of a place, until one is accepted.
-    fn attempt(&self, number: u32) -> Attempted {
+    fn attempt(&self, sets: &RuleSets, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
-        let patience = self.order.effort.patience.max(1);
-        for attempt in 0..self.order.effort.attempts {
+        let GameEffort { attempts, patience, unseen, .. } = self.order.effort;
+        for attempt in 0..attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
-            let passes = attempt / patience;
-            let drawn = KernelGenome::in_turn(&self.turns, number, passes, seed.child("rules", 0));
-            let Some(drawn) = drawn else { break };
-            let is_judged = (attempt + 1) % patience == 0;
-            let proposed = self.proposed(drawn, is_judged, seed, &mut attempted);
-            for (at, genome) in (0..).zip(&proposed) {
-                let judges = seed.child("judges", at);
-                let made = self.gate.judge(genome, attempt, judges, &|_| None, &mut attempted.tally);
-                if let Some(mut made) = made {
-                    made.path = path([("game", number.into()), ("attempt", attempt.into()), ("judges", at)]);
-                    attempted.made = Some(made);
-                    return attempted;
-                }
+            let passes = attempt / patience.max(1);
+            let Some(set) = sets.of_place(self.order.method, number, passes) else { break };
+            let is_judged = (attempt + 1).is_multiple_of(unseen.max(1));
+            let drawn = sets.draw_of(set, seed.child("rules", 0));
+            let own = Some((sets, vec![set]));
+            if let Some(at) = self.judge_proposed(drawn, own, (attempt, is_judged), seed, &mut attempted) {
+                let steps = [("game", number.into()), ("attempt", attempt.into()), ("judges", at)];
+                attempted.made.iter_mut().for_each(|made| made.path = path(steps));
+                break;
             }
         }
         attempted
     }
 
-    /// The games for the judges, from one that was drawn.
+    /// Judges what is proposed for a game that was drawn, until one is accepted: returns which.
+    fn judge_proposed(
+        &self,
+        drawn: KernelGenome,
+        own: Option<Own<'_>>,
+        (attempt, is_judged): (u32, bool),
+        seed: Seed,
+        attempted: &mut Attempted,
+    ) -> Option<u64> {
+        let proposed = self.proposed(drawn, own, is_judged, seed, attempted);
+        (0..).zip(&proposed).find_map(|(at, genome)| {
+            let judges = seed.child("judges", at);
+            attempted.made = self.gate.judge(genome, attempt, judges, &|_| None, &mut attempted.tally);
+            attempted.made.is_some().then_some(at)
+        })
+    }
+
+    /// The games for the judges, from one that was drawn; of its own sets of rules only, if there are any.
     pub(super) fn proposed(
         &self,
         drawn: KernelGenome,
+        own: Option<Own<'_>>,
         is_judged: bool,
         seed: Seed,
         attempted: &mut Attempted,
@@ -202,7 +247,7 @@ impl<'a> Maker<'a> {
         let proposed = match self.order.method {
             Method::Constructive if is_judged => vec![drawn],
             Method::Constructive => self.promising(drawn, seed, attempted),
-            _ => self.searched(&drawn, seed.child("search", 0), attempted),
+            _ => self.searched(&drawn, own, seed.child("search", 0), attempted),
         };
         if proposed.is_empty() {
             attempted.tally.game_rejected("look");
@@ -210,8 +255,7 @@ impl<'a> Maker<'a> {
         proposed
     }
 
-    /// The game, if a look at it promises something: the judges cost many looks. The last game of a kernel before its turn
-    /// passes is judged in any case, since some are beyond the players of a look.
+    /// The game, if a look at it promises something: the judges cost many looks.
     fn promising(&self, drawn: KernelGenome, seed: Seed, attempted: &mut Attempted) -> Vec<KernelGenome> {
         self.progress.looked();
         let look = Looker::new(seed.child("look", 0)).look(&drawn);
@@ -220,8 +264,14 @@ impl<'a> Maker<'a> {
     }
 
     /// The best games of a search that starts from games of the same kind.
-    fn searched(&self, drawn: &KernelGenome, seed: Seed, attempted: &mut Attempted) -> Vec<KernelGenome> {
-        let variation = KernelVariation::new(&[drawn.kind()]);
+    fn searched(
+        &self,
+        drawn: &KernelGenome,
+        own: Option<Own<'_>>,
+        seed: Seed,
+        attempted: &mut Attempted,
+    ) -> Vec<KernelGenome> {
+        let variation = SetVariation { variation: KernelVariation::new(&[drawn.kind()]), own };
         let looks = self.order.effort.looks as usize;
         let looker = Looker::new(seed.child("look", 0));
         let config = AnnealingConfig { starts: looks / 3, ..AnnealingConfig::of(looks) };
@@ -240,9 +290,9 @@ impl<'a> Maker<'a> {
     }
 
     /// Fills an archive of games that differ, and picks games that lie far apart in it until enough are accepted.
-    fn evolved(&self) -> GameSet {
+    fn evolved(&self, own: Option<Own<'_>>) -> GameSet {
         let looker = Looker::new(self.seed.child("look", 0));
-        let variation = KernelVariation::new(&self.order.kinds);
+        let variation = SetVariation { variation: KernelVariation::new(&self.order.kinds), own };
         let wanted = self.order.count as usize;
         let looks = self.order.effort.looks as usize * wanted;
         let config = MapElitesConfig { initial: (looks / 3).max(1), ..MapElitesConfig::default() };

@@ -3,7 +3,7 @@
 use super::company::{Company, Room};
 use super::make::{Attempted, GameSet, Maker, Shortfall, path};
 use generators::games::Kind;
-use generators::kernels::KernelGenome;
+use generators::kernels::{KernelGenome, Turns};
 use rayon::prelude::*;
 
 /// The attempts of a round, at least and at most. Part of what decides the bytes.
@@ -84,7 +84,7 @@ impl Maker<'_> {
         let mut set = GameSet::default();
         let mut shortfall = Shortfall::Attempts;
         let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0, attempts: 0 };
-        let mut ledger = Ledger(self.turns.kernels().map(fared).collect());
+        let mut ledger = Ledger(Turns::draw(&self.order.kinds, self.seed).kernels().map(fared).collect());
         let (mut number, most) = (0, order.count.saturating_mul(order.effort.attempts));
         while set.games.len() < wanted && number < most {
             let size = (wanted - set.games.len()).clamp(ROUND.0, ROUND.1).min((most - number) as usize);
@@ -118,13 +118,12 @@ impl Maker<'_> {
         set
     }
 
-    /// One attempt. Every third of a kernel is judged in any case, since some games are beyond the players of a look.
+    /// One attempt.
     fn in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
-        let patience = self.order.effort.patience.max(1);
-        let is_judged = (turn.of_kernel + 1).is_multiple_of(patience);
+        let is_judged = (turn.of_kernel + 1).is_multiple_of(self.order.effort.unseen.max(1));
         let seed = self.seed_of(turn.number);
-        let proposed = self.proposed(turn.drawn.clone(), is_judged, seed, &mut attempted);
+        let proposed = self.proposed(turn.drawn.clone(), None, is_judged, seed, &mut attempted);
         for (at, genome) in (0..).zip(&proposed) {
             let objection = |candidate: &_| company.objection(candidate);
             let judges = seed.child("judges", at);

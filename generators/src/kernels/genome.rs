@@ -5,6 +5,7 @@ use super::graft::Graft;
 use super::kernel::Kernel;
 use super::scene::Scene;
 use super::turns::Turns;
+use super::variation::pick;
 use crate::GenerateError;
 use crate::games::{GeneratedGame, Kind};
 use engine::{Description, Digest, Game, Sampler, Seed, syntax};
@@ -12,6 +13,9 @@ use std::collections::BTreeSet;
 
 /// The ticks of a game whose levels nobody has played yet.
 const LONG: u32 = 400;
+
+/// The greatest number of grafts of a game.
+pub(super) const MAX_GRAFTS: usize = 2;
 
 /// Games of another form for one of a kernel as such: forms were written because kernels end alike.
 const OTHER_FORM: u32 = 2;
@@ -49,17 +53,10 @@ impl KernelGenome {
     /// # Errors
     /// If no kernel of these kinds has a scene.
     pub fn draw(kinds: &[Kind], seed: Seed) -> Result<KernelGenome, GenerateError> {
-        let place = seed.child("place", 0).sampler().below(1 << 16) as u32;
-        KernelGenome::in_turn(&Turns::draw(kinds, seed), place, 0, seed)
-            .ok_or_else(|| GenerateError::Unsuitable("no kernel is of the kinds that are allowed".to_owned()))
-    }
-
-    /// Draws a game of the kernel whose turn it is, after some passes; `None` if there are no kernels.
-    pub fn in_turn(turns: &Turns, place: u32, passes: u32, seed: Seed) -> Option<KernelGenome> {
-        let kernel = turns.kernel(place, passes)?;
-        let drawn = KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler());
-        let scene = turns.scene(drawn.kernel, place).unwrap_or(drawn.scene);
-        Some(KernelGenome { scene, ..drawn })
+        let kernel = Turns::draw(kinds, seed)
+            .any(&mut seed.child("place", 0).sampler())
+            .ok_or_else(|| GenerateError::Unsuitable("no kernel is of the kinds that are allowed".to_owned()))?;
+        Ok(KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler()))
     }
 
     /// Draws a game of a kernel, in one of the forms that are open, and in none of the scenes that are taken, if it fits
@@ -77,6 +74,53 @@ impl KernelGenome {
         let free: Vec<_> = Scene::of(drawn.kernel).filter(|scene| !taken.contains(&scene.name)).collect();
         let scene = if free.is_empty() { drawn.scene } else { free[sampler.below(free.len())] };
         Some(KernelGenome { scene, ..drawn })
+    }
+
+    /// A game of each form of a kernel, without its variants and with all of them; none if there is no such kernel.
+    pub fn all_of(kernel: &str) -> Vec<KernelGenome> {
+        let named = Kernel::all().iter().filter(|other| other.name == kernel);
+        let mut sampler = Seed::from_text("all").sampler();
+        let mut all = Vec::new();
+        for form in named.flat_map(Kernel::in_all_forms) {
+            let plain = KernelGenome { variants: Vec::new(), ..KernelGenome::in_form(form, &mut sampler) };
+            let variants: Vec<usize> = (0..form.variants.len()).collect();
+            if !variants.is_empty() {
+                all.push(KernelGenome { variants, ..plain.clone() });
+            }
+            all.push(plain);
+        }
+        all
+    }
+
+    /// The same game with one or two grafts more; `None` if it can take none.
+    pub fn grafted(&self, seed: Seed) -> Option<KernelGenome> {
+        let sampler = &mut seed.child("grafts", 0).sampler();
+        let mut genome = self.clone();
+        genome.graft(sampler)?;
+        if sampler.ratio(1, 3) {
+            let mut twice = genome.clone();
+            if twice.graft(sampler).is_some() {
+                genome = twice;
+            }
+        }
+        genome.build().is_ok().then_some(genome)
+    }
+
+    /// The same rules with other numbers and nouns.
+    #[must_use]
+    pub fn redrawn(&self, seed: Seed) -> KernelGenome {
+        let sampler = &mut seed.child("genome", 0).sampler();
+        let values = self.kernel.numbers.draw(sampler);
+        let nouns = Seed::from_text("nouns").child("draw", sampler.bits());
+        KernelGenome { values, nouns, ..self.clone() }
+    }
+
+    /// The same game in a scene that is not taken; `None` if all that it can be set in are.
+    pub fn in_free_scene(&self, taken: &BTreeSet<String>, seed: Seed) -> Option<KernelGenome> {
+        let mut free: Vec<_> = self.scenes().filter(|scene| !taken.contains(&scene.name)).collect();
+        seed.child("scene", 0).sampler().shuffle(&mut free);
+        let staged = free.into_iter().map(|scene| KernelGenome { scene, ..self.clone() });
+        staged.into_iter().find(|genome| genome.build().is_ok())
     }
 
     /// Draws a game of a kernel that has scenes, in one of its forms.
@@ -97,6 +141,29 @@ impl KernelGenome {
             nouns: Seed::from_text("nouns").child("draw", sampler.bits()),
             time: LONG,
         }
+    }
+
+    /// The grafts that bring types which the game does not have.
+    pub(super) fn addable(&self) -> impl Iterator<Item = &'static Graft> {
+        Graft::all(self.kernel).iter().filter(|graft| {
+            let has = |stype: &String| self.grafts.iter().any(|other| other.roles.contains_key(stype));
+            !graft.roles.keys().any(has)
+        })
+    }
+
+    /// Adds a graft, in the place of the first where there would be more than [`MAX_GRAFTS`]; the scene becomes one that has nouns
+    /// for all of it. `None` if there is no such graft or scene.
+    pub(super) fn graft(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let grafts: Vec<&'static Graft> = self.addable().collect();
+        self.grafts.push(grafts[pick(grafts.len(), sampler)?]);
+        if self.grafts.len() > MAX_GRAFTS {
+            self.grafts.remove(0);
+        }
+        let scenes: Vec<&'static Scene> = self.scenes().collect();
+        if !scenes.iter().any(|scene| scene.name == self.scene.name) {
+            self.scene = scenes[pick(scenes.len(), sampler)?];
+        }
+        Some(())
     }
 
     /// The scenes that have a noun for everything in it.

@@ -1,6 +1,6 @@
 //! Variation of games of kernels, for search.
 
-use super::genome::KernelGenome;
+use super::genome::{KernelGenome, MAX_GRAFTS};
 use super::graft::Graft;
 use super::kernel::Kernel;
 use super::scene::Scene;
@@ -10,8 +10,6 @@ use engine::{Sampler, Seed};
 
 /// The number of draws of a change before a parent is returned unchanged.
 const ATTEMPTS: usize = 16;
-/// The greatest number of grafts of a game.
-const MAX_GRAFTS: usize = 2;
 
 /// Games of kernels as candidates of a search: drawn like constructive ones, changed by a number, a variant, a graft or the
 /// scene, and crossed.
@@ -43,17 +41,7 @@ impl KernelVariation {
                     Err(place) => genome.variants.insert(place, at),
                 }
             }
-            2 => {
-                let grafts: Vec<&'static Graft> = addable(&genome).collect();
-                genome.grafts.push(grafts[pick(grafts.len(), sampler)?]);
-                if genome.grafts.len() > MAX_GRAFTS {
-                    genome.grafts.remove(0);
-                }
-                let scenes: Vec<&'static Scene> = genome.scenes().collect();
-                if !scenes.iter().any(|scene| scene.name == genome.scene.name) {
-                    genome.scene = scenes[pick(scenes.len(), sampler)?];
-                }
-            }
+            2 => genome.graft(sampler)?,
             3 => {
                 let at = pick(genome.grafts.len(), sampler)?;
                 genome.grafts.remove(at);
@@ -73,15 +61,7 @@ impl KernelVariation {
     }
 }
 
-/// The grafts that bring types which a game does not have.
-fn addable(genome: &KernelGenome) -> impl Iterator<Item = &'static Graft> {
-    Graft::all(genome.kernel).iter().filter(|graft| {
-        let has = |stype: &String| genome.grafts.iter().any(|other| other.roles.contains_key(stype));
-        !graft.roles.keys().any(has)
-    })
-}
-
-fn pick(count: usize, sampler: &mut Sampler) -> Option<usize> {
+pub(super) fn pick(count: usize, sampler: &mut Sampler) -> Option<usize> {
     (count > 0).then(|| sampler.below(count))
 }
 
@@ -115,7 +95,7 @@ impl Variation for KernelVariation {
         child.grafts.retain(|_| sampler.ratio(2, 3));
         for graft in &two.grafts {
             let fits = |own: &&Graft| own.name == graft.name && own.fits(child.scene, child.kernel);
-            let own = addable(&child).find(fits);
+            let own = child.addable().find(fits);
             child.grafts.extend(own.filter(|_| child.grafts.len() < MAX_GRAFTS));
         }
         if child.build().is_ok() { child } else { one.clone() }

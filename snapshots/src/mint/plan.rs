@@ -16,13 +16,13 @@ use forge::card::Origin;
 use forge::games::Step;
 use forge::games::{
     Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, Locks, MadeGame, PuzzleLevels,
-    make_games, make_one,
+    RuleSets, make_archive, make_one,
 };
 use forge::levels::Method;
 use generators::games::{LockRules, PushRules, Rethemed};
 use generators::levels::{Examples, LevelConfig};
 use report::canonical::canonical_digest;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
 use validators::{Criteria, GATES, Panel, Tier};
 
@@ -39,6 +39,8 @@ pub struct Plan<'a> {
     /// The new games of previous releases.
     pub(super) before: Vec<GameForm>,
     jobs: Vec<Job>,
+    /// The rules of new games, shared out among the jobs: drawn when the first job asks for them.
+    sets: OnceLock<RuleSets>,
     /// The players of the marks.
     players: Option<&'a dyn MarkPlayers>,
 }
@@ -100,7 +102,8 @@ impl<'a> Plan<'a> {
         let games: Vec<Game> = corpus.games.iter().map(compile).collect::<Result<_, _>>()?;
         let forms = games.iter().map(GameForm::of).collect();
         let before = recipe.known.forms()?;
-        let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs: Vec::new(), players: None };
+        let (jobs, sets) = (Vec::new(), OnceLock::new());
+        let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs, sets, players: None };
         plan.jobs = plan.puzzles().chain(plan.generated()).chain(plan.of_corpus()?).collect();
         Ok(plan)
     }
@@ -240,6 +243,9 @@ impl<'a> Plan<'a> {
         if let Some(locks) = locks {
             decisive["locks"] = serde_json::json!(locks);
         }
+        if self.recipe.generated.games > 0 && !self.before.is_empty() {
+            decisive["known"] = serde_json::json!(self.recipe.known);
+        }
         if let Some(memory) = self.recipe.memory {
             decisive["memory"] = serde_json::json!(memory);
         }
@@ -360,10 +366,10 @@ impl<'a> Plan<'a> {
             Job::Puzzle(number) | Job::Locks(number) => self.puzzle(job, number, seed),
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
-            Job::Archive(_) => {
+            Job::Archive(number) => {
                 let order =
                     GameOrder { count: ISLAND, ..self.order(Method::Evolutionary, part.game_tries / 8) };
-                match make_games(&order, &self.forms, "", seed, &()) {
+                match make_archive(&order, self.rule_sets(), &self.forms, seed, number) {
                     Ok(set) => (set.games, set.tally),
                     Err(GamesError::NoneAccepted { tally, .. }) => (Vec::new(), *tally),
                     Err(GamesError::Criteria(error)) => return Err(error.into()),
@@ -416,8 +422,20 @@ impl<'a> Plan<'a> {
             Method::Constructive => self.recipe.generated.game_tries,
             _ => self.recipe.generated.game_tries / 8,
         };
-        let (made, tally) = make_one(&self.order(method, tries), &self.forms, "", seed, number);
+        let (made, tally) =
+            make_one(&self.order(method, tries), self.rule_sets(), &self.forms, seed, number);
         (made.into_iter().collect(), tally)
+    }
+
+    /// The rules of new games: jobs know nothing of each other, so what they make has to differ beforehand.
+    fn rule_sets(&self) -> &RuleSets {
+        self.sets.get_or_init(|| {
+            let part = &self.recipe.generated;
+            let with_grafts = part.mix.search > 0.0 || part.mix.evolutionary > 0.0;
+            let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
+            let kinds = self.order(Method::Constructive, 1).kinds;
+            RuleSets::draw(&kinds, with_grafts, &known, self.seed.child("rules", 0))
+        })
     }
 
     fn order(&self, method: Method, attempts: u32) -> GameOrder {

@@ -65,7 +65,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "studio",
         ],
     ),
-    ("xtask", &["engine", "agents", "generators", "validators", "forge", "report", "render", "statistics"]),
+    ("xtask", &["engine", "agents", "generators", "validators", "forge", "snapshots", "report", "render", "statistics"]),
 ];
 
 /// The crate that may depend on all others, because none depends on it.

@@ -1,0 +1,78 @@
+//! `cargo xtask kernels`: what stands in the way of games of each kernel.
+
+use anyhow::{Context, bail};
+use engine::Seed;
+use forge::Tally;
+use forge::games::{GameOrder, attempt_kernel};
+use forge::levels::Method;
+use generators::kernels::KernelGenome;
+use itertools::Itertools;
+use rayon::prelude::*;
+use report::{Table, TableCell};
+use snapshots::Recipe;
+use std::fs;
+use std::path::PathBuf;
+
+/// Attempts games of each kernel under the criteria of a recipe, and counts those that are accepted and why the others fail.
+///
+/// A kernel that seldom passes leaves its turns to others, so a release has many games of few kernels. Attempts are independent, and
+/// games of a kernel may be near to each other. Cost: about a second of one core an attempt.
+///
+/// Example: cargo xtask kernels seeds/2026-12.toml --kernel one-pull
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Recipe with the criteria
+    #[arg(value_name = "FILE")]
+    recipe: PathBuf,
+    /// Kernels to attempt (default: all)
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    kernel: Vec<String>,
+    /// Attempts at each kernel
+    #[arg(long, value_name = "N", default_value_t = 24)]
+    attempts: u32,
+    /// Text that all seeds are derived from
+    #[arg(long, value_name = "TEXT", default_value = "kernels")]
+    seed: String,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let text = fs::read_to_string(&args.recipe).with_context(|| args.recipe.display().to_string())?;
+    let recipe = Recipe::from_toml(&text).with_context(|| args.recipe.display().to_string())?;
+    let part = &recipe.generated;
+    let order = GameOrder {
+        levels: part.levels,
+        level_tries: part.level_tries,
+        least_interactions: part.least_interactions,
+        least_mechanics: part.least_mechanics,
+        criteria: recipe.criteria.clone(),
+        ..GameOrder::new(Method::Constructive, 1)
+    };
+    let mut kernels: Vec<&str> = KernelGenome::kernels().collect();
+    if let Some(strange) = args.kernel.iter().find(|name| !kernels.contains(&name.as_str())) {
+        bail!("there is no kernel {strange}; the kernels are: {}", kernels.iter().join(", "));
+    }
+    kernels.retain(|name| args.kernel.is_empty() || args.kernel.iter().any(|wanted| wanted == name));
+    let seed = Seed::from_text(&args.seed);
+    let columns = ["kernel", "made", "of", "forms made", "calls, millions", "why not"];
+    let note = "The reasons count levels and games, the most frequent first.";
+    let mut table = Table::new("kernels", "Games of each kernel", note, &columns);
+    for kernel in kernels {
+        let attempt = |number| attempt_kernel(&order, kernel, seed, number);
+        let attempts: Vec<_> = (0..args.attempts).into_par_iter().map(attempt).collect();
+        let mut tally = Tally::default();
+        attempts.iter().for_each(|(_, of_attempt)| tally.add(of_attempt));
+        let forms = attempts.iter().filter_map(|(made, _)| made.as_ref());
+        let forms = forms.map(|made| made.card.origin.form().unwrap_or("plain")).counts();
+        table.push(vec![
+            TableCell::text(kernel),
+            TableCell::Count(tally.games_accepted),
+            TableCell::Count(args.attempts.into()),
+            TableCell::text(forms.iter().sorted().map(|(form, made)| format!("{form} {made}")).join(", ")),
+            TableCell::number(tally.calls as f64 / 1e6, 0),
+            TableCell::text(tally.reasons()),
+        ]);
+        eprintln!("{kernel}: {} of {}", tally.games_accepted, args.attempts);
+    }
+    println!("{}", table.to_markdown());
+    Ok(())
+}
