@@ -385,11 +385,11 @@ mod tests {
     use crate::games::gate::tests::order;
     use generators::games::Kind;
 
-    /// One attempt at a game by looking at others, the same on any number of threads.
+    /// Few attempts at a game by looking at others, the same on any number of threads.
     #[track_caller]
     fn check(method: Method) {
         let order = GameOrder { method, kinds: vec![Kind::KeyAndDoor], ..order() };
-        let order = GameOrder { effort: GameEffort { attempts: 1, looks: 12, ..order.effort }, ..order };
+        let order = GameOrder { effort: GameEffort { attempts: 3, looks: 12, ..order.effort }, ..order };
         let made_by = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let set = pool.install(|| make_games(&order, &[], "", Seed::from_text("threads"), &())).unwrap();

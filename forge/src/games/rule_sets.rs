@@ -276,7 +276,9 @@ mod tests {
         assert_eq!(first, (0..all).collect::<Vec<_>>());
         let passed: BTreeSet<usize> = (0..half as u32).map(|place| at(place, 1)).collect();
         assert!(passed.len() == half && passed.iter().all(|&at| at >= half));
-        assert!(RuleSets::draw(&[], true, &[], Seed::from_text("none")).of_place(Method::Search, 3, 1).is_none());
+        assert!(
+            RuleSets::draw(&[], true, &[], Seed::from_text("none")).of_place(Method::Search, 3, 1).is_none()
+        );
     }
 
     #[test]

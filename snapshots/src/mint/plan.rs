@@ -422,8 +422,7 @@ impl<'a> Plan<'a> {
             Method::Constructive => self.recipe.generated.game_tries,
             _ => self.recipe.generated.game_tries / 8,
         };
-        let (made, tally) =
-            make_one(&self.order(method, tries), self.rule_sets(), &self.forms, seed, number);
+        let (made, tally) = make_one(&self.order(method, tries), self.rule_sets(), &self.forms, seed, number);
         (made.into_iter().collect(), tally)
     }
 

@@ -65,7 +65,20 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "studio",
         ],
     ),
-    ("xtask", &["engine", "agents", "generators", "validators", "forge", "snapshots", "report", "render", "statistics"]),
+    (
+        "xtask",
+        &[
+            "engine",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "report",
+            "render",
+            "statistics",
+        ],
+    ),
 ];
 
 /// The crate that may depend on all others, because none depends on it.
