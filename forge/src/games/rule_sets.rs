@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use validators::novelty::GameForm;
 
 /// Draws of numbers for each form of a kernel, with and without its variants, and draws of grafts for a kernel.
-const DRAWS: (u64, u64) = (6, 48);
+const DRAWS: (u64, u64) = (6, 96);
 
 /// Draws of other numbers for a game of a set.
 const REDRAWS: u64 = 4;
@@ -21,7 +21,7 @@ const STRIDE: usize = 17;
 const BLOCK: usize = 40;
 
 /// The sets of an archive.
-const OF_ARCHIVE: usize = 10;
+const OF_ARCHIVE: usize = 6;
 
 /// A set of rules: a kernel in one of its forms, with variants, grafts and numbers, in a scene. Nouns and levels are open, and so are
 /// the numbers as far as a game does not come near to another set.
@@ -67,7 +67,7 @@ impl OfKernel<'_> {
 
 impl RuleSets {
     /// Draws the sets of these kinds that are not near to a `known` game; those with grafts if they are asked for. Cost: about a
-    /// millisecond for each that is considered, some 500 without grafts and 2,000 more with.
+    /// millisecond for each that is considered, some 500 without grafts and 4,000 more with.
     pub fn draw(kinds: &[Kind], with_grafts: bool, known: &[GameForm], seed: Seed) -> RuleSets {
         let (mut plain, mut grafted) = (Vec::new(), Vec::new());
         for (kernel, _) in Turns::draw(kinds, seed).kernels() {
@@ -112,16 +112,14 @@ impl RuleSets {
         self
     }
 
-    /// The sets that a method draws on: searches and archives share those with grafts, if there are any.
+    /// The sets that a method draws on: of those with grafts, searches and archives take a third each, and constructive games the others
+    /// after all without.
     fn of_method(&self, method: Method) -> Vec<&RuleSet> {
-        let shared = |rest: usize| {
-            let all = if self.grafted.is_empty() { &self.plain } else { &self.grafted };
-            all.iter().skip(rest).step_by(2).collect()
-        };
+        let third = |first: usize| self.grafted.iter().skip(first).step_by(3);
         match method {
-            Method::Constructive => self.plain.iter().collect(),
-            Method::Search => shared(0),
-            Method::Evolutionary => shared(1),
+            Method::Search if !self.grafted.is_empty() => third(0).collect(),
+            Method::Evolutionary if !self.grafted.is_empty() => third(1).collect(),
+            _ => self.plain.iter().chain(third(2)).collect(),
         }
     }
 
@@ -269,9 +267,13 @@ mod tests {
         let sets = sets();
         let at = |place, passes| {
             let set = sets.of_place(Method::Constructive, place, passes).unwrap();
-            sets.plain.iter().position(|other| other.form == set.form).unwrap()
+            let mut all = sets.plain.iter().chain(&sets.grafted);
+            let at = all.position(|other| other.form == set.form).unwrap();
+            let grafted = at.checked_sub(sets.plain.len());
+            grafted.map_or(at, |grafted| sets.plain.len() + grafted / 3)
         };
-        let (all, half) = (sets.plain.len(), sets.plain.len() / 2);
+        let all = sets.of_method(Method::Constructive).len();
+        let half = all / 2;
         let first: Vec<usize> = (0..all as u32).map(|place| at(place, 0)).collect();
         assert_eq!(first, (0..all).collect::<Vec<_>>());
         let passed: BTreeSet<usize> = (0..half as u32).map(|place| at(place, 1)).collect();

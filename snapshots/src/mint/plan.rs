@@ -243,8 +243,11 @@ impl<'a> Plan<'a> {
         if let Some(locks) = locks {
             decisive["locks"] = serde_json::json!(locks);
         }
-        if self.recipe.generated.games > 0 && !self.before.is_empty() {
-            decisive["known"] = serde_json::json!(self.recipe.known);
+        if self.recipe.generated.games > 0 {
+            decisive["grafts"] = self.has_grafts().into();
+            if !self.before.is_empty() {
+                decisive["known"] = serde_json::json!(self.recipe.known);
+            }
         }
         if let Some(memory) = self.recipe.memory {
             decisive["memory"] = serde_json::json!(memory);
@@ -426,14 +429,18 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
+    /// Tests whether rules are grafted: for searches and archives.
+    fn has_grafts(&self) -> bool {
+        let mix = &self.recipe.generated.mix;
+        mix.search > 0.0 || mix.evolutionary > 0.0
+    }
+
     /// The rules of new games: jobs know nothing of each other, so what they make has to differ beforehand.
     fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
-            let part = &self.recipe.generated;
-            let with_grafts = part.mix.search > 0.0 || part.mix.evolutionary > 0.0;
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
             let kinds = self.order(Method::Constructive, 1).kinds;
-            RuleSets::draw(&kinds, with_grafts, &known, self.seed.child("rules", 0))
+            RuleSets::draw(&kinds, self.has_grafts(), &known, self.seed.child("rules", 0))
         })
     }
 
