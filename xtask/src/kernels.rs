@@ -71,7 +71,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             TableCell::number(tally.calls as f64 / 1e6, 0),
             TableCell::text(tally.reasons()),
         ]);
-        eprintln!("{kernel}: {} of {}", tally.games_accepted, args.attempts);
     }
     println!("{}", table.to_markdown());
     Ok(())
