@@ -122,7 +122,7 @@ pub fn attempt_kernel(order: &GameOrder, kernel: &str, seed: Seed, number: u32) 
     let mut attempted = Attempted::default();
     let is_judged = (number + 1).is_multiple_of(order.effort.unseen.max(1));
     if let Some(drawn) = drawn {
-        maker.judge_proposed(drawn, None, (number, is_judged), seed, &mut attempted);
+        maker.judge_proposed((drawn, None), (number, is_judged), seed, &|_| None, &mut attempted);
     }
     (attempted.made, attempted.tally)
 }
@@ -206,10 +206,10 @@ impl<'a> Maker<'a> {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
             let passes = attempt / patience.max(1);
             let Some(set) = sets.of_place(self.order.method, number, passes) else { break };
-            let is_judged = (attempt + 1).is_multiple_of(unseen.max(1));
+            let turn = (attempt, (attempt + 1).is_multiple_of(unseen.max(1)));
             let drawn = sets.draw_of(set, seed.child("rules", 0));
             let own = Some((sets, vec![set]));
-            if let Some(at) = self.judge_proposed(drawn, own, (attempt, is_judged), seed, &mut attempted) {
+            if let Some(at) = self.judge_proposed((drawn, own), turn, seed, &|_| None, &mut attempted) {
                 let steps = [("game", number.into()), ("attempt", attempt.into()), ("judges", at)];
                 attempted.made.iter_mut().for_each(|made| made.path = path(steps));
                 break;
@@ -219,24 +219,25 @@ impl<'a> Maker<'a> {
     }
 
     /// Judges what is proposed for a game that was drawn, until one is accepted: returns which.
-    fn judge_proposed(
+    pub(super) fn judge_proposed(
         &self,
-        drawn: KernelGenome,
-        own: Option<Own<'_>>,
+        (drawn, own): (KernelGenome, Option<Own<'_>>),
         (attempt, is_judged): (u32, bool),
         seed: Seed,
+        objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         attempted: &mut Attempted,
     ) -> Option<u64> {
         let proposed = self.proposed(drawn, own, is_judged, seed, attempted);
         (0..).zip(&proposed).find_map(|(at, genome)| {
             let judges = seed.child("judges", at);
-            attempted.made = self.gate.judge(genome, attempt, judges, &|_| None, &mut attempted.tally);
+            attempted.made = self.gate.judge(genome, attempt, judges, objection, &mut attempted.tally);
+            self.progress.looked();
             attempted.made.is_some().then_some(at)
         })
     }
 
     /// The games for the judges, from one that was drawn; of its own sets of rules only, if there are any.
-    pub(super) fn proposed(
+    fn proposed(
         &self,
         drawn: KernelGenome,
         own: Option<Own<'_>>,

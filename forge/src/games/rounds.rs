@@ -1,5 +1,6 @@
 //! Sets whose games are made one by one, in short rounds: each round knows the games of those before it.
 
+use super::candidate::Candidate;
 use super::company::{Company, Room};
 use super::make::{Attempted, GameSet, Maker, Shortfall, path};
 use generators::games::Kind;
@@ -123,17 +124,11 @@ impl Maker<'_> {
         let mut attempted = Attempted::default();
         let is_judged = (turn.of_kernel + 1).is_multiple_of(self.order.effort.unseen.max(1));
         let seed = self.seed_of(turn.number);
-        let proposed = self.proposed(turn.drawn.clone(), None, is_judged, seed, &mut attempted);
-        for (at, genome) in (0..).zip(&proposed) {
-            let objection = |candidate: &_| company.objection(candidate);
-            let judges = seed.child("judges", at);
-            let made = self.gate.judge(genome, turn.number, judges, &objection, &mut attempted.tally);
-            self.progress.looked();
-            if let Some(mut made) = made {
-                made.path = path([("game", turn.number.into()), ("judges", at)]);
-                attempted.made = Some(made);
-                break;
-            }
+        let (drawn, judged) = ((turn.drawn.clone(), None), (turn.number, is_judged));
+        let objection = |candidate: &Candidate| company.objection(candidate);
+        if let Some(at) = self.judge_proposed(drawn, judged, seed, &objection, &mut attempted) {
+            let steps = [("game", turn.number.into()), ("judges", at)];
+            attempted.made.iter_mut().for_each(|made| made.path = path(steps));
         }
         attempted
     }

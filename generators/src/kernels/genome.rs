@@ -120,8 +120,8 @@ impl KernelGenome {
     pub fn in_free_scene(&self, taken: &BTreeSet<String>, seed: Seed) -> Option<KernelGenome> {
         let mut free: Vec<_> = self.scenes().filter(|scene| !taken.contains(&scene.name)).collect();
         seed.child("scene", 0).sampler().shuffle(&mut free);
-        let staged = free.into_iter().map(|scene| KernelGenome { scene, ..self.clone() });
-        staged.into_iter().find(|genome| genome.build().is_ok())
+        let mut staged = free.into_iter().map(|scene| KernelGenome { scene, ..self.clone() });
+        staged.find(|genome| genome.build().is_ok())
     }
 
     /// Draws a game of a kernel that has scenes, in one of its forms.

@@ -67,11 +67,11 @@ pub enum Job {
 const ISLAND: u32 = 4;
 
 /// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
-/// `starter`, with both as in `medium`; that of puzzles as in `frontier`, to the highest tiers. Those of archives and searches
+/// `starter`, with both as in `medium` and `2026-12`; that of puzzles as in `frontier`, to the highest tiers. Those of archives and searches
 /// without `skill` are guesses.
-const ARCHIVE: [f64; 3] = [0.1, 3.4, 6.0];
-const SEARCH: [f64; 3] = [0.1, 3.4, 6.0];
-const CONSTRUCTIVE: [f64; 3] = [0.03, 3.4, 6.0];
+const ARCHIVE: [f64; 3] = [0.1, 1.9, 2.6];
+const SEARCH: [f64; 3] = [0.1, 3.8, 5.2];
+const CONSTRUCTIVE: [f64; 3] = [0.03, 3.4, 4.6];
 const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
