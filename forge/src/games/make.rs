@@ -411,4 +411,16 @@ mod tests {
     fn evolved_games_are_the_same_on_any_number_of_threads() {
         check(Method::Evolutionary);
     }
+
+    /// As at the end of a chain of releases that has used up all rules.
+    #[test]
+    fn no_rules_are_no_games() {
+        let (order, seed) = (order(), Seed::from_text("none"));
+        let sets = RuleSets::draw(&[], true, &[], seed);
+        let (made, tally) = make_one(&order, &sets, &[], seed, 3);
+        assert!(made.is_none() && tally.games_tried == 0);
+        let order = GameOrder { method: Method::Evolutionary, ..order };
+        let archive = make_archive(&order, &sets, &[], seed, 3);
+        assert!(matches!(archive, Err(GamesError::NoneAccepted { .. })));
+    }
 }
