@@ -1,11 +1,13 @@
-//! Sets of rules, shared out beforehand among games that are made independently of each other: no two of them are near.
+//! Sets of rules, shared out beforehand among games that are made independently of each other: no two of them are near, and they have
+//! names of their own.
 
+use super::cast::Cast;
 use crate::levels::Method;
 use engine::{Game, Sampler, Seed, syntax};
 use generators::Variation;
 use generators::games::Kind;
 use generators::kernels::{KernelGenome, KernelVariation, Turns};
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
 /// Draws of numbers for each form of a kernel, with and without its variants, and draws of grafts for a kernel.
@@ -17,14 +19,17 @@ const REDRAWS: u64 = 4;
 /// The sets between those of neighbouring places that pass on to others: no divisor of the usual numbers of sets.
 const STRIDE: usize = 17;
 
-/// The neighbouring sets that have different scenes, as far as their kernels allow.
-const BLOCK: usize = 40;
+/// One of so many sets is kept for places that pass theirs on, as long as there are no more places than others.
+const KEPT: usize = 3;
+
+/// Draws of nouns for a set in each scene.
+const NAMINGS: u64 = 6;
 
 /// The sets of an archive.
 const OF_ARCHIVE: usize = 6;
 
-/// A set of rules: a kernel in one of its forms, with variants, grafts and numbers, in a scene. Nouns and levels are open, and so are
-/// the numbers as far as a game does not come near to another set.
+/// A set of rules: a kernel in one of its forms, with variants, grafts and numbers, under the nouns of a scene. Levels are open, and so
+/// are the numbers as far as a game does not come near to another set.
 #[derive(Clone, Debug)]
 pub(super) struct RuleSet {
     genome: KernelGenome,
@@ -42,10 +47,15 @@ pub struct RuleSets {
     grafted: Vec<RuleSet>,
 }
 
+/// A game and its title; `None` if it does not compile.
+fn built(genome: &KernelGenome) -> Option<(Game, String)> {
+    let built = genome.build().ok()?.game;
+    Some((Game::from_source(&syntax::print(&built.description)).ok()?, built.title))
+}
+
 /// The form of the rules of a game; `None` if they do not compile.
 fn form_of(genome: &KernelGenome) -> Option<GameForm> {
-    let built = genome.build().ok()?;
-    Some(GameForm::of(&Game::from_source(&syntax::print(&built.game.description)).ok()?))
+    Some(GameForm::of(&built(genome)?.0))
 }
 
 /// The sets of one kernel, so far.
@@ -67,10 +77,9 @@ impl OfKernel<'_> {
 
 impl RuleSets {
     /// Draws the sets of these kinds that are not near to a `known` game; those with grafts if they are asked for. Cost: about a
-    /// millisecond for each that is considered, some 500 without grafts and 4,000 more with.
+    /// millisecond for each that is considered, some 500 without grafts and 4,000 more with, and for each of the names that are tried.
     pub fn draw(kinds: &[Kind], with_grafts: bool, known: &[GameForm], seed: Seed) -> RuleSets {
-        let (mut plain, mut grafted) = (Vec::new(), Vec::new());
-        for (kernel, _) in Turns::draw(kinds, seed).kernels() {
+        let of_kernel = |kernel: &str| {
             let seed = seed.child("kernel", 0).child(kernel, 0);
             let mut of_kernel = OfKernel { known, sets: Vec::new() };
             let mut all = KernelGenome::all_of(kernel);
@@ -85,29 +94,26 @@ impl RuleSets {
                 let host = all[seed.child("host", 0).sampler().below(all.len())].redrawn(seed);
                 host.grafted(seed).into_iter().for_each(|genome| of_kernel.welcome(genome));
             }
-            grafted.push(of_kernel.sets.split_off(own));
-            plain.push(of_kernel.sets);
-        }
+            let grafted = of_kernel.sets.split_off(own);
+            (of_kernel.sets, grafted)
+        };
+        let turns = Turns::draw(kinds, seed);
+        let (plain, grafted) = turns.kernels().map(|(kernel, _)| of_kernel(kernel)).unzip();
         let sets = RuleSets { plain: in_turn(plain), grafted: in_turn(grafted) };
-        sets.staged(seed.child("scenes", 0))
+        sets.named(seed.child("names", 0))
     }
 
-    /// The same sets in scenes that differ: no two of a kernel, and none of neighbours, as far as there are enough.
-    fn staged(mut self, seed: Seed) -> RuleSets {
-        let mut before: VecDeque<String> = VecDeque::new();
-        let mut of_kernels: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-        for (number, set) in (0..).zip(self.plain.iter_mut().chain(&mut self.grafted)) {
-            let of_kernel = of_kernels.entry(set.genome.kernel().to_owned()).or_default();
-            let taken = before.iter().cloned().collect();
-            let seed = seed.child("scene", number);
-            let fresh = set.genome.in_free_scene(&of_kernel.union(&taken).cloned().collect(), seed);
-            let staged = fresh.or_else(|| set.genome.in_free_scene(of_kernel, seed));
-            set.genome = staged.unwrap_or_else(|| set.genome.clone());
-            of_kernel.insert(set.genome.scene().to_owned());
-            before.push_back(set.genome.scene().to_owned());
-            if before.len() > BLOCK {
-                before.pop_front();
-            }
+    /// The same sets under names of their own: no two share a title or most of a cast, and scenes take turns, as far as there are names.
+    /// Sets that there are none left for come last.
+    fn named(mut self, seed: Seed) -> RuleSets {
+        let mut given = Given::default();
+        for (at, sets) in (0..).zip([&mut self.plain, &mut self.grafted]) {
+            let named = (0..).zip(std::mem::take(sets)).map(|(number, set)| {
+                let (clashes, set) = given.named(set, seed.child("sets", at).child("set", number));
+                (clashes > 0, set)
+            });
+            let (late, early): (Vec<_>, Vec<_>) = named.partition(|(clashes, _)| *clashes);
+            sets.extend(early.into_iter().chain(late).map(|(_, set)| set));
         }
         self
     }
@@ -129,12 +135,10 @@ impl RuleSets {
         if sets.is_empty() {
             return None;
         }
-        let (place, passes, half) = (place as usize, passes as usize, sets.len() / 2);
-        // Sets that have their turn late, and that smaller numbers of games have no place for, come first.
-        let late = sets.len() - half;
+        let (place, passes, kept) = (place as usize, passes as usize, sets.len().div_ceil(KEPT));
         let at = match passes {
             0 => place % sets.len(),
-            passed if passed <= late => half + (place + STRIDE * (passed - 1)) % late,
+            passed if passed <= kept => sets.len() - kept + (place + STRIDE * (passed - 1)) % kept,
             passed => (place + passed) % sets.len(),
         };
         Some(sets[at])
@@ -163,6 +167,64 @@ impl RuleSets {
     }
 }
 
+/// The names that sets have been given.
+#[derive(Default)]
+struct Given {
+    titles: BTreeSet<String>,
+    casts: Vec<Cast>,
+    scenes: BTreeMap<&'static str, usize>,
+    /// The kernels that were set in a scene.
+    of_kernels: BTreeSet<(String, &'static str)>,
+}
+
+impl Given {
+    /// A set under the names that clash least with those that others have, and the number of clashes.
+    fn named(&mut self, set: RuleSet, seed: Seed) -> (usize, RuleSet) {
+        let mut scenes = set.genome.scenes();
+        seed.child("scenes", 0).sampler().shuffle(&mut scenes);
+        let kernel = set.genome.kernel().to_owned();
+        let uses = |scene: &&'static str| {
+            let is_again = self.of_kernels.contains(&(kernel.clone(), *scene));
+            (is_again, self.scenes.get(scene).copied().unwrap_or_default())
+        };
+        scenes.sort_by_key(uses);
+        let all = (0..NAMINGS).flat_map(|draw| scenes.iter().map(move |&scene| (draw, scene)));
+        let named = all.filter_map(|(draw, scene)| set.genome.named(scene, seed.child(scene, draw)));
+        let mut best: Option<Naming> = None;
+        for naming in named.filter_map(|genome| self.naming(genome)) {
+            if best.as_ref().is_none_or(|best| naming.clashes < best.clashes) {
+                best = Some(naming);
+            }
+            if best.as_ref().is_some_and(|best| best.clashes == 0) {
+                break;
+            }
+        }
+        let Some(Naming { clashes, genome, title, cast }) = best else { return (0, set) };
+        *self.scenes.entry(genome.scene()).or_default() += 1;
+        self.of_kernels.insert((kernel, genome.scene()));
+        self.titles.insert(title);
+        self.casts.push(cast);
+        (clashes, RuleSet { genome, ..set })
+    }
+
+    /// A game with its names, and the number of sets whose title or cast they share; `None` if it does not compile.
+    fn naming(&self, genome: KernelGenome) -> Option<Naming> {
+        let (game, title) = built(&genome)?;
+        let cast = Cast::of(&game);
+        let shared = self.casts.iter().filter(|other| cast.is_shared(other)).count();
+        let clashes = shared + usize::from(self.titles.contains(&title));
+        Some(Naming { clashes, genome, title, cast })
+    }
+}
+
+/// A game under names that a set may be given.
+struct Naming {
+    clashes: usize,
+    genome: KernelGenome,
+    title: String,
+    cast: Cast,
+}
+
 /// The sets of kernels, in rounds: each kernel has one in every round, as long as it has more.
 fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     let mut left: Vec<_> = of_kernels.into_iter().map(Vec::into_iter).collect();
@@ -189,9 +251,11 @@ pub(super) struct SetVariation<'a> {
 }
 
 impl SetVariation<'_> {
-    fn is_own(&self, genome: &KernelGenome) -> bool {
-        let Some((all, own)) = &self.own else { return true };
-        own.iter().any(|set| all.is_of(genome, set))
+    /// The game under the names of the set that it is of; `None` if it is of none.
+    fn kept(&self, genome: KernelGenome) -> Option<KernelGenome> {
+        let Some((all, own)) = &self.own else { return Some(genome) };
+        let set = own.iter().find(|set| all.is_of(&genome, set))?;
+        genome.named_like(&set.genome)
     }
 }
 
@@ -205,13 +269,14 @@ impl Variation for SetVariation<'_> {
     }
 
     fn mutate(&self, parent: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
-        let mut changed = (0..CHANGES).map(|_| self.variation.mutate(parent, sampler));
-        changed.find(|genome| self.is_own(genome)).unwrap_or_else(|| parent.clone())
+        let changed = (0..CHANGES).map(|_| self.variation.mutate(parent, sampler));
+        let mut kept = changed.filter_map(|genome| self.kept(genome));
+        kept.find(|genome| genome.key() != parent.key()).unwrap_or_else(|| parent.clone())
     }
 
     fn cross(&self, one: &KernelGenome, two: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
         let child = self.variation.cross(one, two, sampler);
-        if self.is_own(&child) { child } else { one.clone() }
+        self.kept(child).unwrap_or_else(|| one.clone())
     }
 }
 
@@ -273,11 +338,11 @@ mod tests {
             grafted.map_or(at, |grafted| sets.plain.len() + grafted / 3)
         };
         let all = sets.of_method(Method::Constructive).len();
-        let half = all / 2;
+        let kept = all.div_ceil(KEPT);
         let first: Vec<usize> = (0..all as u32).map(|place| at(place, 0)).collect();
         assert_eq!(first, (0..all).collect::<Vec<_>>());
-        let passed: BTreeSet<usize> = (0..half as u32).map(|place| at(place, 1)).collect();
-        assert!(passed.len() == half && passed.iter().all(|&at| at >= half));
+        let passed: BTreeSet<usize> = (0..kept as u32).map(|place| at(place, 1)).collect();
+        assert!(passed.len() == kept && passed.iter().all(|&at| at >= all - kept));
         assert!(
             RuleSets::draw(&[], true, &[], Seed::from_text("none")).of_place(Method::Search, 3, 1).is_none()
         );

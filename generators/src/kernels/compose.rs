@@ -23,8 +23,42 @@ pub(crate) struct Choices<'a> {
     pub(crate) grafts: &'a [&'static Graft],
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
+    pub(crate) scoring: Scoring,
     /// The ticks after which the game is lost, unless surviving them is the goal.
     pub(crate) time: u32,
+}
+
+/// The points of a game: authors' habits differ.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Scoring {
+    /// As the kernel has them.
+    Written,
+    /// One at a time.
+    Single,
+    /// As the kernel has them, without penalties.
+    Gains,
+}
+
+impl Scoring {
+    pub(crate) fn draw(seed: Seed) -> Scoring {
+        let all = [Scoring::Written, Scoring::Single, Scoring::Gains];
+        all[seed.child("score", 0).sampler().below(all.len())]
+    }
+
+    fn apply(self, description: &mut Description) {
+        let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
+        for line in &mut description.interactions {
+            match self {
+                Scoring::Written => {}
+                Scoring::Single => {
+                    for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
+                        param.value = if is_penalty(param) { "-1" } else { "1" }.into();
+                    }
+                }
+                Scoring::Gains => line.params.retain(|param| !is_penalty(param)),
+            }
+        }
+    }
 }
 
 /// A game without levels: rules, nouns, words, and what its levels are built of.
@@ -112,7 +146,7 @@ impl Choices<'_> {
             description.sprites.extend(graft.sprites.iter().cloned());
             description.interactions.extend(graft.interactions.iter().cloned());
         }
-        score(&mut description, &mut self.nouns.child("score", 0).sampler());
+        self.scoring.apply(&mut description);
         let mut sampler = self.nouns.sampler();
         let nouns = self.cast(&mut sampler)?;
         let traits = traits(&description);
@@ -351,23 +385,6 @@ fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nou
         };
         line.params.extend(picture.map(|picture| Param::new("img", picture)));
         picture_lines(&mut line.children, roles, nouns);
-    }
-}
-
-/// Changes the points of a game as authors' habits differ: as the kernel has them, one at a time, or no penalties.
-fn score(description: &mut Description, sampler: &mut Sampler) {
-    let habit = sampler.below(3);
-    for line in &mut description.interactions {
-        let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
-        match habit {
-            0 => {}
-            1 => {
-                for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
-                    param.value = if is_penalty(param) { "-1" } else { "1" }.into();
-                }
-            }
-            _ => line.params.retain(|param| !is_penalty(param)),
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Genomes of games: the representation that a search varies.
 
-use super::compose::{Choices, Course};
+use super::compose::{Choices, Course, Scoring};
 use super::graft::Graft;
 use super::kernel::Kernel;
 use super::scene::Scene;
@@ -43,6 +43,7 @@ pub struct KernelGenome {
     pub(crate) grafts: Vec<&'static Graft>,
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
+    pub(crate) scoring: Scoring,
     /// The ticks after which the game is lost.
     pub(crate) time: u32,
 }
@@ -107,21 +108,23 @@ impl KernelGenome {
         genome.build().is_ok().then_some(genome)
     }
 
-    /// The same rules with other numbers and nouns.
+    /// The same rules with other numbers and points.
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
-        let sampler = &mut seed.child("genome", 0).sampler();
-        let values = self.kernel.numbers.draw(sampler);
-        let nouns = Seed::from_text("nouns").child("draw", sampler.bits());
-        KernelGenome { values, nouns, ..self.clone() }
+        let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
+        KernelGenome { values, scoring: Scoring::draw(seed), ..self.clone() }
     }
 
-    /// The same game in a scene that is not taken; `None` if all that it can be set in are.
-    pub fn in_free_scene(&self, taken: &BTreeSet<String>, seed: Seed) -> Option<KernelGenome> {
-        let mut free: Vec<_> = self.scenes().filter(|scene| !taken.contains(&scene.name)).collect();
-        seed.child("scene", 0).sampler().shuffle(&mut free);
-        let mut staged = free.into_iter().map(|scene| KernelGenome { scene, ..self.clone() });
-        staged.find(|genome| genome.build().is_ok())
+    /// The same rules with nouns of a scene; `None` if it lacks some.
+    pub fn named(&self, scene: &str, nouns: Seed) -> Option<KernelGenome> {
+        let scene = self.in_scenes().find(|other| other.name == scene)?;
+        let genome = KernelGenome { scene, nouns, ..self.clone() };
+        genome.build().is_ok().then_some(genome)
+    }
+
+    /// The same rules with the nouns of another game; `None` if its scene lacks some.
+    pub fn named_like(&self, other: &KernelGenome) -> Option<KernelGenome> {
+        self.named(&other.scene.name, other.nouns)
     }
 
     /// Draws a game of a kernel that has scenes, in one of its forms.
@@ -133,13 +136,18 @@ impl KernelGenome {
     /// Draws a game of a form that has scenes.
     pub(crate) fn in_form(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let scenes: Vec<&'static Scene> = Scene::of(kernel).collect();
+        let variants = (0..kernel.variants.len()).filter(|_| sampler.ratio(1, 3)).collect();
+        let values = kernel.numbers.draw(sampler);
+        let scene = scenes[sampler.below(scenes.len())];
+        let nouns = Seed::from_text("nouns").child("draw", sampler.bits());
         KernelGenome {
             kernel,
-            variants: (0..kernel.variants.len()).filter(|_| sampler.ratio(1, 3)).collect(),
-            values: kernel.numbers.draw(sampler),
+            variants,
+            values,
             grafts: Vec::new(),
-            scene: scenes[sampler.below(scenes.len())],
-            nouns: Seed::from_text("nouns").child("draw", sampler.bits()),
+            scene,
+            nouns,
+            scoring: Scoring::draw(nouns),
             time: LONG,
         }
     }
@@ -160,15 +168,20 @@ impl KernelGenome {
         if self.grafts.len() > MAX_GRAFTS {
             self.grafts.remove(0);
         }
-        let scenes: Vec<&'static Scene> = self.scenes().collect();
+        let scenes: Vec<&'static Scene> = self.in_scenes().collect();
         if !scenes.iter().any(|scene| scene.name == self.scene.name) {
             self.scene = scenes[pick(scenes.len(), sampler)?];
         }
         Some(())
     }
 
+    /// The names of the scenes that have a noun for everything in it.
+    pub fn scenes(&self) -> Vec<&'static str> {
+        self.in_scenes().map(|scene| scene.name.as_str()).collect()
+    }
+
     /// The scenes that have a noun for everything in it.
-    pub(crate) fn scenes(&self) -> impl Iterator<Item = &'static Scene> {
+    pub(super) fn in_scenes(&self) -> impl Iterator<Item = &'static Scene> {
         let fits = |scene: &&Scene| self.grafts.iter().all(|graft| graft.fits(scene, self.kernel));
         Scene::of(self.kernel).filter(fits)
     }
@@ -269,6 +282,7 @@ impl KernelGenome {
             grafts: &self.grafts,
             scene: self.scene,
             nouns: self.nouns,
+            scoring: self.scoring,
             time: self.time,
         }
     }
@@ -312,8 +326,16 @@ pub fn preview(
     };
     let variants = if variants { (0..kernel.variants.len()).collect() } else { Vec::new() };
     let values = kernel.numbers.draw(&mut seed.sampler());
-    let genome =
-        KernelGenome { kernel, variants, values, grafts: Vec::new(), scene, nouns: seed, time: LONG };
+    let genome = KernelGenome {
+        kernel,
+        variants,
+        values,
+        grafts: Vec::new(),
+        scene,
+        nouns: seed,
+        scoring: Scoring::draw(seed),
+        time: LONG,
+    };
     let KernelGame { game, course } = genome.build()?;
     let mut description = game.description;
     description.header.trivia.above.extend([game.title, game.summary, game.goal]);

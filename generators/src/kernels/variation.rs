@@ -1,5 +1,6 @@
 //! Variation of games of kernels, for search.
 
+use super::compose::Scoring;
 use super::genome::{KernelGenome, MAX_GRAFTS};
 use super::graft::Graft;
 use super::kernel::Kernel;
@@ -52,10 +53,13 @@ impl KernelVariation {
                 genome = KernelGenome::of(kernels[pick(kernels.len(), sampler)?], sampler);
             }
             5 => {
-                let scenes: Vec<&'static Scene> = genome.scenes().collect();
+                let scenes: Vec<&'static Scene> = genome.in_scenes().collect();
                 genome.scene = scenes[pick(scenes.len(), sampler)?];
             }
-            _ => genome.nouns = Seed::from_text("nouns").child("draw", sampler.bits()),
+            _ => {
+                genome.nouns = Seed::from_text("nouns").child("draw", sampler.bits());
+                genome.scoring = Scoring::draw(genome.nouns);
+            }
         }
         Some(genome)
     }
