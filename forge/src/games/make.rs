@@ -204,12 +204,12 @@ impl<'a> Maker<'a> {
         let GameEffort { attempts, patience, unseen, .. } = self.order.effort;
         for attempt in 0..attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
-            let passes = attempt / patience.max(1);
-            let Some(set) = sets.of_place(self.order.method, number, passes) else { break };
-            let turn = (attempt, (attempt + 1).is_multiple_of(unseen.max(1)));
+            let turn = attempt / patience.max(1);
+            let Some(set) = sets.of_place(self.order.method, number, turn) else { break };
+            let judged = (attempt, (attempt + 1).is_multiple_of(unseen.max(1)));
             let drawn = sets.draw_of(set, seed.child("rules", 0));
             let own = Some((sets, vec![set]));
-            if let Some(at) = self.judge_proposed((drawn, own), turn, seed, &|_| None, &mut attempted) {
+            if let Some(at) = self.judge_proposed((drawn, own), judged, seed, &|_| None, &mut attempted) {
                 let steps = [("game", number.into()), ("attempt", attempt.into()), ("judges", at)];
                 attempted.made.iter_mut().for_each(|made| made.path = path(steps));
                 break;
@@ -390,7 +390,7 @@ mod tests {
     #[track_caller]
     fn check(method: Method) {
         let order = GameOrder { method, kinds: vec![Kind::KeyAndDoor], ..order() };
-        let order = GameOrder { effort: GameEffort { attempts: 3, looks: 12, ..order.effort }, ..order };
+        let order = GameOrder { effort: GameEffort { attempts: 8, looks: 12, ..order.effort }, ..order };
         let made_by = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let set = pool.install(|| make_games(&order, &[], "", Seed::from_text("threads"), &())).unwrap();

@@ -53,7 +53,7 @@ impl Board {
 pub struct GameEffort {
     /// Attempts: constructive games, searches, or, of an archive, rounds.
     pub attempts: u32,
-    /// Attempts of a place that is made independently, after which it goes to another set of rules.
+    /// Attempts at a game that is made independently, of each turn of a set of rules.
     pub patience: u32,
     /// Attempts at a kernel of which the last is judged whatever a look says: some games are beyond the players of a look.
     pub unseen: u32,
@@ -67,8 +67,8 @@ impl GameOrder {
     /// `count` games of all kinds by a method, five levels each.
     pub fn new(method: Method, count: u32) -> GameOrder {
         let (attempts, patience) = match method {
-            Method::Constructive => (160, 12),
-            Method::Search => (24, 3),
+            Method::Constructive => (160, 6),
+            Method::Search => (24, 2),
             Method::Evolutionary => (48, 1),
         };
         GameOrder {

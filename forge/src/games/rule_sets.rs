@@ -11,16 +11,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
 /// Draws of numbers for each form of a kernel, with and without its variants, and draws of grafts for a kernel.
-const DRAWS: (u64, u64) = (6, 96);
+const DRAWS: (u64, u64) = (10, 96);
 
 /// Draws of other numbers for a game of a set.
 const REDRAWS: u64 = 4;
 
-/// The sets between those of neighbouring places that pass on to others: no divisor of the usual numbers of sets.
-const STRIDE: usize = 17;
+/// The places that turn to a second set, from the end, in turn with their own: as many as small releases have.
+const SECOND: usize = 16;
 
-/// One of so many sets is kept for places that pass theirs on, as long as there are no more places than others.
-const KEPT: usize = 3;
+/// The times that other places have their own set, before they give up.
+const TURNS: usize = 2;
 
 /// Draws of nouns for a set in each scene.
 const NAMINGS: u64 = 6;
@@ -118,30 +118,27 @@ impl RuleSets {
         self
     }
 
-    /// The sets that a method draws on: of those with grafts, searches and archives take a third each, and constructive games the others
+    /// The sets that a method draws on: of those with grafts, searches and archives take a quarter each, and constructive games the others
     /// after all without.
     fn of_method(&self, method: Method) -> Vec<&RuleSet> {
-        let third = |first: usize| self.grafted.iter().skip(first).step_by(3);
+        let quarter = |first: usize| self.grafted.iter().skip(first).step_by(4);
         match method {
-            Method::Search if !self.grafted.is_empty() => third(0).collect(),
-            Method::Evolutionary if !self.grafted.is_empty() => third(1).collect(),
-            _ => self.plain.iter().chain(third(2)).collect(),
+            Method::Search if !self.grafted.is_empty() => quarter(0).collect(),
+            Method::Evolutionary if !self.grafted.is_empty() => quarter(1).collect(),
+            _ => self.plain.iter().chain(quarter(2)).chain(quarter(3)).collect(),
         }
     }
 
-    /// The set of a place among the games of a method, or the next one after some passes; `None` if there is none.
-    pub(super) fn of_place(&self, method: Method, place: u32, passes: u32) -> Option<&RuleSet> {
+    /// The set of a place among the games of a method, at a turn of it; `None` if there is none left.
+    pub(super) fn of_place(&self, method: Method, place: u32, turn: u32) -> Option<&RuleSet> {
         let sets = self.of_method(method);
-        if sets.is_empty() {
-            return None;
-        }
-        let (place, passes, kept) = (place as usize, passes as usize, sets.len().div_ceil(KEPT));
-        let at = match passes {
-            0 => place % sets.len(),
-            passed if passed <= kept => sets.len() - kept + (place + STRIDE * (passed - 1)) % kept,
-            passed => (place + passed) % sets.len(),
+        let (place, turn) = (place as usize, turn as usize);
+        let at = match place {
+            0..SECOND if turn % 2 == 1 => sets.len().checked_sub(1 + place)?,
+            SECOND.. if turn >= TURNS => return None,
+            _ => place,
         };
-        Some(sets[at])
+        sets.get(at).copied()
     }
 
     /// The sets of an archive.
@@ -328,23 +325,23 @@ mod tests {
     }
 
     #[test]
-    fn places_pass_on_to_different_sets() {
+    fn places_have_sets_of_their_own() {
         let sets = sets();
-        let at = |place, passes| {
-            let set = sets.of_place(Method::Constructive, place, passes).unwrap();
-            let mut all = sets.plain.iter().chain(&sets.grafted);
-            let at = all.position(|other| other.form == set.form).unwrap();
-            let grafted = at.checked_sub(sets.plain.len());
-            grafted.map_or(at, |grafted| sets.plain.len() + grafted / 3)
+        let all = sets.of_method(Method::Constructive);
+        let at = |place: usize, turn| {
+            let set = sets.of_place(Method::Constructive, place as u32, turn)?;
+            all.iter().position(|other| other.form == set.form)
         };
-        let all = sets.of_method(Method::Constructive).len();
-        let kept = all.div_ceil(KEPT);
-        let first: Vec<usize> = (0..all as u32).map(|place| at(place, 0)).collect();
-        assert_eq!(first, (0..all).collect::<Vec<_>>());
-        let passed: BTreeSet<usize> = (0..kept as u32).map(|place| at(place, 1)).collect();
-        assert!(passed.len() == kept && passed.iter().all(|&at| at >= all - kept));
+        assert!(all.len() > SECOND);
+        for place in 0..all.len() {
+            let second = if place < SECOND { all.len() - 1 - place } else { place };
+            assert_eq!([at(place, 0), at(place, 1)], [Some(place), Some(second)]);
+            assert_eq!(at(place, 2), (place < SECOND).then_some(place));
+        }
+        assert_eq!(at(all.len(), 0), None);
+        let none = RuleSets::draw(&[], true, &[], Seed::from_text("none"));
         assert!(
-            RuleSets::draw(&[], true, &[], Seed::from_text("none")).of_place(Method::Search, 3, 1).is_none()
+            none.of_place(Method::Search, 0, 0).is_none() && none.of_place(Method::Search, 0, 1).is_none()
         );
     }
 
