@@ -69,10 +69,10 @@ const ISLAND: u32 = 4;
 /// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
 /// `starter`, with both as in `medium` and `2026-12`; that of puzzles as in `frontier`, to the highest tiers. Those of archives and searches
 /// without `skill` are guesses.
-const ARCHIVE: [f64; 3] = [0.1, 1.9, 2.6];
-const SEARCH: [f64; 3] = [0.1, 3.8, 5.2];
-const CONSTRUCTIVE: [f64; 3] = [0.03, 3.4, 4.6];
-const CORPUS: [f64; 3] = [0.41, 0.41, 0.58];
+const ARCHIVE: [f64; 3] = [0.1, 1.2, 1.5];
+const SEARCH: [f64; 3] = [0.1, 3.8, 4.2];
+const CONSTRUCTIVE: [f64; 3] = [0.03, 3.4, 4.2];
+const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
 /// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
@@ -143,9 +143,9 @@ impl<'a> Plan<'a> {
         let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
             // Where gates are asked, three quarters of the cost are searches for a win, most of them in vain.
             let searched = 0.25 + 0.75 * criteria.budget as f64 / GATED_BUDGET;
-            let base = match GATES.iter().any(|gate| criteria.includes(gate)) {
-                true => gated * searched,
-                false => plain,
+            let (base, share) = match GATES.iter().any(|gate| criteria.includes(gate)) {
+                true => (gated, searched),
+                false => (plain, 1.0),
             };
             // Decisions cost about a third of what the other judges cost.
             let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
@@ -153,7 +153,7 @@ impl<'a> Plan<'a> {
                 true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
                 false => 0.0,
             };
-            f64::from(levels) * (base * thought + (skill - base) * played)
+            f64::from(levels) * (base * share * thought + (skill - base) * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
         let marks = |job: &Job| {
