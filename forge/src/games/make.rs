@@ -205,7 +205,12 @@ impl<'a> Maker<'a> {
         for attempt in 0..attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
             let turn = attempt / patience.max(1);
-            let Some(set) = sets.of_place(self.order.method, number, turn) else { break };
+            let Some(set) = sets.of_place(self.order.method, number, turn) else {
+                if attempt == 0 {
+                    attempted.tally.game_rejected("no rules left");
+                }
+                break;
+            };
             let judged = (attempt, (attempt + 1).is_multiple_of(unseen.max(1)));
             let drawn = sets.draw_of(set, seed.child("rules", 0));
             let own = Some((sets, vec![set]));
@@ -418,7 +423,8 @@ mod tests {
         let (order, seed) = (order(), Seed::from_text("none"));
         let sets = RuleSets::draw(&[], true, &[], seed);
         let (made, tally) = make_one(&order, &sets, &[], seed, 3);
-        assert!(made.is_none() && tally.games_tried == 0);
+        assert!(made.is_none());
+        assert_eq!(tally.rejections.get("no rules left"), Some(&1));
         let order = GameOrder { method: Method::Evolutionary, ..order };
         let archive = make_archive(&order, &sets, &[], seed, 3);
         assert!(matches!(archive, Err(GamesError::NoneAccepted { .. })));
