@@ -1,4 +1,4 @@
-//! A quick look at a game, and the evaluation for a search.
+//! A quick look at a game: the evaluation of a search.
 
 use crate::games::Candidate;
 use agents::Play;
@@ -35,9 +35,6 @@ const SIGHT: f64 = 24.0;
 /// The share of plays that the best player wins where a game is neither too easy nor too hard.
 const CHALLENGE: f64 = 0.75;
 
-/// The part of each constraint that a game has to meet to be shown to the judges: levels, little luck, an edge, wins.
-const PROMISING: [f64; 4] = [1.0, 0.75, 0.5, 0.5];
-
 /// Looks at games cheaply: three levels, few and weak players.
 pub(super) struct Looker {
     seed: Seed,
@@ -47,8 +44,6 @@ pub(super) struct Looker {
 pub(super) struct Look {
     /// The evaluation for the search.
     pub(super) evaluation: Evaluation,
-    /// `true` if it is worth the judges' while: it need not be feasible, since they know stronger players.
-    pub(super) is_promising: bool,
     /// Forward-model calls.
     pub(super) calls: u64,
 }
@@ -140,10 +135,7 @@ impl Looker {
             + 0.1 * measures.drama
             + 0.2 * coupling
             + 0.2 * regret;
-        let look = Look::of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls);
-        // What is left to nobody's chance may be a puzzle, and too deep for the players of a look.
-        let is_puzzle = game.is_deterministic() && drawn >= 1.0 && floor <= LUCK;
-        Look { is_promising: look.is_promising || is_puzzle, ..look }
+        Look::of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls)
     }
 
     fn play(analysis: &Analysis, course: &Course, slot: Slot, plays: u64, seed: Seed) -> Option<Played> {
@@ -174,7 +166,6 @@ impl Looker {
 impl Look {
     fn of(constraints: [f64; 4], objective: f64, measures: Vec<f64>, calls: u64) -> Look {
         let feasibility = constraints.iter().sum::<f64>() / constraints.len() as f64;
-        let is_promising = constraints.iter().zip(PROMISING).all(|(met, least)| *met >= least);
-        Look { evaluation: Evaluation { feasibility, objective, measures }, is_promising, calls }
+        Look { evaluation: Evaluation { feasibility, objective, measures }, calls }
     }
 }

@@ -120,9 +120,8 @@ pub fn attempt_kernel(order: &GameOrder, kernel: &str, seed: Seed, number: u32) 
     let seed = seed.child(kernel, number.into());
     let drawn = KernelGenome::of_kernel(kernel, |_| true, &BTreeSet::new(), seed.child("rules", 0));
     let mut attempted = Attempted::default();
-    let is_judged = (number + 1).is_multiple_of(order.effort.unseen.max(1));
     if let Some(drawn) = drawn {
-        maker.judge_proposed((drawn, None), (number, is_judged), seed, &|_| None, &mut attempted);
+        maker.judge_proposed((drawn, None), number, seed, &|_| None, &mut attempted);
     }
     (attempted.made, attempted.tally)
 }
@@ -201,7 +200,7 @@ impl<'a> Maker<'a> {
     /// Attempts at the game of a place, until one is accepted.
     fn attempt(&self, sets: &RuleSets, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
-        let GameEffort { attempts, patience, unseen, .. } = self.order.effort;
+        let GameEffort { attempts, patience, .. } = self.order.effort;
         for attempt in 0..attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
             let turn = attempt / patience.max(1);
@@ -211,10 +210,9 @@ impl<'a> Maker<'a> {
                 }
                 break;
             };
-            let judged = (attempt, (attempt + 1).is_multiple_of(unseen.max(1)));
             let drawn = sets.draw_of(set, seed.child("rules", 0));
             let own = Some((sets, vec![set]));
-            if let Some(at) = self.judge_proposed((drawn, own), judged, seed, &|_| None, &mut attempted) {
+            if let Some(at) = self.judge_proposed((drawn, own), attempt, seed, &|_| None, &mut attempted) {
                 let steps = [("game", number.into()), ("attempt", attempt.into()), ("judges", at)];
                 attempted.made.iter_mut().for_each(|made| made.path = path(steps));
                 break;
@@ -227,12 +225,12 @@ impl<'a> Maker<'a> {
     pub(super) fn judge_proposed(
         &self,
         (drawn, own): (KernelGenome, Option<Own<'_>>),
-        (attempt, is_judged): (u32, bool),
+        attempt: u32,
         seed: Seed,
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         attempted: &mut Attempted,
     ) -> Option<u64> {
-        let proposed = self.proposed(drawn, own, is_judged, seed, attempted);
+        let proposed = self.proposed(drawn, own, seed, attempted);
         (0..).zip(&proposed).find_map(|(at, genome)| {
             let judges = seed.child("judges", at);
             attempted.made = self.gate.judge(genome, attempt, judges, objection, &mut attempted.tally);
@@ -246,27 +244,17 @@ impl<'a> Maker<'a> {
         &self,
         drawn: KernelGenome,
         own: Option<Own<'_>>,
-        is_judged: bool,
         seed: Seed,
         attempted: &mut Attempted,
     ) -> Vec<KernelGenome> {
         let proposed = match self.order.method {
-            Method::Constructive if is_judged => vec![drawn],
-            Method::Constructive => self.promising(drawn, seed, attempted),
+            Method::Constructive => vec![drawn],
             _ => self.searched(&drawn, own, seed.child("search", 0), attempted),
         };
         if proposed.is_empty() {
             attempted.tally.game_rejected("look");
         }
         proposed
-    }
-
-    /// The game, if a look at it promises something: the judges cost many looks.
-    fn promising(&self, drawn: KernelGenome, seed: Seed, attempted: &mut Attempted) -> Vec<KernelGenome> {
-        self.progress.looked();
-        let look = Looker::new(seed.child("look", 0)).look(&drawn);
-        attempted.note(&look);
-        if look.is_promising { vec![drawn] } else { Vec::new() }
     }
 
     /// The best games of a search that starts from games of the same kind.
@@ -321,7 +309,7 @@ impl<'a> Maker<'a> {
             };
             run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
                 set.looks += 1;
-                set.tally.judge(LOOK, look.is_promising, look.calls);
+                set.tally.judge(LOOK, look.evaluation.is_feasible(), look.calls);
                 look.evaluation
             });
             let is_welcome = |genome: &KernelGenome| {
@@ -380,7 +368,7 @@ const REFUSED: f64 = 0.95;
 impl Attempted {
     fn note(&mut self, look: &super::look::Look) {
         self.looks += 1;
-        self.tally.judge(LOOK, look.is_promising, look.calls);
+        self.tally.judge(LOOK, look.evaluation.is_feasible(), look.calls);
     }
 }
 

@@ -55,8 +55,6 @@ pub struct GameEffort {
     pub attempts: u32,
     /// Attempts at a game that is made independently, of each turn of a set of rules.
     pub patience: u32,
-    /// Attempts at a kernel of which the last is judged whatever a look says: some games are beyond the players of a look.
-    pub unseen: u32,
     /// Candidates that a search looks at in one attempt.
     pub looks: u32,
     /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
@@ -67,7 +65,7 @@ impl GameOrder {
     /// `count` games of all kinds by a method, five levels each.
     pub fn new(method: Method, count: u32) -> GameOrder {
         let (attempts, patience) = match method {
-            Method::Constructive => (160, 6),
+            Method::Constructive => (160, 5),
             Method::Search => (24, 2),
             Method::Evolutionary => (48, 1),
         };
@@ -80,7 +78,7 @@ impl GameOrder {
             least_interactions: 7,
             least_mechanics: 3,
             criteria: GameOrder::criteria_by_default(),
-            effort: GameEffort { attempts, patience, unseen: 3, looks: 24, batch: 4 },
+            effort: GameEffort { attempts, patience, looks: 24, batch: 4 },
         }
     }
 

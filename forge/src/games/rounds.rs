@@ -20,16 +20,12 @@ struct Fared {
     kind: Kind,
     /// Attempts since its last game that was taken in.
     tries: u32,
-    /// All attempts.
-    attempts: u32,
 }
 
 /// An attempt of a round.
 pub(super) struct Turn {
     /// The number of the attempt in the set.
     pub(super) number: u32,
-    /// The number of the attempt among those of its kernel.
-    pub(super) of_kernel: u32,
     /// The game to begin with.
     pub(super) drawn: KernelGenome,
 }
@@ -52,12 +48,11 @@ impl Ledger {
             let seed = maker.seed_of(number);
             let is_open = |form: Option<&str>| company.room.is_open(fared.kernel, form);
             let drawn = KernelGenome::of_kernel(fared.kernel, is_open, &scenes, seed.child("rules", 0));
-            let of_kernel = fared.attempts;
-            (fared.tries, fared.attempts) = (fared.tries + 1, fared.attempts + 1);
+            fared.tries += 1;
             let Some(drawn) = drawn else { continue };
             scenes.insert(drawn.scene().to_owned());
             room.take(fared.kernel, drawn.form(), fared.kind.name());
-            turns.push(Turn { number, of_kernel, drawn });
+            turns.push(Turn { number, drawn });
         }
         turns
     }
@@ -84,7 +79,7 @@ impl Maker<'_> {
         let mut company = Company::of(order);
         let mut set = GameSet::default();
         let mut shortfall = Shortfall::Attempts;
-        let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0, attempts: 0 };
+        let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0 };
         let mut ledger = Ledger(Turns::draw(&self.order.kinds, self.seed).kernels().map(fared).collect());
         let (mut number, most) = (0, order.count.saturating_mul(order.effort.attempts));
         while set.games.len() < wanted && number < most {
@@ -122,11 +117,10 @@ impl Maker<'_> {
     /// One attempt.
     fn in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
-        let is_judged = (turn.of_kernel + 1).is_multiple_of(self.order.effort.unseen.max(1));
         let seed = self.seed_of(turn.number);
-        let (drawn, judged) = ((turn.drawn.clone(), None), (turn.number, is_judged));
+        let drawn = (turn.drawn.clone(), None);
         let objection = |candidate: &Candidate| company.objection(candidate);
-        if let Some(at) = self.judge_proposed(drawn, judged, seed, &objection, &mut attempted) {
+        if let Some(at) = self.judge_proposed(drawn, turn.number, seed, &objection, &mut attempted) {
             let steps = [("game", turn.number.into()), ("judges", at)];
             attempted.made.iter_mut().for_each(|made| made.path = path(steps));
         }
@@ -140,7 +134,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     fn ledger(kernels: &[(&'static str, Kind)]) -> Ledger {
-        let fared = |&(kernel, kind)| Fared { kernel, kind, tries: 0, attempts: 0 };
+        let fared = |&(kernel, kind)| Fared { kernel, kind, tries: 0 };
         Ledger(kernels.iter().map(fared).collect())
     }
 
