@@ -53,7 +53,7 @@ impl Board {
 pub struct GameEffort {
     /// Attempts: constructive games, searches, or, of an archive, rounds.
     pub attempts: u32,
-    /// Attempts at a game that is made independently, of each turn of a set of rules.
+    /// Attempts at a game that is made independently, in each turn of a set of rules.
     pub patience: u32,
     /// Candidates that a search looks at in one attempt.
     pub looks: u32,
@@ -65,8 +65,8 @@ impl GameOrder {
     /// `count` games of all kinds by a method, five levels each.
     pub fn new(method: Method, count: u32) -> GameOrder {
         let (attempts, patience) = match method {
-            Method::Constructive => (160, 5),
-            Method::Search => (24, 2),
+            Method::Constructive => (160, 4),
+            Method::Search => (24, 4),
             Method::Evolutionary => (48, 1),
         };
         GameOrder {

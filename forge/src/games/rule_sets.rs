@@ -16,11 +16,14 @@ const DRAWS: (u64, u64) = (10, 96);
 /// Draws of other numbers for a game of a set.
 const REDRAWS: u64 = 4;
 
-/// The places that turn to a second set, from the end, in turn with their own: as many as small releases have.
-const SECOND: usize = 16;
+/// The greatest number of sets with grafts of a kernel.
+const GRAFTED: usize = 8;
 
-/// The times that other places have their own set, before they give up.
-const TURNS: usize = 2;
+/// The places that have spare sets, in turn with their own: as many as small releases have.
+const SMALL: usize = 16;
+
+/// The spare sets of each of these places. They are the last ones, which few other places come to.
+const SPARE: usize = 3;
 
 /// Draws of nouns for a set in each scene.
 const NAMINGS: u64 = 6;
@@ -90,6 +93,9 @@ impl RuleSets {
             }
             let own = of_kernel.sets.len();
             for draw in (0..DRAWS.1).filter(|_| with_grafts) {
+                if of_kernel.sets.len() >= own + GRAFTED {
+                    break;
+                }
                 let seed = seed.child("graft", draw);
                 let host = all[seed.child("host", 0).sampler().below(all.len())].redrawn(seed);
                 host.grafted(seed).into_iter().for_each(|genome| of_kernel.welcome(genome));
@@ -103,17 +109,14 @@ impl RuleSets {
         sets.named(seed.child("names", 0))
     }
 
-    /// The same sets under names of their own: no two share a title or most of a cast, and scenes take turns, as far as there are names.
-    /// Sets that there are none left for come last.
+    /// The same sets under names of their own: no two share a title or most of a cast, and scenes take turns. Sets that there are no names
+    /// left for go.
     fn named(mut self, seed: Seed) -> RuleSets {
         let mut given = Given::default();
         for (at, sets) in (0..).zip([&mut self.plain, &mut self.grafted]) {
-            let named = (0..).zip(std::mem::take(sets)).map(|(number, set)| {
-                let (clashes, set) = given.named(set, seed.child("sets", at).child("set", number));
-                (clashes > 0, set)
-            });
-            let (late, early): (Vec<_>, Vec<_>) = named.partition(|(clashes, _)| *clashes);
-            sets.extend(early.into_iter().chain(late).map(|(_, set)| set));
+            let seed = seed.child("sets", at);
+            let unnamed = (0..).zip(std::mem::take(sets));
+            sets.extend(unnamed.filter_map(|(number, set)| given.named(set, seed.child("set", number))));
         }
         self
     }
@@ -133,10 +136,10 @@ impl RuleSets {
     pub(super) fn of_place(&self, method: Method, place: u32, turn: u32) -> Option<&RuleSet> {
         let sets = self.of_method(method);
         let (place, turn) = (place as usize, turn as usize);
-        let at = match place {
-            0..SECOND if turn % 2 == 1 => sets.len().checked_sub(1 + place)?,
-            SECOND.. if turn >= TURNS => return None,
-            _ => place,
+        let at = match turn % (1 + SPARE) {
+            0 if turn == 0 || place < SMALL => place,
+            spare if place < SMALL => sets.len().checked_sub(1 + place + SMALL * (spare - 1))?,
+            _ => return None,
         };
         sets.get(at).copied()
     }
@@ -175,8 +178,8 @@ struct Given {
 }
 
 impl Given {
-    /// A set under the names that clash least with those that others have, and the number of clashes.
-    fn named(&mut self, set: RuleSet, seed: Seed) -> (usize, RuleSet) {
+    /// A set under names of its own; `None` if there are none left for it.
+    fn named(&mut self, set: RuleSet, seed: Seed) -> Option<RuleSet> {
         let mut scenes = set.genome.scenes();
         seed.child("scenes", 0).sampler().shuffle(&mut scenes);
         let kernel = set.genome.kernel().to_owned();
@@ -186,40 +189,22 @@ impl Given {
         };
         scenes.sort_by_key(uses);
         let all = (0..NAMINGS).flat_map(|draw| scenes.iter().map(move |&scene| (draw, scene)));
-        let named = all.filter_map(|(draw, scene)| set.genome.named(scene, seed.child(scene, draw)));
-        let mut best: Option<Naming> = None;
-        for naming in named.filter_map(|genome| self.naming(genome)) {
-            if best.as_ref().is_none_or(|best| naming.clashes < best.clashes) {
-                best = Some(naming);
-            }
-            if best.as_ref().is_some_and(|best| best.clashes == 0) {
-                break;
-            }
-        }
-        let Some(Naming { clashes, genome, title, cast }) = best else { return (0, set) };
+        let mut named = all.filter_map(|(draw, scene)| set.genome.named(scene, seed.child(scene, draw)));
+        let (genome, title, cast) = named.find_map(|genome| self.free(genome))?;
         *self.scenes.entry(genome.scene()).or_default() += 1;
         self.of_kernels.insert((kernel, genome.scene()));
         self.titles.insert(title);
         self.casts.push(cast);
-        (clashes, RuleSet { genome, ..set })
+        Some(RuleSet { genome, ..set })
     }
 
-    /// A game with its names, and the number of sets whose title or cast they share; `None` if it does not compile.
-    fn naming(&self, genome: KernelGenome) -> Option<Naming> {
+    /// A game with its title and its cast, if no set has the title or shares the cast.
+    fn free(&self, genome: KernelGenome) -> Option<(KernelGenome, String, Cast)> {
         let (game, title) = built(&genome)?;
         let cast = Cast::of(&game);
-        let shared = self.casts.iter().filter(|other| cast.is_shared(other)).count();
-        let clashes = shared + usize::from(self.titles.contains(&title));
-        Some(Naming { clashes, genome, title, cast })
+        let is_taken = self.titles.contains(&title) || self.casts.iter().any(|other| cast.is_shared(other));
+        (!is_taken).then_some((genome, title, cast))
     }
-}
-
-/// A game under names that a set may be given.
-struct Naming {
-    clashes: usize,
-    genome: KernelGenome,
-    title: String,
-    cast: Cast,
 }
 
 /// The sets of kernels, in rounds: each kernel has one in every round, as long as it has more.
@@ -326,17 +311,20 @@ mod tests {
 
     #[test]
     fn places_have_sets_of_their_own() {
-        let sets = sets();
+        let kinds = [Kind::Lure, Kind::Demolition, Kind::Resource, Kind::Survival, Kind::KeyAndDoor];
+        let sets = RuleSets::draw(&kinds, true, &[], Seed::from_text("sets"));
         let all = sets.of_method(Method::Constructive);
         let at = |place: usize, turn| {
             let set = sets.of_place(Method::Constructive, place as u32, turn)?;
             all.iter().position(|other| other.form == set.form)
         };
-        assert!(all.len() > SECOND);
+        assert!(all.len() > (1 + SPARE) * SMALL);
+        let spare = |place, number| all.len() - SMALL * number + (SMALL - 1 - place);
         for place in 0..all.len() {
-            let second = if place < SECOND { all.len() - 1 - place } else { place };
-            assert_eq!([at(place, 0), at(place, 1)], [Some(place), Some(second)]);
-            assert_eq!(at(place, 2), (place < SECOND).then_some(place));
+            let turns: Vec<_> = (0..=4).map(|turn| at(place, turn)).collect();
+            let spare = |number| (place < SMALL).then(|| spare(place, number));
+            let again = (place < SMALL).then_some(place);
+            assert_eq!(turns, [Some(place), spare(1), spare(2), spare(3), again]);
         }
         assert_eq!(at(all.len(), 0), None);
         let none = RuleSets::draw(&[], true, &[], Seed::from_text("none"));
