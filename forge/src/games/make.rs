@@ -142,6 +142,9 @@ pub fn make_archive(
     maker.evolved(Some((sets, sets.of_archive(number)))).unless_empty(order)
 }
 
+/// The reason that a place is left empty which no rules are left for.
+pub const NO_RULES: &str = "no rules left";
+
 /// The least number of games that are looked at in a round of an archive, and of finalists that are judged on all threads.
 const LEAST_OF_ROUND: usize = 4;
 
@@ -206,7 +209,7 @@ impl<'a> Maker<'a> {
             let turn = attempt / patience.max(1);
             let Some(set) = sets.of_place(self.order.method, number, turn) else {
                 if attempt == 0 {
-                    attempted.tally.game_rejected("no rules left");
+                    attempted.tally.game_rejected(NO_RULES);
                 }
                 break;
             };
@@ -412,7 +415,7 @@ mod tests {
         let sets = RuleSets::draw(&[], true, &[], seed);
         let (made, tally) = make_one(&order, &sets, &[], seed, 3);
         assert!(made.is_none());
-        assert_eq!(tally.rejections.get("no rules left"), Some(&1));
+        assert_eq!(tally.rejections.get(NO_RULES), Some(&1));
         let order = GameOrder { method: Method::Evolutionary, ..order };
         let archive = make_archive(&order, &sets, &[], seed, 3);
         assert!(matches!(archive, Err(GamesError::NoneAccepted { .. })));

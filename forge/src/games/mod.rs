@@ -25,7 +25,7 @@ pub use cast::Cast;
 pub use kept::{Kept, KeptGame};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{
-    GameSet, GamesError, Progress, Shortfall, attempt_kernel, make_archive, make_games, make_one,
+    GameSet, GamesError, NO_RULES, Progress, Shortfall, attempt_kernel, make_archive, make_games, make_one,
 };
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{Locks, PuzzleLevels};

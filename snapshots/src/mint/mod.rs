@@ -75,10 +75,7 @@ pub enum MintError {
     #[error("the job `{0}` holds a game that is not one: mint it again")]
     Unsound(String),
     /// Too few candidates passed.
-    #[error(
-        "`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); raise `{part}.candidates` and go on with \
-         --resume, which keeps finished jobs; or raise the tries or relax the criteria, and start over"
-    )]
+    #[error("`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); {advice}")]
     TooFew {
         /// The part of the recipe.
         part: &'static str,
@@ -88,6 +85,8 @@ pub enum MintError {
         there: usize,
         /// The reasons why the others failed, or the games that they copy.
         why: String,
+        /// The next move.
+        advice: String,
     },
     /// No selection of candidates meets the quotas.
     #[error(
@@ -388,6 +387,24 @@ mod tests {
             ),
             "{error}"
         );
+    }
+
+    /// More jobs would make nothing, either.
+    #[test]
+    fn no_rules_left_is_told_with_another_advice_than_more_candidates() {
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let store = Memory::default();
+        let mut tally = Tally::default();
+        tally.rejections.insert(forge::games::NO_RULES.to_owned(), 1);
+        for &job in plan.jobs() {
+            let result = JobResult { games: Vec::new(), tally: tally.clone() };
+            store.put(&plan.name(job), &result).unwrap();
+        }
+        let error = lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(())).unwrap_err().to_string();
+        assert!(error.contains("lower `generated.games`") && !error.contains("raise"), "{error}");
     }
 
     /// Stored results are not computed again, and the bytes are the same.

@@ -71,7 +71,7 @@ const ISLAND: u32 = 4;
 /// without `skill` are guesses.
 const ARCHIVE: [f64; 3] = [0.1, 1.2, 1.5];
 const SEARCH: [f64; 3] = [0.1, 3.8, 4.2];
-const CONSTRUCTIVE: [f64; 3] = [0.8, 3.4, 4.2];
+const CONSTRUCTIVE: [f64; 3] = [0.6, 2.4, 2.85];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];

@@ -13,7 +13,7 @@ use crate::recipe::Recipe;
 use crate::tiers::PuzzlePart;
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
-use forge::games::Cast;
+use forge::games::{Cast, NO_RULES};
 use forge::reasons;
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
@@ -196,6 +196,21 @@ const STARTS: u64 = 24;
 /// The amounts by which a selection misses the quotas and the histogram, and the number of duplicate titles.
 type Miss = (i64, i64, i64);
 
+/// The next move where too few candidates of a part can be taken.
+fn advice(part: Part, has_no_rules: bool) -> String {
+    let part = part.name();
+    if has_no_rules {
+        return format!(
+            "there are no rules for further jobs: lower `{part}.games` and go on with --resume, which keeps finished jobs; or start over \
+             without the earlier releases that have used them, or with more kernels"
+        );
+    }
+    format!(
+        "raise `{part}.candidates` and go on with --resume, which keeps finished jobs; or raise the tries or relax the criteria, and start \
+         over"
+    )
+}
+
 /// Selects as many contenders of each part as the recipe asks for. Returns their indices, in order.
 ///
 /// # Errors
@@ -215,7 +230,8 @@ pub(super) fn select(
             let failed = if part == Part::Corpus { old } else { new };
             let why: BTreeMap<String, u64> = dropped.get(&part).cloned().unwrap_or_default();
             let why = [failed, &reasons(&why)].into_iter().filter(|why| !why.is_empty()).join(", ");
-            return Err(MintError::TooFew { part: part.name(), asked, there, why });
+            let advice = advice(part, why.contains(NO_RULES));
+            return Err(MintError::TooFew { part: part.name(), asked, there, why, advice });
         }
     }
     let improved = |start: u64| {
