@@ -76,19 +76,60 @@ pub(super) fn a(name: &str) -> String {
 /// ```
 pub fn plural(noun: &str) -> String {
     let ends = |endings: &[&str]| endings.iter().any(|ending| noun.ends_with(ending));
-    if !noun.ends_with(|last: char| last.is_ascii_lowercase()) || ends(&["fish", "sheep", "folk"]) {
+    if !noun.ends_with(|last: char| last.is_ascii_lowercase()) || is_the_same_for_several(noun) {
         noun.to_owned()
+    } else if let Some(several) = irregular_plural(noun) {
+        several
     } else if ends(&["ay", "ey", "oy", "uy"]) {
         format!("{noun}s")
     } else if let Some(stem) = noun.strip_suffix('y') {
         format!("{stem}ies")
-    } else if ends(&["leaf", "sheaf", "loaf", "wolf", "shelf", "thief", "knife"]) {
+    } else if ends(&["leaf", "sheaf", "loaf", "wolf", "shelf", "thief", "knife", "calf"]) {
         let stem = noun.trim_end_matches('e').trim_end_matches('f');
         format!("{stem}ves")
     } else if ends(&["s", "x", "z", "ch", "sh"]) {
         format!("{noun}es")
     } else {
         format!("{noun}s")
+    }
+}
+
+/// Tests whether a noun ends with one of these, in lower case or with a capital: `mouse` and `stageMouse` with `mouse`.
+fn ends_with_any(noun: &str, endings: &[&str]) -> bool {
+    let small = noun.to_ascii_lowercase();
+    endings.iter().any(|ending| small.ends_with(ending))
+}
+
+/// Tests whether the last word of a noun is this one: `ox` of `ox`, `wild ox` and `wildOx`, but not of `box`.
+fn has_last_word(noun: &str, word: &str) -> bool {
+    noun.len().checked_sub(word.len()).is_some_and(|at| {
+        let starts_there = at == 0 || !noun.as_bytes()[at - 1].is_ascii_alphanumeric();
+        ends_with_any(noun, &[word]) && (starts_there || noun.as_bytes()[at].is_ascii_uppercase())
+    })
+}
+
+/// Tests whether a noun has no plural of its own, as animals that are fished or hunted.
+fn is_the_same_for_several(noun: &str) -> bool {
+    ends_with_any(noun, &["fish", "sheep", "folk", "deer", "moose", "trout", "salmon", "bream"])
+        || ["carp", "pike"].iter().any(|word| has_last_word(noun, word))
+}
+
+/// The plural of a noun that changes its vowel or takes `en`.
+fn irregular_plural(noun: &str) -> Option<String> {
+    /// Nouns that end like `man` and are none.
+    const NO_MAN: &[&str] =
+        &["human", "shaman", "talisman", "caiman", "ottoman", "roman", "german", "norman", "pacman"];
+    let altered = |ending: &str, several: &str| Some(noun.strip_suffix(ending)?.to_owned() + several);
+    if ends_with_any(noun, &["mouse"]) {
+        altered("ouse", "ice")
+    } else if ends_with_any(noun, &["goose"]) && !ends_with_any(noun, &["mongoose"]) {
+        altered("oose", "eese")
+    } else if ends_with_any(noun, &["man"]) && !ends_with_any(noun, NO_MAN) {
+        altered("an", "en")
+    } else if has_last_word(noun, "ox") || ends_with_any(noun, &["muskox"]) {
+        Some(format!("{noun}en"))
+    } else {
+        None
     }
 }
 
@@ -157,6 +198,43 @@ pub(super) fn glide(speed: f64, cooldown: i32, block: Option<i32>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn plurals_are_those_of_english() {
+        for (one, several) in [
+            ("lamp", "lamps"),
+            ("mouse", "mice"),
+            ("dormouse", "dormice"),
+            ("stageMouse", "stageMice"),
+            ("mousehole", "mouseholes"),
+            ("goose", "geese"),
+            ("mongoose", "mongooses"),
+            ("man", "men"),
+            ("swordsman", "swordsmen"),
+            ("toll woman", "toll women"),
+            ("human", "humans"),
+            ("talisman", "talismans"),
+            ("ox", "oxen"),
+            ("musk ox", "musk oxen"),
+            ("muskox", "muskoxen"),
+            ("wildOx", "wildOxen"),
+            ("box", "boxes"),
+            ("fox", "foxes"),
+            ("calf", "calves"),
+            ("reindeer", "reindeer"),
+            ("brook trout", "brook trout"),
+            ("salmon", "salmon"),
+            ("bream", "bream"),
+            ("moose", "moose"),
+            ("carp", "carp"),
+            ("scarp", "scarps"),
+            ("pike", "pike"),
+            ("spike", "spikes"),
+            ("é", "é"),
+        ] {
+            assert_eq!(plural(one), several);
+        }
+    }
 
     #[test]
     fn numbers_read_well() {
