@@ -403,7 +403,8 @@ mod tests {
             let result = JobResult { games: Vec::new(), tally: tally.clone() };
             store.put(&plan.name(job), &result).unwrap();
         }
-        let error = lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(())).unwrap_err().to_string();
+        let error =
+            lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(())).unwrap_err().to_string();
         assert!(error.contains("lower `generated.games`") && !error.contains("raise"), "{error}");
     }
 
