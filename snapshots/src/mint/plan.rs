@@ -69,9 +69,9 @@ const ISLAND: u32 = 4;
 /// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
 /// `starter`, with both as in `medium` and `2026-12`; that of puzzles as in `frontier`, to the highest tiers. Those of archives and searches
 /// without `skill` are guesses.
-const ARCHIVE: [f64; 3] = [0.1, 1.2, 1.5];
-const SEARCH: [f64; 3] = [0.1, 3.8, 4.2];
-const CONSTRUCTIVE: [f64; 3] = [0.6, 2.4, 2.85];
+const ARCHIVE: [f64; 3] = [0.1, 3.0, 3.0];
+const SEARCH: [f64; 3] = [0.1, 4.5, 4.5];
+const CONSTRUCTIVE: [f64; 3] = [0.6, 2.8, 3.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
