@@ -80,7 +80,7 @@ impl OfKernel<'_> {
 
 impl RuleSets {
     /// Draws the sets of these kinds that are not near to a `known` game; those with grafts if they are asked for. Cost: about a
-    /// millisecond for each that is considered, some 900 without grafts and 4,000 more with, and for each of the names that are tried.
+    /// millisecond for each that is considered, some 900 without grafts and up to 4,000 more with, and for each of the names that are tried.
     pub fn draw(kinds: &[Kind], with_grafts: bool, known: &[GameForm], seed: Seed) -> RuleSets {
         let of_kernel = |kernel: &str| {
             let seed = seed.child("kernel", 0).child(kernel, 0);
