@@ -4,6 +4,9 @@
 //! messages that help.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
+// The code that `pest_derive` writes without its `std` feature, which would look at the stack at every step, names this crate.
+extern crate alloc;
+
 mod ablation;
 pub mod analysis;
 mod arrange;

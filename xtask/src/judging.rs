@@ -1,8 +1,9 @@
 //! `cargo xtask judging`: compares the sequential judging of candidates with judging in full.
 
 use anyhow::Context;
-use engine::{Game, Seed, syntax};
+use engine::Seed;
 use forge::games::GameOrder;
+use generators::games::GeneratedGame;
 use generators::kernels::{KernelGame, KernelGenome, Slot};
 use rayon::prelude::*;
 use report::{Share, Table, TableCell};
@@ -79,8 +80,7 @@ impl Judges {
     /// Judges a level of a game of the kernel both ways; `None` if none could be drawn, or no win is found.
     fn compare(&self, kernel: &str, slot: Slot, seed: Seed) -> Option<Compared> {
         let genome = KernelGenome::of_kernel(kernel, |_| true, &BTreeSet::new(), seed.child("rules", 0))?;
-        let KernelGame { game, course } = genome.build().ok()?;
-        let game = Game::from_source(&syntax::print(&game.description)).ok()?;
+        let KernelGame { game: GeneratedGame { rules: game, .. }, course } = genome.build().ok()?;
         let level = game.level(&course.level(slot, seed.child("layout", 0)).ok()?.text).ok()?;
         let seed = seed.child("judges", 0);
         let witness = self.search.screen(&game, &level, seed).witness?;

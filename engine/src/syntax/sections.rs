@@ -44,13 +44,16 @@ fn split<'a, 'b>(
     problems: &mut Vec<Diagnostic>,
 ) -> (Vec<&'b Line<'a>>, Vec<Part<'a, 'b>>) {
     let exact = Section::ALL.map(|section| lines.iter().any(|line| named(line.text) == Some(section)));
+    let all_named = exact.iter().all(|&is_there| is_there);
     let mut orphans = Vec::new();
     let mut parts: Vec<Part<'a, 'b>> = Vec::new();
     for line in lines {
         let misspelt = || {
-            let alone = !line.text.contains([' ', '\t', '>', '=']);
+            if all_named || line.text.contains([' ', '\t', '>', '=']) {
+                return None;
+            }
             let near = nearest(line.text, Section::ALL.map(Section::name)).and_then(named);
-            near.filter(|&section| alone && !exact[section as usize])
+            near.filter(|&section| !exact[section as usize])
         };
         let Some(section) = named(line.text).or_else(misspelt) else {
             parts.last_mut().map_or(&mut orphans, |part| &mut part.body).push(line);

@@ -3,7 +3,6 @@
 use super::levels::{FoundLevel, FoundLevels};
 use crate::card::{Card, Origin};
 use engine::{Description, Episode, Game, syntax};
-use generators::GenerateError;
 use generators::games::GeneratedGame;
 use validators::Judgement;
 
@@ -50,18 +49,11 @@ pub struct MadeGame {
 
 impl Candidate {
     /// A generated game: which candidate for its place it is, and who made it.
-    pub(crate) fn generated(
-        made: GeneratedGame,
-        generator: &str,
-        candidate: u32,
-    ) -> Result<Candidate, GenerateError> {
-        let GeneratedGame { description, title, summary, goal, kind, real_time, patterns } = made;
-        // From the print: what is judged is what is frozen.
-        let game = Game::from_source(&syntax::print(&description))
-            .map_err(|problems| GenerateError::Unlucky(format!("the rules do not compile: {problems}")))?;
+    pub(crate) fn generated(made: GeneratedGame, generator: &str, candidate: u32) -> Candidate {
+        let GeneratedGame { rules: game, title, summary, goal, kind, real_time, patterns } = made;
         let origin = Origin::Generated { generator: generator.to_owned(), patterns, candidate };
         let kind = kind.name().to_owned();
-        Ok(Candidate { game, title, description: summary, goal, kind, real_time, origin })
+        Candidate { game, title, description: summary, goal, kind, real_time, origin }
     }
 
     /// The game with its levels; none if its judges were not asked what cards tell.

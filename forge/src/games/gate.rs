@@ -65,7 +65,7 @@ impl<'a> GameGate<'a> {
             let generator = self.order.method.name();
             let build = |genome: &KernelGenome| {
                 let KernelGame { game, course } = genome.build().ok()?;
-                Some((Candidate::generated(game, generator, number).ok()?, course))
+                Some((Candidate::generated(game, generator, number), course))
             };
             let Some((first, course)) = build(genome) else {
                 tally.game_rejected("the rules do not compile");
@@ -359,6 +359,6 @@ pub(super) mod tests {
     }
 
     fn genome_game(genome: &KernelGenome) -> Game {
-        Candidate::generated(genome.build().unwrap().game, "constructive", 0).unwrap().game
+        genome.build().unwrap().game.rules
     }
 }

@@ -1,6 +1,5 @@
 //! A quick look at a game: the evaluation of a search.
 
-use crate::games::Candidate;
 use agents::Play;
 use engine::{Analysis, Episode, Level, Outcome, Seed};
 use generators::kernels::{Course, KernelGame, KernelGenome, Slot};
@@ -84,10 +83,10 @@ impl Looker {
     /// Looks at a game. Cost: 24 to 48 plays of at most 240 ticks, and [`PlayMeasures`].
     pub(super) fn look(&self, genome: &KernelGenome) -> Look {
         let seed = self.seed.child(&genome.key().to_string(), 0);
-        let made = genome
-            .build()
-            .and_then(|KernelGame { game, course }| Ok((Candidate::generated(game, "", 0)?.game, course)));
-        let Ok((game, course)) = made else { return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0) };
+        let Ok(KernelGame { game, course }) = genome.build() else {
+            return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0);
+        };
+        let game = game.rules;
         let analysis = Analysis::of(&game);
         let coupling = Coupling::of(&analysis).strength();
         let kernel = KernelGenome::kernels().position(|name| name == genome.kernel()).unwrap_or_default();

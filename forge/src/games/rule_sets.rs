@@ -3,9 +3,9 @@
 
 use super::cast::Cast;
 use crate::levels::Method;
-use engine::{Game, Sampler, Seed, syntax};
+use engine::{Game, Sampler, Seed};
 use generators::Variation;
-use generators::games::Kind;
+use generators::games::{GeneratedGame, Kind};
 use generators::kernels::{KernelGenome, KernelVariation, Turns};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
@@ -50,10 +50,10 @@ pub struct RuleSets {
     grafted: Vec<RuleSet>,
 }
 
-/// A game and its title; `None` if it does not compile.
+/// The rules of a game and its title; `None` if they do not compile.
 fn built(genome: &KernelGenome) -> Option<(Game, String)> {
-    let built = genome.build().ok()?.game;
-    Some((Game::from_source(&syntax::print(&built.description)).ok()?, built.title))
+    let GeneratedGame { rules, title, .. } = genome.build().ok()?.game;
+    Some((rules, title))
 }
 
 /// The form of the rules of a game; `None` if they do not compile.

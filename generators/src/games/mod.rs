@@ -22,13 +22,13 @@ pub use masked::Masked;
 pub use push::PushRules;
 pub use rethemed::Rethemed;
 
-use engine::Description;
+use engine::Game;
 
 /// A game with its description in prose.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct GeneratedGame {
-    /// The rules; they compile without errors or warnings.
-    pub description: Description,
+    /// The rules, compiled from their printed text as those of frozen games are, without warnings.
+    pub rules: Game,
     /// The title, in the terms of the game's own scene.
     pub title: String,
     /// The contents of the game, in a few sentences.

@@ -143,7 +143,7 @@ pub(super) mod checks {
             let seed = Seed::from_text("checks").child("game", number);
             let KernelGame { game, course } = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap();
             let level = course.level(Slot::Exam, seed).map(|level| level.text).ok();
-            (game.title, game.description, level.into_iter().collect())
+            (game.title, game.rules.description().clone(), level.into_iter().collect())
         })
     }
 

@@ -94,7 +94,7 @@ impl KernelGenome {
         all
     }
 
-    /// The same game with one or two grafts more; `None` if it can take none.
+    /// The same game with one or two grafts more, which may not build; `None` if it can take none.
     pub fn grafted(&self, seed: Seed) -> Option<KernelGenome> {
         let sampler = &mut seed.child("grafts", 0).sampler();
         let mut genome = self.clone();
@@ -105,7 +105,7 @@ impl KernelGenome {
                 genome = twice;
             }
         }
-        genome.build().is_ok().then_some(genome)
+        Some(genome)
     }
 
     /// The same rules with other numbers and points.
@@ -239,14 +239,13 @@ impl KernelGenome {
     /// be won.
     pub fn build(&self) -> Result<KernelGame, GenerateError> {
         let composed = self.choices().compose()?;
-        // Compiles the printed text: frozen games are compiled from it.
-        let game = Game::from_source(&syntax::print(&composed.description)).map_err(|problems| {
+        let rules = Game::from_source(&syntax::print(&composed.description)).map_err(|problems| {
             GenerateError::Unlucky(format!(
                 "kernel {}: the rules do not compile: {problems}",
                 self.kernel.name
             ))
         })?;
-        if let Some(warning) = game.warnings().first() {
+        if let Some(warning) = rules.warnings().first() {
             let message =
                 format!("kernel {}: the rules compile with a warning: {}", self.kernel.name, warning.message);
             return Err(GenerateError::Unlucky(message));
@@ -258,7 +257,7 @@ impl KernelGenome {
         let patterns = kernel.chain(variants).chain(grafts);
         let game = GeneratedGame {
             real_time: has_movers(&composed.description),
-            description: composed.description,
+            rules,
             title: composed.title,
             summary: composed.summary,
             goal: composed.goal,
@@ -337,7 +336,7 @@ pub fn preview(
         time: LONG,
     };
     let KernelGame { game, course } = genome.build()?;
-    let mut description = game.description;
+    let mut description = game.rules.description().clone();
     description.header.trivia.above.extend([game.title, game.summary, game.goal]);
     Ok((syntax::print(&description), course))
 }

@@ -51,7 +51,7 @@ fn every_kernel_builds_in_every_scene() {
                 .build()
                 .unwrap_or_else(|error| panic!("{} in {}: {error}", kernel.name, scene.name))
                 .game;
-            let text = syntax::print(&game.description);
+            let text = syntax::print(game.rules.description());
             for text in [&game.title, &game.summary, &game.goal] {
                 assert!(!text.contains(['<', '>', '{', '}']) && !text.contains("  "), "{text}");
             }
@@ -67,7 +67,7 @@ fn every_map_becomes_levels() {
         let seed = Seed::from_text(&kernel.name);
         let genome = KernelGenome::in_form(kernel, &mut seed.sampler());
         let built = genome.build().unwrap();
-        let game = Game::compile(&built.game.description).unwrap();
+        let game = built.game.rules;
         for slot in Slot::ALL {
             let levels = (0..12).map(|number| built.course.level(slot, seed.child("level", number)));
             let asked: BTreeSet<String> = levels
@@ -89,7 +89,7 @@ fn the_same_seed_gives_the_same_game_and_levels() {
         let genome = KernelGenome::draw(crate::games::Kind::ALL, seed).unwrap();
         let KernelGame { game, course } = genome.build().unwrap();
         let level = course.level(Slot::Exam, seed).map(|level| level.text).ok();
-        (syntax::print(&game.description), game.title, game.summary, level)
+        (syntax::print(game.rules.description()), game.title, game.summary, level)
     };
     assert_eq!(draw(), draw());
 }
