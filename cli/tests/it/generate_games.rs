@@ -47,7 +47,7 @@ fn same_bytes(method: &str, kind: &str) {
 
 #[test]
 fn constructive_games_are_the_same_on_any_number_of_threads() {
-    same_bytes("constructive", "demolition");
+    same_bytes("constructive", "survival");
 }
 
 /// In `cargo xtask sweep` only: the crate `forge` tests both methods with less effort.
@@ -63,7 +63,7 @@ fn searched_games_are_the_same_on_any_number_of_threads() {
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
-    let more = ["--kind", "demolition", "--count", "1", "--levels", "2", "--seed", "f"];
+    let more = ["--kind", "survival", "--count", "1", "--levels", "2", "--seed", "f"];
     let told = generate(home.path(), "whole", &more, 0);
     let args = [&["generate", "games", "--jobs", "1", "--out", "new"], &more[..]].concat();
     let mut command = arcade(home.path());
