@@ -176,7 +176,7 @@ pub fn lay_out(
             _ => tally.add(&spent),
         }
     }
-    let taken = select(plan, &contenders, [&of_corpus.reasons(), &tally.reasons()])?;
+    let taken = select(plan, &contenders, [&of_corpus, &tally])?;
     tally.add(&of_corpus);
     let mut folder = folder::Folder::new(plan, sink);
     for &taken in &taken {

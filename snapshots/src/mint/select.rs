@@ -14,7 +14,7 @@ use crate::tiers::PuzzlePart;
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::games::{Cast, NO_RULES};
-use forge::reasons;
+use forge::{Tally, reasons};
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -211,7 +211,7 @@ fn advice(part: Part, has_no_rules: bool) -> String {
     )
 }
 
-/// Selects as many contenders of each part as the recipe asks for. Returns their indices, in order.
+/// Selects as many contenders of each part as the recipe asks for. Returns their indices, in order. The tallies of the jobs explain errors.
 ///
 /// # Errors
 /// There are too few of them, or no selection was found that meets the quotas and, within one level per bin, the
@@ -219,7 +219,7 @@ fn advice(part: Part, has_no_rules: bool) -> String {
 pub(super) fn select(
     plan: &Plan<'_>,
     contenders: &[Contender],
-    [old, new]: [&str; 2],
+    [of_corpus, of_new]: [&Tally; 2],
 ) -> Result<Vec<usize>, MintError> {
     let recipe = plan.recipe;
     let Fit { fit, dropped } = Fit::of(plan, contenders);
@@ -227,10 +227,10 @@ pub(super) fn select(
     for (part, asked) in asked {
         let there = fit.iter().filter(|&&at| contenders[at].part == part).count();
         if there < asked {
-            let failed = if part == Part::Corpus { old } else { new };
+            let failed = if part == Part::Corpus { of_corpus } else { of_new };
             let why: BTreeMap<String, u64> = dropped.get(&part).cloned().unwrap_or_default();
-            let why = [failed, &reasons(&why)].into_iter().filter(|why| !why.is_empty()).join(", ");
-            let advice = advice(part, why.contains(NO_RULES));
+            let why = [failed.reasons(), reasons(&why)].into_iter().filter(|why| !why.is_empty()).join(", ");
+            let advice = advice(part, failed.rejections.contains_key(NO_RULES));
             return Err(MintError::TooFew { part: part.name(), asked, there, why, advice });
         }
     }
