@@ -156,6 +156,49 @@ def test_snapshots_open_and_verify(arcade: Path, tmp_path: Path) -> None:
     assert json.dumps(ia.verify(out)["problems"]) != "[]"
 
 
+SEALED = """name = "sealed"
+description = "x"
+commitment = "{commitment}"
+[generated]
+games = 1
+levels = 1
+kinds = ["survival"]
+[criteria]
+decision = 100
+budget = 80000
+"""
+
+
+def test_sealed_releases_open_without_their_wins(arcade: Path, tmp_path: Path) -> None:
+    recipe = tmp_path / "sealed.toml"
+
+    def release(*more: str) -> str:
+        command = [arcade, "--json", "release", recipe, *more]
+        return subprocess.run(command, check=True, cwd=tmp_path, stdout=subprocess.PIPE, text=True).stdout
+
+    recipe.write_text(SEALED.format(commitment="0" * 64))
+    commitment = json.loads(release("--commit"))["commitment"]
+    recipe.write_text(SEALED.format(commitment=commitment))
+    release("--secret", "sealed.secret.json", "--out", "out")
+    public = tmp_path / "out/public"
+    (game,) = ia.open_snapshot(public).games()
+    assert game.witness(0) is None
+    assert game.compile().levels[0].start("s").outcome == "ongoing"
+    report = ia.verify(public)
+    assert (report["problems"], report["witnesses"], report["is_secret"]) == ([], "held", True)
+    with pytest.raises(ia.ArcadeError, match=r"has no MANIFEST\.json: name a snapshot folder"):
+        ia.open_snapshot(tmp_path / "out/held")
+
+
+def test_archives_verify_and_are_unpacked_to_be_opened(arcade: Path, tmp_path: Path) -> None:
+    out, archive = tmp_path / "tiny", tmp_path / "tiny.tar.zst"
+    subprocess.run([arcade, "release", "tiny", "--out", out, "-q"], check=True)
+    subprocess.run([arcade, "export", out, "--format", "archive", "--out", archive], check=True)
+    assert ia.verify(archive) == ia.verify(out) | {"papers": 0}, "papers are published beside an archive"
+    with pytest.raises(ia.ArcadeError, match="an archive is unpacked first"):
+        ia.open_snapshot(archive)
+
+
 def test_what_is_no_game_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="did you mean the corpus game `hailglass`"):
         ia.load("hailglas")
