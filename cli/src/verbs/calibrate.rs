@@ -8,7 +8,7 @@ use crate::verbs::release::in_pool;
 use crate::verbs::scale::left_out;
 use crate::{interrupt, protected, whole_file};
 use engine::SEMANTICS;
-use evaluation::run::{FORMAT, PlayResult, Progress, Task};
+use evaluation::run::{FORMAT, PlayResult, Progress, SubjectEntry, Task};
 use evaluation::scale::{EXAMINEES, Examinee, PersonPlays, ScaleFile, Span, examinee_named, played};
 use evaluation::{Commitment, Evaluation, Halt, Settings};
 use indicatif::ProgressBar;
@@ -103,6 +103,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let first = settings(examinees[0]);
     first.check().map_err(|problem| malformed!("{problem}; see --runs and --max-steps"))?;
+    let jobs = args.jobs.map(|jobs| jobs as usize);
+    in_pool(jobs, || check_readers(args, &first, earlier.as_ref()))??;
     let hint = format!(
         "interrupted: finished plays are in {}; run the same command with --resume to continue",
         args.out.display()
@@ -110,7 +112,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     interrupt::watch(|| (), hint);
     let levels: u64 = games.iter().map(|game| game.levels.len() as u64).sum();
     let bar = Bar(console.progress(levels * args.runs * examinees.len() as u64, "playing"));
-    let jobs = args.jobs.map(|jobs| jobs as usize);
     for &examinee in &examinees {
         let folder = plays_folder.join(examinee.name);
         let settings = settings(examinee);
@@ -137,11 +138,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bar.0.finish_and_clear();
     let folders: Vec<PathBuf> = examinees.iter().map(|one| plays_folder.join(one.name)).collect();
     let persons = in_pool(jobs, || played(&[folders, args.readers.clone()].concat(), max_steps))??;
-    for person in &persons {
-        if let Some(line) = left_out(&person.player.label(), &person.left_out, max_steps).first() {
-            bail!("{line}, or omit it from --readers");
-        }
-    }
     let name = args.name.clone().unwrap_or_else(|| default_name(&args.subjects));
     let found = in_pool(jobs, || calibrated(args, earlier, &first, &persons, &name))??;
     let path = args.out.join("scale.json");
@@ -217,9 +213,37 @@ fn calibrated(
     Ok(scale)
 }
 
+/// Refuses results of readers that would not take part, before anything is played.
+fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) -> Result<(), Failure> {
+    if args.readers.is_empty() {
+        return Ok(());
+    }
+    for person in played(&args.readers, settings.max_steps)? {
+        let name = person.player.label();
+        if let Some(line) = left_out(&name, &person.left_out, settings.max_steps).first() {
+            bail!("{line}, or omit it from --readers");
+        }
+        let has_played = |game: &SubjectEntry| {
+            game.levels.iter().any(|level| person.levels.contains_key(&(game.digest, level.digest)))
+        };
+        if !settings.games.iter().any(has_played) {
+            bail!(
+                "{name}: it has played no level of this release; evaluate it on the release, or omit it from --readers"
+            );
+        }
+        if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
+            bail!(
+                "{name}: it did not play the first release of the scale, so it is no anchor; place it with `arcade scale`, and omit it \
+                 from --readers"
+            );
+        }
+    }
+    Ok(())
+}
+
 /// Returns the plays of the persons of these names on the levels of a release.
 fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<GamePlays> {
-    let of_game = |game: &evaluation::run::SubjectEntry| {
+    let of_game = |game: &SubjectEntry| {
         let mut found = GamePlays { levels: game.levels.len(), plays: Vec::new() };
         for (examinee, name) in names.iter().enumerate() {
             let Some(person) = persons.iter().find(|person| person.player.label() == *name) else { continue };

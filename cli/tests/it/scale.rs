@@ -119,6 +119,60 @@ fn players_are_placed_or_refused() {
     assert!(text(&unknown.stderr).contains("november"), "{}", text(&unknown.stderr));
 }
 
+/// Presses the keys in turn.
+#[cfg(unix)]
+const ANCHOR: &str = "turn=0
+while read -r line; do
+  case \"$line\" in *'\"turn\"'*)
+    turn=$((turn + 1))
+    case $((turn % 5)) in 0) key=up ;; 1) key=left ;; 2) key=down ;; 3) key=right ;; *) key=use ;; esac
+    echo '{\"action\": \"'$key'\"}' ;;
+  esac
+done
+";
+
+/// Two readers that play both months link them for readers; one that cannot is refused before anything is played.
+#[cfg(unix)]
+#[test]
+fn readers_take_part_as_anchors() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("anchor.sh"), ANCHOR).unwrap();
+    let months = [&["hailglass", "great-yawn", "bog-lantern"][..], &["dyepot-newt", "first-ice"]];
+    let play = |games: &[&str], player: &str, steps: &str, out: &str| {
+        let more = ["--player", player, "--max-steps", steps, "-q", "--out", out];
+        run(folder, &[&["evaluate"], games, &more].concat(), 0);
+    };
+    play(months[0], "cmd:sh anchor.sh", "40", "anchor-first");
+    play(months[1], "cmd:sh anchor.sh", "40", "anchor-second");
+    play(months[1], "cmd:sh ./anchor.sh", "40", "another");
+    play(&["hailglass", "--levels", "0"], "cmd:sh anchor.sh", "30", "short");
+    let first = |reader, out| [months[0], &["--readers", reader, "--out", out]].concat();
+    let second = |reader, out| {
+        [months[1], &["--scale", "first/scale.json", "--readers", reader, "--out", out]].concat()
+    };
+    calibrate(folder, &first("anchor-first", "first"), 0);
+    let refusals = [
+        (first("anchor-second", "none"), "has played no level of this release"),
+        (first("short", "none"), "1 episode with --max-steps 30 was left out"),
+        (first("nowhere", "none"), "nowhere: no results of an evaluation here"),
+        (second("another", "none"), "did not play the first release of the scale"),
+    ];
+    for (args, words) in refusals {
+        let said = calibrate(folder, &args, 2);
+        assert!(text(&said.stdout).contains(words), "{words}: {}", text(&said.stdout));
+        assert!(!folder.join("none").exists());
+    }
+    calibrate(folder, &second("anchor-second", "second"), 0);
+    let scale = read(&folder.join("second/scale.json"));
+    assert_eq!(scale["months"][1]["anchors"], 2);
+    play(&["first-ice"], "reflex", "40", "reader");
+    let placed = run(folder, &["scale", "reader", "--scale", "second/scale.json", "--json"], 0);
+    let placed: Value = serde_json::from_str(&text(&placed.stdout)).unwrap();
+    let player = &placed["players"][0];
+    assert!(player["is_reader"] == true && player["months"][0]["ability"]["value"].is_f64(), "{player}");
+}
+
 /// The page of two months, by the plays that calibrated them.
 #[test]
 fn timelines_are_a_page_and_its_numbers() {
