@@ -67,7 +67,7 @@ impl GameOrder {
         let (attempts, patience) = match method {
             Method::Constructive => (160, 4),
             Method::Search => (24, 4),
-            Method::Evolutionary => (160, 1),
+            Method::Evolutionary => (48, 1),
         };
         GameOrder {
             method,
