@@ -44,3 +44,11 @@ def arcade() -> Path:
     if ia.__version__ not in version.stdout:
         pytest.skip(f"{built[0]} is of another version")
     return built[0]
+
+
+@pytest.fixture(scope="session")
+def tiny(arcade: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A release that the command line has minted; not to be changed."""
+    out = tmp_path_factory.mktemp("releases") / "tiny"
+    subprocess.run([arcade, "release", "tiny", "--out", out, "-q"], check=True, stdout=subprocess.DEVNULL)
+    return out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -135,9 +136,8 @@ def test_what_is_no_snapshot_is_refused(tmp_path: Path) -> None:
         ia.open_snapshot(tmp_path)
 
 
-def test_snapshots_open_and_verify(arcade: Path, tmp_path: Path) -> None:
-    out = tmp_path / "tiny"
-    subprocess.run([arcade, "release", "tiny", "--out", str(out), "-q"], check=True)
+def test_snapshots_open_and_verify(tiny: Path, tmp_path: Path) -> None:
+    out = shutil.copytree(tiny, tmp_path / "tiny")
     root = (Path(__file__).parents[2] / "cli/tests/tiny.root").read_text().split()
     release = ia.open_snapshot(out)
     assert release.root in root
@@ -190,11 +190,10 @@ def test_sealed_releases_open_without_their_wins(arcade: Path, tmp_path: Path) -
         ia.open_snapshot(tmp_path / "out/held")
 
 
-def test_archives_verify_and_are_unpacked_to_be_opened(arcade: Path, tmp_path: Path) -> None:
-    out, archive = tmp_path / "tiny", tmp_path / "tiny.tar.zst"
-    subprocess.run([arcade, "release", "tiny", "--out", out, "-q"], check=True)
-    subprocess.run([arcade, "export", out, "--format", "archive", "--out", archive], check=True)
-    assert ia.verify(archive) == ia.verify(out) | {"papers": 0}, "papers are published beside an archive"
+def test_archives_verify_and_are_unpacked_to_be_opened(arcade: Path, tiny: Path, tmp_path: Path) -> None:
+    archive = tmp_path / "tiny.tar.zst"
+    subprocess.run([arcade, "export", tiny, "--format", "archive", "--out", archive], check=True)
+    assert ia.verify(archive) == ia.verify(tiny) | {"papers": 0}, "papers are published beside an archive"
     with pytest.raises(ia.ArcadeError, match="an archive is unpacked first"):
         ia.open_snapshot(archive)
 

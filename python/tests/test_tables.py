@@ -42,10 +42,8 @@ def test_frames_share_the_buffers(results: Path) -> None:
     assert other["score"].array.__arrow_array__().chunk(0).buffers()[1].address == one
 
 
-def test_releases(arcade: Path, tmp_path: Path) -> None:
-    out = tmp_path / "tiny"
-    subprocess.run([arcade, "release", "tiny", "--out", str(out), "-q"], check=True, stdout=subprocess.DEVNULL)
-    release = ia.open_snapshot(out)
+def test_releases(tiny: Path) -> None:
+    release = ia.open_snapshot(tiny)
     games, levels = tables.games(release), tables.levels(release)
     assert games.num_rows == len(list(release.games()))
     assert levels.num_rows == sum(games["levels"].to_pylist())

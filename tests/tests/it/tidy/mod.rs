@@ -48,6 +48,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "python",
+        &["engine", "agents", "generators", "validators", "forge", "snapshots", "render", "evaluation"],
+    ),
+    (
         "cli",
         &[
             "engine",
@@ -93,13 +97,15 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("gif", &["render"]),
     ("indicatif", &["cli"]),
     ("ratatui", &["cli"]),
-    ("miette", &["cli"]),
+    ("miette", &["cli", "python"]),
     ("minijinja", &["cli", "evaluation"]),
     ("anyhow", &["cli", "xtask"]),
     ("ureq", &["evaluation"]),
     ("tiktoken", &["evaluation"]),
     ("regex", &["evaluation"]),
     ("nalgebra", &["statistics"]),
+    ("numpy", &["python"]),
+    ("pyo3", &["python"]),
     ("tar", &["snapshots"]),
     ("zstd", &["snapshots"]),
     ("blst", &["trust"]),
