@@ -1,10 +1,12 @@
 """Steps per second of a vector environment beside the native batch, game by game, in one run.
 
-All play level 0 with uniform actions on one thread; rates are steps per second of CPU time, the best of several turns that alternate.
+All play level 0 with uniform actions on one thread; rates are steps per second of CPU time, once episodes have drifted apart: a board early in
+an episode may cost a third of a later one.
 
 - batch: `cargo xtask bench --batch`, 4,096 states that are stepped one tick at a time, without observations;
 - loop: the same states in the process of the environments, stepped in one loop, without observations, rewards, flags or limits;
-- environments: 4,096 boards of planes, rewards and flags, written into one array, which is returned itself or as a copy.
+- environments: 4,096 boards of planes, rewards and flags, written into one array, which is returned itself or as a copy;
+- in C: a box-pushing puzzle that is a program of its own, `boxes.c`, with planes, rewards and flags.
 
 Example: python python/bench/steps.py --games corpora hailglass heath-fire
 """
@@ -14,7 +16,9 @@ from __future__ import annotations
 import argparse
 import csv
 import io
+import shutil
 import subprocess
+import tempfile
 import time
 from pathlib import Path
 
@@ -26,6 +30,8 @@ import infinite_arcade.gymnasium
 
 ROOT = Path(__file__).parents[2]
 COUNT = 4096
+#: Ticks before the measurement, as many as `cargo xtask bench --batch` plays.
+APART = 512
 
 
 def rates(game: ia.Game, turns: int) -> list[float]:
@@ -49,17 +55,18 @@ def rates(game: ia.Game, turns: int) -> list[float]:
             envs.step(chosen)
 
     players = [lambda: loop._lanes.native.step_blindly(flat, len(actions)), lambda: play(shown), lambda: play(copied)]
-    best = [0.0] * len(players)
+    spent = [0.0] * len(players)
     for envs in (shown, copied, loop):
         envs.reset(seed=0)
+        envs._lanes.native.step_blindly(flat, APART)
     for turn in range(turns + 1):
         for at, player in enumerate(players):
             started = time.process_time()
             player()
             # The first turn lets buffers grow.
             if turn:
-                best[at] = max(best[at], len(flat) / (time.process_time() - started))
-    return best
+                spent[at] += time.process_time() - started
+    return [turns * len(flat) / seconds for seconds in spent]
 
 
 def native(games: Path, name: str) -> float:
@@ -68,6 +75,17 @@ def native(games: Path, name: str) -> float:
     said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     [row] = csv.DictReader(io.StringIO("\n".join(said.splitlines()[:2])))
     return float(row["batch_ticks_per_s"])
+
+
+def in_c(turns: int) -> float:
+    """The rate of `boxes.c`."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "boxes"
+        source = Path(__file__).with_name("boxes.c")
+        subprocess.run(["cc", "-O3", "-march=native", str(source), "-o", str(program)], check=True)
+        command = [str(program), str(COUNT), "320"]
+        said = [subprocess.run(command, capture_output=True, text=True, check=True).stdout for _ in range(turns)]
+    return max(map(float, said))
 
 
 def main() -> None:
@@ -86,6 +104,8 @@ def main() -> None:
         million = [f"{rate / 1e6:.2f} M/s" for rate in (batch, loop, shown, copied)]
         shares = [f"{share:.2f}" for share in (shown / batch, shown / loop, copied / batch)]
         print(f"| {name} | {' | '.join(million[:3])} | {' | '.join(shares[:2])} | {million[3]} | {shares[2]} |", flush=True)
+    if shutil.which("cc"):
+        print(f"\nboxes in C: {in_c(arguments.turns) / 1e6:.0f} M/s")
 
 
 if __name__ == "__main__":

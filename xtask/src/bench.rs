@@ -216,8 +216,8 @@ fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
             batch.reset_over();
         }
     };
-    // Lets buffers grow and threads start.
-    round(64 / ticks);
+    // Lets buffers grow, threads start, and episodes drift apart.
+    round(512 / ticks);
     let (clock, own) = (now(), ThreadTime::now());
     let mut rounds = 0;
     while clock.elapsed() < Duration::from_millis(300) {

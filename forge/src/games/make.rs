@@ -4,16 +4,15 @@ use super::candidate::{Candidate, MadeGame, Step};
 use super::company::{CROWDED, Company};
 use super::gate::GameGate;
 use super::kept::Kept;
-use super::look::{Looker, axes};
+use super::look::Looker;
 use super::order::{GameEffort, GameOrder};
 use super::rule_sets::{Own, RuleSets, SetVariation};
 use crate::levels::Method;
-use crate::search_loop::{Finalists, run_search, spread};
+use crate::search_loop::{Finalists, run_search};
 use crate::tally::{LOOK, Tally};
 use engine::Seed;
 use generators::kernels::{KernelGenome, KernelVariation};
-use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig};
-use rayon::prelude::*;
+use generators::{Annealing, AnnealingConfig};
 use std::collections::BTreeSet;
 use validators::CriteriaError;
 use validators::novelty::GameForm;
@@ -144,9 +143,6 @@ pub fn make_archive(
 
 /// The reason that a place is left empty which no rules are left for.
 pub const NO_RULES: &str = "no rules left";
-
-/// The least number of games that are looked at in a round of an archive, and of finalists that are judged on all threads.
-const LEAST_OF_ROUND: usize = 4;
 
 /// Makes games by the methods.
 pub(super) struct Maker<'a> {
@@ -285,88 +281,12 @@ impl<'a> Maker<'a> {
         });
         best.into_candidates().collect()
     }
-
-    /// Fills an archive of games that differ, and picks games that lie far apart in it until enough are accepted.
-    fn evolved(&self, own: Option<Own<'_>>) -> GameSet {
-        let looker = Looker::new(self.seed.child("look", 0));
-        let variation = SetVariation { variation: KernelVariation::new(&self.order.kinds), own };
-        let wanted = self.order.count as usize;
-        let looks = self.order.effort.looks as usize * wanted;
-        let config = MapElitesConfig { initial: (looks / 3).max(1), ..MapElitesConfig::default() };
-        let mut search =
-            MapElites::new(&variation, KernelGenome::key, axes(), config, self.seed.child("archive", 0));
-        let mut company = Company::of(self.order);
-        let mut set = GameSet::default();
-        let mut shown = BTreeSet::new();
-        for round in 0..self.order.effort.attempts {
-            // The first round fills the archive, the others mend it where the judges said no.
-            let missing = wanted - set.games.len();
-            let looks = if round == 0 {
-                looks
-            } else {
-                (self.order.effort.looks as usize * missing / 4).max(LEAST_OF_ROUND)
-            };
-            let look = |genome: &KernelGenome| {
-                self.progress.looked();
-                looker.look(genome)
-            };
-            run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
-                set.looks += 1;
-                set.tally.judge(LOOK, look.evaluation.is_feasible(), look.calls);
-                look.evaluation
-            });
-            let is_welcome = |genome: &KernelGenome| {
-                company.room.has_room(genome.kernel(), genome.kind().name())
-                    && company.room.is_open(genome.kernel(), genome.form())
-            };
-            let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
-            let wanted_now = missing.max(LEAST_OF_ROUND);
-            let key = KernelGenome::key;
-            let picked = spread(search.archive(), wanted_now, &[], is_near, is_welcome, &mut shown, key);
-            let objection = |candidate: &Candidate| company.objection(candidate);
-            let judge = |(cell, genome): &(usize, KernelGenome)| {
-                let key = genome.key().to_string();
-                let seed = self.seed.child("judges", 0).child(&key, 0);
-                let judged = self.once(&format!("{round}-{key}"), || {
-                    let mut tally = Tally::default();
-                    let mut made = self.gate.judge(genome, round, seed, &objection, &mut tally);
-                    if let Some(made) = &mut made {
-                        made.path = path([("judges", 0), (&key, 0)]);
-                    }
-                    Attempted { made, tally, looks: 0 }
-                });
-                self.progress.looked();
-                (*cell, judged.made, judged.tally)
-            };
-            let judged: Vec<_> = picked.par_iter().map(judge).collect();
-            for (cell, made, mut tally) in judged {
-                match made.map(|made| company.welcome(&made).map(|()| made)) {
-                    Some(Ok(_)) if set.games.len() == wanted => tally.taken_back("more than asked for"),
-                    Some(Ok(made)) => {
-                        self.progress.made(&made.card.title);
-                        set.games.push(made);
-                    }
-                    Some(Err(why)) => tally.taken_back(why),
-                    None => search.demote(cell, REFUSED),
-                }
-                set.tally.add(&tally);
-            }
-            if set.games.len() == wanted {
-                break;
-            }
-        }
-        set.end(&company, wanted, Shortfall::Attempts);
-        set
-    }
 }
 
 /// Steps from seed to seed, with words of their own.
 pub(super) fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
     steps.into_iter().map(|(purpose, index)| (purpose.to_owned(), index)).collect()
 }
-
-/// The feasibility of a game that a look took for feasible and the last judges did not.
-const REFUSED: f64 = 0.95;
 
 impl Attempted {
     fn note(&mut self, look: &super::look::Look) {

@@ -4,6 +4,7 @@
 //! found, the time limit is set by their wins, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
 
+mod archives;
 mod candidate;
 mod cast;
 mod company;

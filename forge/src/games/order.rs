@@ -51,7 +51,7 @@ impl Board {
 /// The effort for one game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GameEffort {
-    /// Attempts: constructive games, searches, or, of an archive, rounds.
+    /// Attempts: constructive games, searches, or rounds of archives.
     pub attempts: u32,
     /// Attempts at a game that is made independently, in each turn of a set of rules.
     pub patience: u32,
@@ -67,7 +67,7 @@ impl GameOrder {
         let (attempts, patience) = match method {
             Method::Constructive => (160, 4),
             Method::Search => (24, 4),
-            Method::Evolutionary => (48, 1),
+            Method::Evolutionary => (96, 1),
         };
         GameOrder {
             method,
