@@ -167,7 +167,7 @@ impl Planes {
             let sprite = world.sprite(slot);
             match self.single_cell(sprite, world) {
                 Some(cell) => mark(cell),
-                None => self.cover(world, world.present(slot).rect, &mut mark),
+                None => self.cover(world, world.rect(sprite), &mut mark),
             }
         }
     }
@@ -176,9 +176,11 @@ impl Planes {
     fn cover(&self, world: &World, rect: Rect, mark: &mut impl FnMut(usize)) {
         let block = world.block().max(1);
         let span = |from: i32, size: i32, limit: i32| {
-            let first = from.div_euclid(block).clamp(0, limit);
-            let last = from.saturating_add(size.saturating_sub(1)).div_euclid(block).clamp(-1, limit - 1);
-            first as usize..(last + 1) as usize
+            let (first, within) = (from.div_euclid(block), from.rem_euclid(block));
+            let end = within.saturating_add(size.saturating_sub(1));
+            // Most sprites are in one cell: no second division.
+            let last = if (0..block).contains(&end) { first } else { first + end.div_euclid(block) };
+            first.clamp(0, limit) as usize..(last.clamp(-1, limit - 1) + 1) as usize
         };
         let columns = span(rect.x, rect.w, world.columns());
         for row in span(rect.y, rect.h, world.rows()) {

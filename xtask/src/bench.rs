@@ -220,7 +220,9 @@ fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
     round(512 / ticks);
     let (clock, own) = (now(), ThreadTime::now());
     let mut rounds = 0;
-    while clock.elapsed() < Duration::from_millis(300) {
+    // A game is as fast as the part of its episodes that is played: a large batch plays as much of them as learners' boards do.
+    let least = if size == LARGE_BATCH { 640 } else { 1 };
+    while rounds * ticks < least || clock.elapsed() < Duration::from_millis(300) {
         round(1);
         rounds += 1;
     }

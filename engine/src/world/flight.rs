@@ -5,6 +5,7 @@ use super::{Slot, Sprite, World};
 use crate::geometry::Rect;
 
 /// Advances a sprite in flight to its last move up to a tick. Returns the displacement of a move.
+#[inline]
 fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
     let Sprite { rect, last_corner, moved_at, .. } = *sprite;
     let (dx, dy) = (rect.x.wrapping_sub(last_corner.0), rect.y.wrapping_sub(last_corner.1));
