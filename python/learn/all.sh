@@ -18,8 +18,10 @@ for game in aliens boulderdash escape realsokoban sokoban zelda; do
       python "$here/train.py" "$player" "$games/$game" --steps "$steps" --out "$out" >"$out/$game-$player.log"
     entry="cmd:python $here/player.py $out/$game-$player.npz"
   fi
-  [ -d "$out/results/$player/$game" ] ||
-    arcade evaluate "$games/$game" --as-reference --levels 0,1,2,3,4 --runs 5 --max-steps 1000 -q \
-      --player "$entry" --out "$out/results/$player/$game" >/dev/null
+  results=$out/results/$player/$game
+  resume=
+  [ ! -d "$results" ] || resume=--resume
+  arcade evaluate "$games/$game" --as-reference --levels 0,1,2,3,4 --runs 5 --max-steps 1000 -q \
+    --player "$entry" --out "$results" $resume >/dev/null
 done
 python "$here/table.py" "$out/results"

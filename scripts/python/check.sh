@@ -2,7 +2,8 @@
 # Checks of the Python package: builds the extension, checks types, runs pytest, in a virtual environment of its own.
 #
 # Usage: scripts/python/check.sh [--release] [FOLDER]     the folder of the environment; default: target/python
-# The extension is built with what `cargo test --workspace` builds, and shares it; with --release it is the one of a wheel, by maturin.
+# The extension is built with what `cargo test --workspace` builds, and shares it (Linux); with --release it is the one of a wheel, by
+# maturin.
 # Needs python3 (3.11 or later), a Rust toolchain and, the first time, the Python package index; without these packages it ends with 3.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

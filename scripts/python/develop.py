@@ -25,8 +25,10 @@ def main() -> None:
     shutil.copy2(sys.argv[1], extension)
     site = Path(sysconfig.get_path("platlib"))
     (site / "infinite_arcade.pth").write_text(f"{package}\n")
+    for other in site.glob("infinite_arcade-*.dist-info"):
+        shutil.rmtree(other)
     info = site / f"infinite_arcade-{version}.dist-info"
-    info.mkdir(exist_ok=True)
+    info.mkdir()
     name = project["name"]
     (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n")
     direct = {"url": package.as_uri(), "dir_info": {"editable": True}}
