@@ -1,4 +1,4 @@
-//! Simulated players that replay published solutions, and clean ones: how often [`coin_test`](crate::coin_test) flags them.
+//! Simulated players that replay published solutions, and clean ones: how often [`coin_test`] flags them.
 
 use crate::contamination::{Memoriser, coin_test};
 use crate::design::{Spread, logistic};

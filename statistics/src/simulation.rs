@@ -1,4 +1,4 @@
-//! Simulated evaluations under the model of [`Design`](crate::Design): how often intervals cover, and tests err. `cargo xtask
+//! Simulated evaluations under the model of [`Design`]: how often intervals cover, and tests err. `cargo xtask
 //! simulate` prints full tables; the tests of this crate run small ones.
 
 use crate::clustered::clustered_mean;

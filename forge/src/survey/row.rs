@@ -39,7 +39,7 @@ pub struct GameRow {
     pub there: u64,
     /// The edge of the strongest player over the best of those who do not look ahead.
     pub edge: Option<Edge>,
-    /// The rank correlation of a player's place in the ladder with how it fares; see [`ladder_order`].
+    /// The rank correlation of a player's place in the ladder with how it fares.
     pub order: Option<f64>,
     /// Different interactions, guards apart, that wins execute: over all wins ([`PlayMeasures::mechanics`]).
     pub mechanics: Option<u64>,

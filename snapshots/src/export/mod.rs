@@ -93,7 +93,7 @@ pub enum ExportError {
 }
 
 /// Exports a release as rows with a dataset card, or as folders of games. Cost: an analysis of each game; for twins,
-/// also the cost of making them ([`twin::of_game`](crate::twin::of_game)).
+/// also the cost of making them ([`twin::of_game`]).
 ///
 /// # Errors
 /// See [`ExportError`].

@@ -48,7 +48,7 @@ pub struct Plan<'a> {
 /// A job: a part of the work that depends on no other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Job {
-    /// An archive of [`ISLAND`] new games, by its number.
+    /// An archive of new games, by its number.
     Archive(u32),
     /// A new game that is found by search.
     Search(u32),

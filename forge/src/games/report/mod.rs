@@ -49,8 +49,7 @@ pub struct GameSetReport {
 }
 
 impl GameSetReport {
-    /// The report on a set. Cost: that of [`GameRow::of`](crate::survey::GameRow::of) for each game and a comparison for each
-    /// pair of games, on all threads.
+    /// The report on a set. Cost: that of a row of the survey for each game and a comparison for each pair of games, on all threads.
     pub fn of(sample: &GamesSample<'_>) -> GameSetReport {
         let GamesSample { method, games, corpus, criteria, cost, seed } = *sample;
         let measured: Vec<Measured<'_>> =
