@@ -6,6 +6,10 @@
 # default. What is in OUT is not done again.
 # Needs `arcade` on the path, and python with the package, its extra gymnasium, jax and optax.
 set -euo pipefail
+if [ $# -lt 3 ]; then
+  echo "usage: python/learn/all.sh ALGORITHM|PLANNER GAMES OUT [STEPS]" >&2
+  exit 2
+fi
 player=$1 games=$2 out=$3 steps=${4:-3000000}
 here=$(dirname "${BASH_SOURCE[0]}")
 # One thread of JAX for each training: two algorithms share two cores.

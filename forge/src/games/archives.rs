@@ -16,8 +16,8 @@ use std::collections::BTreeSet;
 /// The least number of games that are looked at in a round of an archive, and of finalists that are judged on all threads.
 const LEAST_OF_ROUND: usize = 4;
 
-/// Rounds in a row without a game after which an archive is given up: what is left of it seldom passes.
-const DRY_ROUNDS: u32 = 4;
+/// Games judged in a row, none of them accepted, after which an archive is given up: what is left of it seldom passes.
+const DRY: usize = 48;
 
 /// The feasibility of a game that a look took for feasible and the last judges did not.
 const REFUSED: f64 = 0.95;
@@ -36,7 +36,7 @@ impl Maker<'_> {
     /// Fills archives, one after the other, until enough games are accepted, all rounds are spent, or an archive has made nothing.
     /// With sets of rules of its own there is one archive, which is never given up.
     pub(super) fn evolved(&self, own: Option<Own<'_>>) -> GameSet {
-        let dry = if own.is_some() { u32::MAX } else { DRY_ROUNDS };
+        let dry = if own.is_some() { usize::MAX } else { DRY };
         let variation = SetVariation { variation: KernelVariation::new(&self.order.kinds), own };
         let (set, company) = (GameSet::default(), Company::of(self.order));
         let mut filling = Filling { set, company, shown: BTreeSet::new(), rounds: 0 };
@@ -55,8 +55,8 @@ impl Maker<'_> {
     }
 
     /// Fills the archive of a number with games that differ, and picks games that lie far apart in it until enough are accepted, all
-    /// rounds are spent, or so many in a row have made nothing.
-    fn archive(&self, number: u64, variation: &SetVariation<'_>, most_dry: u32, filling: &mut Filling) {
+    /// rounds are spent, or so many judged in a row are refused; a round counts as [`LEAST_OF_ROUND`] of them at least.
+    fn archive(&self, number: u64, variation: &SetVariation<'_>, most_dry: usize, filling: &mut Filling) {
         let Filling { set, company, shown, rounds } = filling;
         let wanted = self.order.count as usize;
         let looker = Looker::new(self.seed.child("look", 0));
@@ -103,7 +103,7 @@ impl Maker<'_> {
                 (*cell, judged.made, judged.tally)
             };
             let judged: Vec<_> = picked.par_iter().map(judge).collect();
-            dry += 1;
+            dry += judged.len().max(LEAST_OF_ROUND);
             for (cell, made, mut tally) in judged {
                 match made.map(|made| company.welcome(&made).map(|()| made)) {
                     Some(Ok(_)) if set.games.len() == wanted => tally.taken_back("more than asked for"),
@@ -119,5 +119,26 @@ impl Maker<'_> {
             }
             *rounds += 1;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::games::gate::tests::order;
+    use crate::games::{GameEffort, GameOrder, GamesError, make_games};
+    use crate::levels::Method;
+    use engine::Seed;
+
+    /// As many rounds as it takes to judge [`DRY`] games, not all that there are; one archive, not one after the other.
+    #[test]
+    fn a_dry_archive_is_given_up() {
+        let looks = 12;
+        let order = GameOrder { method: Method::Evolutionary, least_interactions: usize::MAX, ..order() };
+        let order = GameOrder { effort: GameEffort { attempts: 1000, looks, ..order.effort }, ..order };
+        let made = make_games(&order, &[], "", Seed::from_text("dry"), &());
+        let Err(GamesError::NoneAccepted { looks: spent, .. }) = made else { panic!("{made:?}") };
+        let (first, rounds) = (u64::from(looks), (DRY / LEAST_OF_ROUND) as u64);
+        assert_eq!(spent, first + (rounds - 1) * LEAST_OF_ROUND as u64);
     }
 }
