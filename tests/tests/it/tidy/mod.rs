@@ -5,115 +5,18 @@
 
 mod citations;
 mod clocks;
+mod crates;
 mod dependencies;
 mod layers;
 mod rows;
 mod supply;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use tests::{read, rust_files, workspace_files, workspace_root};
 use toml::de::{DeTable, DeValue};
-
-/// Our crates by folder, each with its allowed dependencies. Imports point one way only.
-const ALLOWED: &[(&str, &[&str])] = &[
-    ("engine", &[]),
-    ("editor", &["engine"]),
-    ("statistics", &[]),
-    ("agents", &["engine"]),
-    ("generators", &["engine"]),
-    ("validators", &["engine", "agents", "statistics"]),
-    ("report", &["engine", "statistics"]),
-    ("forge", &["engine", "agents", "generators", "validators", "report", "statistics"]),
-    ("snapshots", &["engine", "agents", "generators", "validators", "forge", "report", "statistics"]),
-    ("trust", &["engine", "report"]),
-    ("render", &["engine"]),
-    ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
-    (
-        "studio",
-        &[
-            "engine",
-            "editor",
-            "agents",
-            "generators",
-            "validators",
-            "forge",
-            "snapshots",
-            "statistics",
-            "render",
-            "evaluation",
-        ],
-    ),
-    (
-        "python",
-        &["engine", "agents", "generators", "validators", "forge", "snapshots", "render", "evaluation"],
-    ),
-    (
-        "cli",
-        &[
-            "engine",
-            "editor",
-            "agents",
-            "generators",
-            "validators",
-            "forge",
-            "snapshots",
-            "trust",
-            "report",
-            "statistics",
-            "render",
-            "evaluation",
-            "studio",
-        ],
-    ),
-    (
-        "xtask",
-        &[
-            "engine",
-            "agents",
-            "generators",
-            "validators",
-            "forge",
-            "snapshots",
-            "report",
-            "render",
-            "statistics",
-        ],
-    ),
-];
-
-/// The crate that may depend on all others, because none depends on it.
-const ABOVE_ALL: &str = "tests";
-
-/// External crates (with their families, such as `pest_derive`) that only a few of ours may use.
-const CONFINED: &[(&str, &[&str])] = &[
-    ("pest", &["engine"]),
-    ("clap", &["cli", "xtask"]),
-    ("tiny-skia", &["render"]),
-    ("png", &["render"]),
-    ("gif", &["render"]),
-    ("indicatif", &["cli"]),
-    ("ratatui", &["cli"]),
-    ("miette", &["cli", "python"]),
-    ("minijinja", &["cli", "evaluation"]),
-    ("anyhow", &["cli", "xtask"]),
-    ("ureq", &["evaluation"]),
-    ("tiktoken", &["evaluation"]),
-    ("regex", &["evaluation"]),
-    ("nalgebra", &["statistics"]),
-    ("numpy", &["python"]),
-    ("pyo3", &["python"]),
-    ("tar", &["snapshots"]),
-    ("zstd", &["snapshots"]),
-    ("blst", &["trust"]),
-    ("minisign", &["trust"]),
-    ("ed25519", &["trust"]),
-    ("sha2", &["trust"]),
-    ("rpassword", &["cli"]),
-];
 
 /// The greatest length of a Rust file, in lines.
 const RUST_LINES: usize = 1000;
@@ -123,86 +26,6 @@ const ARCHITECTURE_LINES: usize = 200;
 
 /// The pages at the root; their links are checked like those in `docs/`.
 const PAGES: [&str; 3] = ["ARCHITECTURE.md", "CHANGELOG.md", "README.md"];
-
-#[test]
-fn imports_point_one_way() {
-    let manifests = manifests();
-    let mut problems = Vec::new();
-    for manifest in &manifests {
-        let folder = manifest.folder.as_str();
-        let allowed = ALLOWED.iter().find(|(name, _)| *name == folder).map(|(_, allowed)| *allowed);
-        if allowed.is_none() && folder != ABOVE_ALL {
-            problems.push(format!(
-                "{}:1: the place of `{folder}` among the crates is not decided; give it a row in \
-                 ALLOWED in {}",
-                manifest.path(),
-                file!()
-            ));
-        }
-        for dependency in manifest.dependencies.iter().filter(|dependency| !dependency.development) {
-            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
-            if allowed.is_some_and(|allowed| !allowed.contains(&target)) {
-                problems.push(format!(
-                    "{}:{}: `{folder}` must not depend on `{target}`; move what both need into a \
-                     crate that both may use",
-                    manifest.path(),
-                    dependency.line
-                ));
-            }
-        }
-    }
-    report(problems);
-}
-
-#[test]
-fn dev_dependencies_close_no_cycle() {
-    let manifests = manifests();
-    let mut edges: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for manifest in &manifests {
-        let targets = manifest.dependencies.iter().filter_map(|d| folder_of(&manifests, &d.package));
-        edges.insert(&manifest.folder, targets.collect());
-    }
-    let mut problems = Vec::new();
-    for manifest in &manifests {
-        for dependency in manifest.dependencies.iter().filter(|dependency| dependency.development) {
-            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
-            if reaches(&edges, target, &manifest.folder) {
-                problems.push(format!(
-                    "{}:{}: `{target}` depends on `{}` in turn; move the test that needs it into \
-                     `{ABOVE_ALL}`",
-                    manifest.path(),
-                    dependency.line,
-                    manifest.folder
-                ));
-            }
-        }
-    }
-    report(problems);
-}
-
-#[test]
-fn confined_crates_stay_where_they_belong() {
-    let mut problems = Vec::new();
-    for manifest in manifests() {
-        for dependency in &manifest.dependencies {
-            let family = CONFINED.iter().find(|(name, _)| {
-                let rest = dependency.package.strip_prefix(name);
-                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '-']))
-            });
-            let Some((name, homes)) = family else { continue };
-            if !homes.contains(&manifest.folder.as_str()) {
-                problems.push(format!(
-                    "{}:{}: `{name}` belongs in {} only; hand over plain data and use `{}` there",
-                    manifest.path(),
-                    dependency.line,
-                    homes.join(" and "),
-                    dependency.package
-                ));
-            }
-        }
-    }
-    report(problems);
-}
 
 #[test]
 fn rust_files_are_short() {
@@ -225,7 +48,7 @@ fn lib_files_hold_docs_and_declarations_only() {
     let mut problems = Vec::new();
     for (file, text) in rust_files() {
         // The helpers of this crate are few and have no other user: they stay in its lib.rs.
-        if !file.ends_with("src/lib.rs") || file.starts_with(ABOVE_ALL) {
+        if !file.ends_with("src/lib.rs") || file.starts_with(crates::ABOVE_ALL) {
             continue;
         }
         for (line, number) in text.lines().zip(1..) {
@@ -529,20 +352,6 @@ fn get<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<&'a DeValue<'i>> {
 /// Returns the folder of the member whose package is called `package`; `None` for external crates.
 fn folder_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
     manifests.iter().find(|manifest| manifest.package == package).map(|manifest| manifest.folder.as_str())
-}
-
-/// Returns `true` if `goal` is `start` or one of its direct or indirect dependencies.
-fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> bool {
-    let mut seen = BTreeSet::from([start]);
-    let mut open = vec![start];
-    while let Some(folder) = open.pop() {
-        if folder == goal {
-            return true;
-        }
-        let next = edges.get(folder).into_iter().flatten();
-        open.extend(next.filter(|target| seen.insert(target)));
-    }
-    false
 }
 
 /// Returns `true` if a line of a formatted `lib.rs` is part of docs, of an attribute or of an allowed declaration.

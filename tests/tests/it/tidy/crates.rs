@@ -1,0 +1,195 @@
+//! The places of our crates among each other, and of other people's crates among ours.
+
+use super::{folder_of, manifests, report};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Our crates by folder, each with its allowed dependencies. Imports point one way only.
+const ALLOWED: &[(&str, &[&str])] = &[
+    ("engine", &[]),
+    ("editor", &["engine"]),
+    ("statistics", &[]),
+    ("agents", &["engine"]),
+    ("generators", &["engine"]),
+    ("validators", &["engine", "agents", "statistics"]),
+    ("report", &["engine", "statistics"]),
+    ("forge", &["engine", "agents", "generators", "validators", "report", "statistics"]),
+    ("snapshots", &["engine", "agents", "generators", "validators", "forge", "report", "statistics"]),
+    ("trust", &["engine", "report"]),
+    ("render", &["engine"]),
+    ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
+    (
+        "studio",
+        &[
+            "engine",
+            "editor",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "statistics",
+            "render",
+            "evaluation",
+        ],
+    ),
+    (
+        "python",
+        &["engine", "agents", "generators", "validators", "forge", "snapshots", "render", "evaluation"],
+    ),
+    (
+        "cli",
+        &[
+            "engine",
+            "editor",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "trust",
+            "report",
+            "statistics",
+            "render",
+            "evaluation",
+            "studio",
+        ],
+    ),
+    (
+        "xtask",
+        &[
+            "engine",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "report",
+            "render",
+            "statistics",
+        ],
+    ),
+];
+
+/// The crate that may depend on all others, because none depends on it.
+pub(super) const ABOVE_ALL: &str = "tests";
+
+/// External crates (with their families, such as `pest_derive`) that only a few of ours may use.
+const CONFINED: &[(&str, &[&str])] = &[
+    ("pest", &["engine"]),
+    ("clap", &["cli", "xtask"]),
+    ("tiny-skia", &["render"]),
+    ("png", &["render"]),
+    ("gif", &["render"]),
+    ("indicatif", &["cli"]),
+    ("ratatui", &["cli"]),
+    ("miette", &["cli", "python"]),
+    ("minijinja", &["cli", "evaluation"]),
+    ("anyhow", &["cli", "xtask"]),
+    ("ureq", &["evaluation"]),
+    ("tiktoken", &["evaluation"]),
+    ("regex", &["evaluation"]),
+    ("nalgebra", &["statistics"]),
+    ("numpy", &["python"]),
+    ("pyo3", &["python"]),
+    ("tar", &["snapshots"]),
+    ("zstd", &["snapshots"]),
+    ("blst", &["trust"]),
+    ("minisign", &["trust"]),
+    ("ed25519", &["trust"]),
+    ("sha2", &["trust"]),
+    ("rpassword", &["cli"]),
+];
+
+#[test]
+fn imports_point_one_way() {
+    let manifests = manifests();
+    let mut problems = Vec::new();
+    for manifest in &manifests {
+        let folder = manifest.folder.as_str();
+        let allowed = ALLOWED.iter().find(|(name, _)| *name == folder).map(|(_, allowed)| *allowed);
+        if allowed.is_none() && folder != ABOVE_ALL {
+            problems.push(format!(
+                "{}:1: the place of `{folder}` among the crates is not decided; give it a row in \
+                 ALLOWED in {}",
+                manifest.path(),
+                file!()
+            ));
+        }
+        for dependency in manifest.dependencies.iter().filter(|dependency| !dependency.development) {
+            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
+            if allowed.is_some_and(|allowed| !allowed.contains(&target)) {
+                problems.push(format!(
+                    "{}:{}: `{folder}` must not depend on `{target}`; move what both need into a \
+                     crate that both may use",
+                    manifest.path(),
+                    dependency.line
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn dev_dependencies_close_no_cycle() {
+    let manifests = manifests();
+    let mut edges: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for manifest in &manifests {
+        let targets = manifest.dependencies.iter().filter_map(|d| folder_of(&manifests, &d.package));
+        edges.insert(&manifest.folder, targets.collect());
+    }
+    let mut problems = Vec::new();
+    for manifest in &manifests {
+        for dependency in manifest.dependencies.iter().filter(|dependency| dependency.development) {
+            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
+            if reaches(&edges, target, &manifest.folder) {
+                problems.push(format!(
+                    "{}:{}: `{target}` depends on `{}` in turn; move the test that needs it into \
+                     `{ABOVE_ALL}`",
+                    manifest.path(),
+                    dependency.line,
+                    manifest.folder
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn confined_crates_stay_where_they_belong() {
+    let mut problems = Vec::new();
+    for manifest in manifests() {
+        for dependency in &manifest.dependencies {
+            let family = CONFINED.iter().find(|(name, _)| {
+                let rest = dependency.package.strip_prefix(name);
+                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '-']))
+            });
+            let Some((name, homes)) = family else { continue };
+            if !homes.contains(&manifest.folder.as_str()) {
+                problems.push(format!(
+                    "{}:{}: `{name}` belongs in {} only; hand over plain data and use `{}` there",
+                    manifest.path(),
+                    dependency.line,
+                    homes.join(" and "),
+                    dependency.package
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+/// Returns `true` if `goal` is `start` or one of its direct or indirect dependencies.
+fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> bool {
+    let mut seen = BTreeSet::from([start]);
+    let mut open = vec![start];
+    while let Some(folder) = open.pop() {
+        if folder == goal {
+            return true;
+        }
+        let next = edges.get(folder).into_iter().flatten();
+        open.extend(next.filter(|target| seen.insert(target)));
+    }
+    false
+}
