@@ -17,6 +17,8 @@ pub(super) struct GameGate<'a> {
     /// The games that others have to differ from.
     known: &'a [GameForm],
     canary: &'a str,
+    /// Those of the order, with a margin for what chance has a say in.
+    criteria: Criteria,
     /// All judges.
     panel: Panel,
     /// Those whose plays are not dear.
@@ -34,9 +36,8 @@ const MEAGRE: &str = "meagre";
 const SECOND_JUDGES: &str = "second judges";
 /// The reason for turning down a game that passes the gates with some dice, and with others does not.
 const FURTHER_JUDGES: &str = "further judges";
-/// The number of further judges, each with dice of its own, who put a game through the gates. A game that passes them with
-/// nine dice of ten passes six more in half of all cases.
-const FURTHER: u64 = 6;
+/// The number of further judges, each with dice of its own, who put a game through the gates.
+const FURTHER: u64 = 3;
 /// The reason for turning down a game that is too much like another.
 pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
@@ -45,9 +46,10 @@ impl<'a> GameGate<'a> {
         let ask =
             order.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
         let panel_of = |criteria: &Criteria| Panel::of_candidates(criteria).expect("the order was checked");
-        let panel = panel_of(&order.criteria);
-        let first = panel_of(&Criteria { ask, ..order.criteria.clone() });
-        GameGate { order, known, canary, panel, first }
+        let criteria = Criteria { gates: order.criteria.gates.with_margin(), ..order.criteria.clone() };
+        let panel = panel_of(&criteria);
+        let first = panel_of(&Criteria { ask, ..criteria.clone() });
+        GameGate { order, known, canary, criteria, panel, first }
     }
 
     /// Finds a course of levels for a game, sets its time limit by the wins found, and judges it; `None`, with the reason in
@@ -84,7 +86,7 @@ impl<'a> GameGate<'a> {
                 count: self.order.levels,
                 tries: self.order.level_tries,
                 source: LevelSource::Course(&course),
-                criteria: &self.order.criteria,
+                criteria: &self.criteria,
                 panel: &self.first,
                 seed,
             };
@@ -128,7 +130,7 @@ impl<'a> GameGate<'a> {
             found[0] = another;
             together = levels.together(game, &found, judges, tally);
         }
-        if together.is_ok() && PLAYED.iter().any(|name| self.order.criteria.includes(name)) {
+        if together.is_ok() && PLAYED.iter().any(|name| self.criteria.includes(name)) {
             found = levels.played(game, found, tally)?;
             let all = Levels { panel: &self.panel, ..*levels };
             together = all.together(game, &found, judges, tally);

@@ -1,7 +1,8 @@
 //! From a kernel, its numbers and a scene to the rules and the words of a game.
 
-use super::course::{self, Board, Traits};
+use super::course::{self, Board, Space, Traits};
 use super::graft::Graft;
+use super::habits::{Edge, Habits};
 use super::kernel::{Casting, Kernel, Slot};
 use super::naming;
 use super::phrase::{self, Nouns};
@@ -23,42 +24,9 @@ pub(crate) struct Choices<'a> {
     pub(crate) grafts: &'a [&'static Graft],
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
-    pub(crate) scoring: Scoring,
+    pub(crate) habits: Habits,
     /// The ticks after which the game is lost, unless surviving them is the goal.
     pub(crate) time: u32,
-}
-
-/// The points of a game: authors' habits differ.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Scoring {
-    /// As the kernel has them.
-    Written,
-    /// One at a time.
-    Single,
-    /// As the kernel has them, without penalties.
-    Gains,
-}
-
-impl Scoring {
-    pub(crate) fn draw(seed: Seed) -> Scoring {
-        let all = [Scoring::Written, Scoring::Single, Scoring::Gains];
-        all[seed.child("score", 0).sampler().below(all.len())]
-    }
-
-    fn apply(self, description: &mut Description) {
-        let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
-        for line in &mut description.interactions {
-            match self {
-                Scoring::Written => {}
-                Scoring::Single => {
-                    for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
-                        param.value = if is_penalty(param) { "-1" } else { "1" }.into();
-                    }
-                }
-                Scoring::Gains => line.params.retain(|param| !is_penalty(param)),
-            }
-        }
-    }
 }
 
 /// A game without levels: rules, nouns, words, and what its levels are built of.
@@ -78,6 +46,8 @@ pub struct Course {
     values: Vec<u32>,
     grafts: Vec<&'static Graft>,
     traits: Traits,
+    space: Space,
+    edge: Edge,
     nouns: Nouns,
     /// The characters of the types, by their names in the kernel.
     symbols: BTreeMap<String, char>,
@@ -115,9 +85,13 @@ impl Course {
                 map.rooms[room].items.extend(items);
             }
         }
-        let board = course::lay_out(&map, self.kernel, &self.traits, seed).ok_or_else(|| {
+        let board = course::lay_out(&map, self.kernel, &self.traits, self.space, seed).ok_or_else(|| {
             GenerateError::Unlucky(format!("no layout has room for a map of slot {slot:?}"))
         })?;
+        let board = match self.edge {
+            Edge::Walls => board,
+            Edge::Screen => board.without_ring(),
+        };
         let asks = phrase::fill(&plan.asks, &self.nouns).map_err(GenerateError::Unsuitable)?;
         Ok(CourseLevel { text: self.text(&board), slot, asks: phrase::sentence(&asks) })
     }
@@ -146,7 +120,7 @@ impl Choices<'_> {
             description.sprites.extend(graft.sprites.iter().cloned());
             description.interactions.extend(graft.interactions.iter().cloned());
         }
-        self.scoring.apply(&mut description);
+        let edge = self.habits.apply(&mut description);
         let mut sampler = self.nouns.sampler();
         let nouns = self.cast(&mut sampler)?;
         let traits = traits(&description);
@@ -190,6 +164,8 @@ impl Choices<'_> {
                 values: self.values.to_vec(),
                 grafts: self.grafts.to_vec(),
                 traits,
+                space: self.habits.space,
+                edge,
                 nouns: nouns.clone(),
                 symbols,
             },

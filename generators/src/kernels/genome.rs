@@ -1,7 +1,8 @@
 //! Genomes of games: the representation that a search varies.
 
-use super::compose::{Choices, Course, Scoring};
+use super::compose::{Choices, Course};
 use super::graft::Graft;
+use super::habits::{Habits, STILL};
 use super::kernel::Kernel;
 use super::scene::Scene;
 use super::turns::Turns;
@@ -43,7 +44,7 @@ pub struct KernelGenome {
     pub(crate) grafts: Vec<&'static Graft>,
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
-    pub(crate) scoring: Scoring,
+    pub(crate) habits: Habits,
     /// The ticks after which the game is lost.
     pub(crate) time: u32,
 }
@@ -108,11 +109,12 @@ impl KernelGenome {
         Some(genome)
     }
 
-    /// The same rules with other numbers and points.
+    /// The same rules with other numbers, points and sizes.
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
-        KernelGenome { values, scoring: Scoring::draw(seed), ..self.clone() }
+        let habits = Habits { edge: self.habits.edge, ..Habits::draw(seed) };
+        KernelGenome { values, habits, ..self.clone() }
     }
 
     /// The same rules with nouns of a scene; `None` if it lacks some.
@@ -147,7 +149,7 @@ impl KernelGenome {
             grafts: Vec::new(),
             scene,
             nouns,
-            scoring: Scoring::draw(nouns),
+            habits: Habits::draw(nouns),
             time: LONG,
         }
     }
@@ -281,7 +283,7 @@ impl KernelGenome {
             grafts: &self.grafts,
             scene: self.scene,
             nouns: self.nouns,
-            scoring: self.scoring,
+            habits: self.habits,
             time: self.time,
         }
     }
@@ -332,7 +334,7 @@ pub fn preview(
         grafts: Vec::new(),
         scene,
         nouns: seed,
-        scoring: Scoring::draw(seed),
+        habits: Habits::draw(seed),
         time: LONG,
     };
     let KernelGame { game, course } = genome.build()?;
@@ -343,7 +345,6 @@ pub fn preview(
 
 /// Tests whether anything moves, appears or ends by itself.
 fn has_movers(description: &Description) -> bool {
-    const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
     let moves = |class: &str| !STILL.contains(&class) && !class.ends_with("Avatar");
     description
         .sprite_lines()

@@ -10,6 +10,7 @@ mod course;
 mod form;
 mod genome;
 mod graft;
+mod habits;
 mod kernel;
 mod map;
 mod naming;

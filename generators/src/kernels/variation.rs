@@ -1,8 +1,8 @@
 //! Variation of games of kernels, for search.
 
-use super::compose::Scoring;
 use super::genome::{KernelGenome, MAX_GRAFTS};
 use super::graft::Graft;
+use super::habits::Habits;
 use super::kernel::Kernel;
 use super::scene::Scene;
 use crate::Variation;
@@ -58,7 +58,7 @@ impl KernelVariation {
             }
             _ => {
                 genome.nouns = Seed::from_text("nouns").child("draw", sampler.bits());
-                genome.scoring = Scoring::draw(genome.nouns);
+                genome.habits = Habits::draw(genome.nouns);
             }
         }
         Some(genome)

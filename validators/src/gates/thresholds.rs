@@ -30,7 +30,7 @@ engine::with_defaults! {
         /// `progression`: the share of all mechanics that the last level needs at least.
         pub last_share: f64 = 0.5,
         /// `progression`: by how much the last level may be easier than each of the first two.
-        pub easier: f64 = 0.1,
+        pub easier: f64 = 0.2,
         /// `actors-matter`: cells that a sprite that moves by itself sweeps on average, at least.
         pub sweep: f64 = 5.0,
         /// `actors-matter`: the share of the levels with such sprites on which they come next to the player, at least.
@@ -60,6 +60,20 @@ impl Gates {
     /// Returns `true` for the default thresholds, which files need not say.
     pub(crate) fn are_default(&self) -> bool {
         *self == Gates::default()
+    }
+
+    /// Stricter thresholds for what chance has a say in: who makes games by these makes games that other dice confirm by the
+    /// thresholds as they are.
+    #[must_use]
+    pub fn with_margin(&self) -> Gates {
+        Gates {
+            drama: (1.2 * self.drama).min(1.0),
+            easier: 0.5 * self.easier,
+            foe_losses: (2.0 * self.foe_losses).min(1.0),
+            careless_wins: 0.8 * self.careless_wins,
+            needed_share: (self.needed_share + 0.05).min(1.0),
+            ..self.clone()
+        }
     }
 
     /// Returns the first value that is out of its range: its key and the reason.
@@ -103,5 +117,29 @@ impl Gates {
         let pair = pairs.into_iter().find(|(_, (least, most))| least > most);
         let pair = pair.map(|(key, (least, most))| (key, format!("has {least} above {most}")));
         share.or(factor).or(count).or(pair)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_margin_is_stricter_and_in_range() {
+        for share in [0.0, 0.12, 0.5, 0.97, 1.0] {
+            let gates = Gates {
+                drama: share,
+                easier: share,
+                foe_losses: share,
+                careless_wins: share,
+                needed_share: share,
+                ..Gates::default()
+            };
+            let strict = gates.with_margin();
+            assert!(strict.drama >= gates.drama && strict.foe_losses >= gates.foe_losses, "{share}");
+            assert!(strict.easier <= gates.easier && strict.careless_wins <= gates.careless_wins, "{share}");
+            assert!(strict.needed_share >= gates.needed_share && strict.problem().is_none(), "{share}");
+        }
+        assert_ne!(Gates::default().with_margin(), Gates::default());
     }
 }

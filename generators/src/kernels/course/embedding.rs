@@ -98,11 +98,13 @@ impl Span {
 }
 
 impl Embedding {
-    /// Draws an embedding in which every room has at least the width and height that it needs.
+    /// Draws an embedding in which every room has at least the width and height that it needs, on a board with about the wanted
+    /// number of columns for each row.
     pub(super) fn draw(
         map: &Map,
         needs: &[(usize, usize)],
         largest: (usize, usize),
+        wanted: f64,
         sampler: &mut Sampler,
     ) -> Option<Embedding> {
         let mut best: Option<(f64, Embedding)> = None;
@@ -115,11 +117,12 @@ impl Embedding {
             }
             let all = (embedding.columns * embedding.rows) as f64;
             let used: usize = embedding.rooms.iter().map(|room| room.width() * room.height()).sum();
-            // Boards that are wider than high, with little rock and no more floor than is needed.
+            // Boards of about the wanted shape, with little rock and no more floor than is needed.
             let shape = embedding.columns as f64 / embedding.rows as f64;
             let needed: usize = needs.iter().map(|(width, height)| width * height).sum();
             let waste = used as f64 / needed as f64;
-            let score = used as f64 / all - (shape - 1.6).abs() * 0.1 - waste * 0.15 + sampler.unit() * 0.15;
+            let score =
+                used as f64 / all - (shape - wanted).abs() * 0.1 - waste * 0.15 + sampler.unit() * 0.15;
             if best.as_ref().is_none_or(|(best, _)| score > *best) {
                 best = Some((score, embedding));
             }

@@ -7,7 +7,7 @@ mod room;
 use super::kernel::Kernel;
 use super::map::Map;
 use embedding::Embedding;
-use engine::Seed;
+use engine::{Sampler, Seed};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The greatest number of columns and rows of a level.
@@ -29,6 +29,27 @@ pub(crate) struct Traits {
     pub(crate) deadly: BTreeSet<String>,
     /// The types that go to and fro, with `true` for up and down.
     pub(crate) lanes: BTreeMap<String, bool>,
+}
+
+/// How much room the levels of a game take, and in which shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Space {
+    /// Columns and rows that rooms have beyond what they need.
+    pub(crate) spare: usize,
+    /// Columns for each row, as far as rooms can be laid out so.
+    pub(crate) shape: f64,
+}
+
+impl Default for Space {
+    fn default() -> Space {
+        Space { spare: 0, shape: 1.6 }
+    }
+}
+
+impl Space {
+    pub(crate) fn draw(sampler: &mut Sampler) -> Space {
+        Space { spare: *sampler.choose(&[0, 0, 1, 2]), shape: *sampler.choose(&[1.0, 1.6, 1.6, 2.4]) }
+    }
 }
 
 /// A board of named types; `None` is floor.
@@ -59,6 +80,17 @@ impl Board {
 
     fn is_floor(&self, cell: Cell) -> bool {
         self.at(cell).is_none()
+    }
+
+    /// The board without its outermost cells.
+    pub(crate) fn without_ring(&self) -> Board {
+        let mut inner = Board::walls(self.columns - 2, self.rows - 2);
+        for y in 0..inner.rows {
+            for x in 0..inner.columns {
+                inner.put((x, y), self.at((x + 1, y + 1)));
+            }
+        }
+        inner
     }
 
     /// The cells beside a cell, within the board.
@@ -94,12 +126,18 @@ impl Board {
 }
 
 /// Lays out a map; `None` if no layout that was drawn has room for everything.
-pub(crate) fn lay_out(map: &Map, kernel: &Kernel, traits: &Traits, seed: Seed) -> Option<Board> {
+pub(crate) fn lay_out(
+    map: &Map,
+    kernel: &Kernel,
+    traits: &Traits,
+    space: Space,
+    seed: Seed,
+) -> Option<Board> {
     (0..DRAWS).find_map(|draw| {
         let sampler = &mut seed.child("layout", draw).sampler();
         let needs: Vec<(usize, usize)> =
-            map.rooms.iter().map(|room| room::least_size(room, kernel, sampler)).collect();
-        let embedding = Embedding::draw(map, &needs, LARGEST, sampler)?;
+            map.rooms.iter().map(|room| room::size(room, kernel, space.spare, sampler)).collect();
+        let embedding = Embedding::draw(map, &needs, LARGEST, space.shape, sampler)?;
         let mut board = Board::walls(embedding.columns, embedding.rows);
         let openings = room::build(map, kernel, traits, &embedding, &mut board, sampler)?;
         furniture::furnish(map, traits, &embedding, &openings, &mut board, sampler)?;

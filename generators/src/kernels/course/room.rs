@@ -9,8 +9,8 @@ use engine::Sampler;
 /// The openings of each room: their cells, which lie in its border.
 pub(super) type Openings = Vec<Vec<Cell>>;
 
-/// Draws the least width and height of a room.
-pub(super) fn least_size(room: &Room, kernel: &Kernel, sampler: &mut Sampler) -> (usize, usize) {
+/// Draws the least width and height of a room, with spare columns and rows.
+pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sampler) -> (usize, usize) {
     if let Some(rows) = room.piece.as_ref().and_then(|piece| kernel.pieces.get(&piece.name)) {
         return (rows[0].chars().count(), rows.len());
     }
@@ -23,6 +23,8 @@ pub(super) fn least_size(room: &Room, kernel: &Kernel, sampler: &mut Sampler) ->
         Size::Tall => (sampler.between(2, 3), sampler.between(4, 5)),
         Size::Corridor => (3, 3),
     };
+    let (width, height) =
+        if room.size == Size::Corridor { (width, height) } else { (width + spare, height + spare) };
     // Things take a third of the floor at most.
     let width = width.max((3 * items as usize).div_ceil(height));
     match room.style {

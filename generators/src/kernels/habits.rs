@@ -1,0 +1,177 @@
+//! Habits of a game's author: points, edges and sizes, which a kernel leaves open.
+
+use super::course::Space;
+use engine::Description;
+use engine::Seed;
+use engine::syntax::{InteractionLine, Param, SpriteLine};
+use std::collections::BTreeSet;
+
+/// The habits of the author of a game. They change how it looks and counts, and nothing about its dilemma.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Habits {
+    pub(crate) points: Points,
+    /// All points are multiplied by this number.
+    pub(crate) unit: u32,
+    pub(crate) edge: Edge,
+    pub(crate) space: Space,
+}
+
+/// The points of a game.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Points {
+    /// As the kernel has them.
+    Written,
+    /// One at a time.
+    Single,
+    /// As the kernel has them, without penalties.
+    Gains,
+}
+
+/// What ends the board.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Edge {
+    /// A ring of walls.
+    Walls,
+    /// Nothing but the edge of the screen, where the rules allow it.
+    Screen,
+}
+
+/// The classes of types that stay where they are.
+pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
+/// The effects of walls that the edge of the screen can have in their place: they need no partner, and act in the tick of the
+/// move.
+const OF_EDGES: [&str; 3] = ["stepBack", "killSprite", "reverseDirection"];
+/// The effects that move or place something else than the mover, which may then lie off the screen.
+const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow", "spawnLeft", "spawnRight"];
+
+impl Habits {
+    pub(crate) fn draw(seed: Seed) -> Habits {
+        let of = |name| seed.child(name, 0).sampler();
+        let points = *of("score").choose(&[Points::Written, Points::Single, Points::Gains]);
+        let unit = *of("unit").choose(&[1, 1, 1, 2, 5, 10]);
+        let edge = if of("edge").ratio(2, 5) { Edge::Screen } else { Edge::Walls };
+        Habits { points, unit, edge, space: Space::draw(&mut of("space")) }
+    }
+
+    /// Changes rules to these habits, and returns the edge that the levels have.
+    pub(crate) fn apply(&self, description: &mut Description) -> Edge {
+        for line in &mut description.interactions {
+            self.points.apply(&mut line.params);
+            for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
+                if let Ok(points) = param.value.text.parse::<i64>() {
+                    param.value = (points * i64::from(self.unit)).to_string().as_str().into();
+                }
+            }
+        }
+        match self.edge {
+            Edge::Screen if stop_at_edge(description).is_some() => Edge::Screen,
+            _ => Edge::Walls,
+        }
+    }
+}
+
+impl Points {
+    fn apply(self, params: &mut Vec<Param>) {
+        let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
+        match self {
+            Points::Written => {}
+            Points::Single => {
+                for param in params.iter_mut().filter(|param| param.key.text == "scoreChange") {
+                    param.value = if is_penalty(param) { "-1" } else { "1" }.into();
+                }
+            }
+            Points::Gains => params.retain(|param| !is_penalty(param)),
+        }
+    }
+}
+
+/// Gives the edge of the screen the effects of walls; `None`, without a change, for rules by which something could leave it.
+///
+/// A type has at most one such rule: of several, each would take effect several times a tick (spec page 03, section 4.4).
+fn stop_at_edge(description: &mut Description) -> Option<()> {
+    if description.interactions.iter().any(|line| ASTRAY.contains(&line.effect.text.as_str())) {
+        return None;
+    }
+    let is_of_wall = |line: &InteractionLine| line.second.iter().any(|word| word.text == "wall");
+    let mut stopped = BTreeSet::new();
+    let mut interactions = Vec::new();
+    for line in &description.interactions {
+        interactions.push(line.clone());
+        if is_of_wall(line) && stopped.insert(line.first.text.clone()) {
+            if !OF_EDGES.contains(&line.effect.text.as_str()) || !line.params.is_empty() {
+                return None;
+            }
+            let at_edge = InteractionLine { second: vec!["EOS".into()], ..line.clone() };
+            interactions.push(InteractionLine { trivia: Default::default(), ..at_edge });
+        }
+    }
+    let all_stop = description.sprites.iter().all(|line| all_stop(line, None, false, &stopped));
+    all_stop.then(|| description.interactions = interactions)
+}
+
+/// Tests whether everything that moves stops at the edge, by exactly one rule of its own or of a type above it.
+fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeSet<String>) -> bool {
+    let class = line.class.as_ref().map(|class| class.text.as_str()).or(class);
+    let own = stopped.contains(&line.name.text);
+    if own && above {
+        return false;
+    }
+    let stops = own || above;
+    if line.children.is_empty() {
+        return stops || class.is_some_and(|class| STILL.contains(&class) || class == "SpawnPoint");
+    }
+    line.children.iter().all(|child| all_stop(child, class, stops, stopped))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::syntax::{parse, print_bare};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    plum > Immovable\n    foe >\n      cat > Chaser stype=hero\n      dog > Chaser stype=plum\n    hero > ShootAvatar stype=shot\n    shot > Missile\n  LevelMapping\n    p > plum\n  InteractionSet\n    hero wall cat > stepBack\n    foe wall > stepBack\n    shot wall > killSprite\n    plum hero > killSprite scoreChange=2\n    hero foe > killSprite scoreChange=-1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n";
+
+    fn habits(points: Points, unit: u32, edge: Edge) -> Habits {
+        Habits { points, unit, edge, space: Space::default() }
+    }
+
+    fn applied(source: &str, habits: Habits) -> (String, Edge) {
+        let mut description = parse(source).0;
+        let edge = habits.apply(&mut description);
+        (print_bare(&description), edge)
+    }
+
+    #[test]
+    fn everything_that_moves_stops_at_the_edge_of_the_screen() {
+        let (text, edge) = applied(GAME, habits(Points::Written, 1, Edge::Screen));
+        assert_eq!(edge, Edge::Screen);
+        for rule in ["hero EOS > stepBack", "foe EOS > stepBack", "shot EOS > killSprite"] {
+            assert!(text.contains(rule), "{text}");
+        }
+        assert_eq!(text.matches("EOS").count(), 3, "{text}");
+    }
+
+    #[test]
+    fn rules_by_which_something_could_leave_the_screen_keep_their_walls() {
+        let pushed = GAME.replace("plum hero > killSprite", "plum hero > bounceForward");
+        let loose = GAME.replace("    shot wall > killSprite\n", "");
+        let twice = GAME.replace("    foe wall", "    cat wall > stepBack\n    foe wall");
+        let priced = GAME.replace("shot wall > killSprite", "shot wall > killSprite scoreChange=-1");
+        for source in [pushed, loose, twice, priced] {
+            let (text, edge) = applied(&source, habits(Points::Written, 1, Edge::Screen));
+            assert_eq!(edge, Edge::Walls, "{text}");
+            assert!(!text.contains("EOS"), "{text}");
+        }
+    }
+
+    #[test]
+    fn points_have_a_habit_and_a_unit() {
+        let points = |habits| {
+            let text = applied(GAME, habits).0;
+            let values = text.split("scoreChange=").skip(1).map(|rest| rest.lines().next().unwrap());
+            values.map(str::to_owned).collect::<Vec<_>>()
+        };
+        assert_eq!(points(habits(Points::Written, 5, Edge::Walls)), ["10", "-5"]);
+        assert_eq!(points(habits(Points::Single, 1, Edge::Walls)), ["1", "-1"]);
+        assert_eq!(points(habits(Points::Gains, 10, Edge::Walls)), ["20"]);
+    }
+}
