@@ -11,6 +11,7 @@ mod company;
 mod gate;
 mod kept;
 mod levels;
+mod likeness;
 mod look;
 mod make;
 mod order;

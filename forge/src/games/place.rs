@@ -1,6 +1,7 @@
 //! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
 
 use super::levels::{FoundLevel, LevelSource, Levels};
+use super::likeness::are_one_board;
 use super::puzzles::{self, PuzzleGenerator, PuzzleLevels};
 use crate::tally::Tally;
 use engine::{Action, Analysis, Digest, Game, Level, Seed};
@@ -133,6 +134,11 @@ impl<'a> Place<'a> {
         }
         if let (LevelSource::Puzzles(puzzles), Some(known)) = (levels.source, known) {
             return self.puzzle(puzzles, level, known, (candidate, seed), tally);
+        }
+        let is_shown = |(_, other): &(u32, FoundLevel)| are_one_board(&level, &other.level);
+        if matches!(levels.source, LevelSource::Course(_)) && others.iter().any(is_shown) {
+            tally.no_level("like another level");
+            return None;
         }
         if self.is_walked_through(&level, seed) {
             tally.no_level("not-instant");

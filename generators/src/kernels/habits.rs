@@ -27,7 +27,7 @@ pub(crate) enum Points {
     Gains,
 }
 
-/// What ends the board.
+/// The border of the board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edge {
     /// A ring of walls.

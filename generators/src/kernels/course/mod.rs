@@ -31,7 +31,7 @@ pub(crate) struct Traits {
     pub(crate) lanes: BTreeMap<String, bool>,
 }
 
-/// How much room the levels of a game take, and in which shape.
+/// The room that the levels of a game take, and its shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Space {
     /// Columns and rows that rooms have beyond what they need.
@@ -48,7 +48,7 @@ impl Default for Space {
 
 impl Space {
     pub(crate) fn draw(sampler: &mut Sampler) -> Space {
-        Space { spare: *sampler.choose(&[0, 0, 1, 2]), shape: *sampler.choose(&[1.0, 1.6, 1.6, 2.4]) }
+        Space { spare: *sampler.choose(&[0, 0, 0, 1]), shape: *sampler.choose(&[1.0, 1.6, 1.6, 2.4]) }
     }
 }
 
