@@ -158,12 +158,10 @@ impl Furnisher<'_> {
                 && self.area.contains(cell)
                 && board.at(cell).is_none_or(|stype| stype != "wall" && !self.traits.solid.contains(stype))
         };
-        let open: Vec<Cell> = self.area.cells().filter(|&cell| is_open(cell)).collect();
-        let Some(&start) = open.first() else { return false };
+        let beside: Vec<Cell> = board.beside(blocked).filter(|&cell| is_open(cell)).collect();
+        let Some(&start) = beside.first() else { return false };
         let steps = board.steps_from(start, is_open);
-        let reached = |cell: &Cell| steps.contains_key(cell);
-        open.iter().all(reached)
-            && self.openings.iter().all(|&opening| board.beside(opening).any(|c| reached(&c)))
+        beside.iter().all(|cell| steps.contains_key(cell))
     }
 
     /// The length of the free line through a cell along which a type moves.
@@ -196,5 +194,25 @@ impl Furnisher<'_> {
         });
         let lines: Vec<Vec<Cell>> = lines.filter(|line| line.iter().all(is_free)).collect();
         (!lines.is_empty()).then(|| sampler.choose(&lines).clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_solid_thing_cuts_nothing_off_in_a_room_that_is_cut_in_two() {
+        let mut board = Board::walls(9, 4);
+        for (x, y) in (1..=7).flat_map(|x| [(x, 1), (x, 2)]) {
+            board.put((x, y), (x == 4).then_some("gate"));
+        }
+        let solid = BTreeSet::from(["gate".to_owned()]);
+        let traits = Traits { solid, ..Traits::default() };
+        let area = Rectangle { left: 1, top: 1, right: 7, bottom: 2 };
+        let furnisher = Furnisher { area, openings: &[], entry: None, traits: &traits, placed: Vec::new() };
+        assert!(furnisher.stays_connected((1, 1), &board));
+        board.put((2, 2), Some("gate"));
+        assert!(!furnisher.stays_connected((2, 1), &board));
     }
 }
