@@ -1,10 +1,9 @@
 //! Habits of a game's author: points, edges and sizes, which a kernel leaves open.
 
 use super::course::Space;
-use engine::Description;
-use engine::Seed;
 use engine::syntax::{InteractionLine, Param, SpriteLine};
-use std::collections::BTreeSet;
+use engine::{Description, Seed};
+use std::collections::BTreeMap;
 
 /// The habits of the author of a game. They change how it looks and counts, and nothing about its dilemma.
 #[derive(Clone, Copy, Debug)]
@@ -38,9 +37,10 @@ pub(crate) enum Edge {
 
 /// The classes of types that stay where they are.
 pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
-/// The effects of walls that the edge of the screen can have in their place: they need no partner, and act in the tick of the
-/// move.
-const OF_EDGES: [&str; 3] = ["stepBack", "killSprite", "reverseDirection"];
+/// The effects of walls after which a sprite is on the screen again, or gone.
+const ENDING: [&str; 2] = ["stepBack", "killSprite"];
+/// The effects of walls that may come before them; none needs a partner.
+const TURNING: [&str; 1] = ["reverseDirection"];
 /// The effects that move or place something else than the mover, which may then lie off the screen.
 const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow", "spawnLeft", "spawnRight"];
 
@@ -87,32 +87,52 @@ impl Points {
 
 /// Gives the edge of the screen the effects of walls; `None`, without a change, for rules by which something could leave it.
 ///
-/// A type has at most one such rule: of several, each would take effect several times a tick (spec page 03, section 4.4).
+/// Several rules of a type take effect one after the other, and again as often as there are rules, as long as the sprite is beyond the
+/// edge (spec page 03, section 4.4): so the last one, and no other, brings it back.
 fn stop_at_edge(description: &mut Description) -> Option<()> {
     if description.interactions.iter().any(|line| ASTRAY.contains(&line.effect.text.as_str())) {
         return None;
     }
-    let is_of_wall = |line: &InteractionLine| line.second.iter().any(|word| word.text == "wall");
-    let mut stopped = BTreeSet::new();
+    let mut stopped = BTreeMap::new();
     let mut interactions = Vec::new();
     for line in &description.interactions {
         interactions.push(line.clone());
-        if is_of_wall(line) && stopped.insert(line.first.text.clone()) {
-            if !OF_EDGES.contains(&line.effect.text.as_str()) || !line.params.is_empty() {
+        if line.second.iter().any(|word| word.text == "wall") {
+            let effect = line.effect.text.as_str();
+            let ends = ENDING.contains(&effect);
+            let is_known = line.params.is_empty() && (ends || TURNING.contains(&effect));
+            if !is_known || stopped.insert(line.first.text.clone(), ends) == Some(true) {
                 return None;
             }
             let at_edge = InteractionLine { second: vec!["EOS".into()], ..line.clone() };
             interactions.push(InteractionLine { trivia: Default::default(), ..at_edge });
         }
     }
-    let all_stop = description.sprites.iter().all(|line| all_stop(line, None, false, &stopped));
+    let all_stop = stopped.values().all(|&ends| ends)
+        && description.sprites.iter().all(|line| all_stop(line, None, false, &stopped));
+    // What the hero makes at the edge appears beyond it, and has nowhere to step back to.
+    let dies = |stype: &str| {
+        let of_edge = |line: &&InteractionLine| line.first.text == stype && line.second[0].text == "EOS";
+        let mut effects = interactions.iter().filter(of_edge).map(|line| line.effect.text.as_str());
+        effects.next() == Some("killSprite") && effects.next().is_none()
+    };
+    let all_stop = all_stop && made_by_hero(description).all(dies);
     all_stop.then(|| description.interactions = interactions)
 }
 
-/// Tests whether everything that moves stops at the edge, by exactly one rule of its own or of a type above it.
-fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeSet<String>) -> bool {
+/// The types that avatars make: shots and what is put down.
+fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
+    let is_avatar =
+        |line: &&SpriteLine| line.class.as_ref().is_some_and(|class| class.text.ends_with("Avatar"));
+    let avatars = description.sprite_lines().into_iter().map(|(_, line)| line).filter(is_avatar);
+    let params = avatars.flat_map(|line| &line.params).filter(|param| param.key.text == "stype");
+    params.map(|param| param.value.text.as_str())
+}
+
+/// Tests whether everything that moves has rules for the edge, its own or those of one type above it.
+fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeMap<String, bool>) -> bool {
     let class = line.class.as_ref().map(|class| class.text.as_str()).or(class);
-    let own = stopped.contains(&line.name.text);
+    let own = stopped.contains_key(&line.name.text);
     if own && above {
         return false;
     }
@@ -148,6 +168,10 @@ mod tests {
             assert!(text.contains(rule), "{text}");
         }
         assert_eq!(text.matches("EOS").count(), 3, "{text}");
+        let turned =
+            GAME.replace("foe wall > stepBack", "foe wall > reverseDirection\n    foe wall > stepBack");
+        let (text, edge) = applied(&turned, habits(Points::Written, 1, Edge::Screen));
+        assert_eq!((edge, text.matches("foe EOS").count()), (Edge::Screen, 2), "{text}");
     }
 
     #[test]
@@ -155,8 +179,14 @@ mod tests {
         let pushed = GAME.replace("plum hero > killSprite", "plum hero > bounceForward");
         let loose = GAME.replace("    shot wall > killSprite\n", "");
         let twice = GAME.replace("    foe wall", "    cat wall > stepBack\n    foe wall");
+        let turned = GAME.replace("foe wall > stepBack", "foe wall > reverseDirection");
+        let late = GAME.replace(
+            "    foe wall > stepBack\n",
+            "    foe wall > stepBack\n    foe wall > reverseDirection\n",
+        );
+        let kept = GAME.replace("shot wall > killSprite", "shot wall > stepBack");
         let priced = GAME.replace("shot wall > killSprite", "shot wall > killSprite scoreChange=-1");
-        for source in [pushed, loose, twice, priced] {
+        for source in [pushed, loose, twice, turned, late, kept, priced] {
             let (text, edge) = applied(&source, habits(Points::Written, 1, Edge::Screen));
             assert_eq!(edge, Edge::Walls, "{text}");
             assert!(!text.contains("EOS"), "{text}");

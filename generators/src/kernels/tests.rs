@@ -1,10 +1,11 @@
 //! Properties of all kernels and scenes.
 
 use super::genome::{KernelGame, KernelGenome};
+use super::habits::Edge;
 use super::kernel::Kernel;
 use super::scene::Scene;
 use super::{Slot, preview};
-use engine::{Game, Seed, syntax};
+use engine::{Game, Rect, Seed, syntax};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The least number of scenes that a kernel can be set in.
@@ -109,4 +110,56 @@ fn a_faulty_kernel_is_refused_with_its_fault() {
     check("slot = \"exam\"", "slot = \"final\"", "unknown variant `final`");
     check(": hero", ": hero@nowhere", "there is no place `@nowhere`");
     check("TerminationSet", "", "the rules have no TerminationSet");
+}
+
+/// Nothing stays beyond the edge of a board that has no ring of walls. What comes to be there, such as a shot off the edge, is gone in
+/// the next tick.
+#[test]
+fn nothing_leaves_a_board_without_a_ring() {
+    let mut open = 0;
+    let genomes = Kernel::all().iter().flat_map(Kernel::in_all_forms).flat_map(|kernel| {
+        let seed = Seed::from_text(&kernel.name);
+        let genome = KernelGenome::in_form(kernel, &mut seed.sampler());
+        let grafted = (0..3).filter_map(|number| genome.grafted(seed.child("graft", number)));
+        grafted.chain([genome.clone()]).collect::<Vec<_>>()
+    });
+    for mut genome in genomes {
+        genome.habits.edge = Edge::Screen;
+        let Ok(KernelGame { game, course }) = genome.build() else { continue };
+        let (kernel, game) = (genome.kernel, game.rules);
+        let seed = Seed::from_text(&kernel.name);
+        if !game
+            .description()
+            .interactions
+            .iter()
+            .any(|line| line.second.iter().any(|word| word.text == "EOS"))
+        {
+            continue;
+        }
+        open += 1;
+        for (number, slot) in (0..).zip(Slot::ALL) {
+            let Ok(level) = course.level(slot, seed.child("level", number)) else { continue };
+            let level = game.level(&level.text).unwrap();
+            let sampler = &mut seed.child("keys", number).sampler();
+            let mut state = game.start(&level, seed);
+            let mut outside = BTreeSet::new();
+            while !state.is_over() && state.tick() < 150 {
+                let action = *sampler.choose(game.actions(&state));
+                game.step(&mut state, action);
+                let (width, height) = (state.size().0 * state.block(), state.size().1 * state.block());
+                let off = |rect: &Rect| {
+                    rect.x < 0 || rect.y < 0 || rect.x + rect.w > width || rect.y + rect.h > height
+                };
+                let now: BTreeSet<_> = game
+                    .sprite_types()
+                    .flat_map(|stype| state.rects(stype).filter(off).map(move |rect| (stype, rect.x, rect.y)))
+                    .collect();
+                let stayed = now.intersection(&outside).next().copied();
+                let stayed = stayed.map(|(stype, x, y)| (game.name(stype), x, y));
+                assert!(stayed.is_none(), "{} {slot:?} tick {}: {stayed:?}", kernel.name, state.tick());
+                outside = now;
+            }
+        }
+    }
+    assert!(open > 20, "{open} forms");
 }

@@ -135,10 +135,8 @@ pub(crate) fn lay_out(
 ) -> Option<Board> {
     (0..DRAWS).find_map(|draw| {
         let sampler = &mut seed.child("layout", draw).sampler();
-        // A map of many rooms has a layout only without room to spare.
-        let spare = if draw < DRAWS / 3 { space.spare } else { 0 };
         let needs: Vec<(usize, usize)> =
-            map.rooms.iter().map(|room| room::size(room, kernel, spare, sampler)).collect();
+            map.rooms.iter().map(|room| room::size(room, kernel, space.spare, sampler)).collect();
         let embedding = Embedding::draw(map, &needs, LARGEST, space.shape, sampler)?;
         let mut board = Board::walls(embedding.columns, embedding.rows);
         let openings = room::build(map, kernel, traits, &embedding, &mut board, sampler)?;
