@@ -47,6 +47,17 @@ impl Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }
 
+    /// The same failure, with the next move where the environment stopped work that can go on.
+    pub(crate) fn resumable(self, what: &str) -> Failure {
+        match self {
+            Failure::Environment(error) => Failure::environment(
+                error,
+                format_args!("the {what} was stopped by an error; fix it and continue with --resume"),
+            ),
+            other => other,
+        }
+    }
+
     /// A file at `path` that cannot be read: the user named a missing file, or the system refuses.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
         let name = path.display();

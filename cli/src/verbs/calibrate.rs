@@ -10,7 +10,7 @@ use crate::{interrupt, protected, whole_file};
 use engine::SEMANTICS;
 use evaluation::run::{FORMAT, PlayResult, Progress, SubjectEntry, Task};
 use evaluation::scale::{EXAMINEES, Examinee, PersonPlays, ScaleFile, Span, examinee_named, played};
-use evaluation::{Commitment, Evaluation, Halt, Settings};
+use evaluation::{Commitment, Evaluation, EvaluationError, Halt, Settings};
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::json;
@@ -112,6 +112,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     interrupt::watch(|| (), hint);
     let levels: u64 = games.iter().map(|game| game.levels.len() as u64).sum();
     let bar = Bar(console.progress(levels * args.runs * examinees.len() as u64, "playing"));
+    let stopped = |error: EvaluationError| Failure::from(error).resumable("calibration");
     for &examinee in &examinees {
         let folder = plays_folder.join(examinee.name);
         let settings = settings(examinee);
@@ -123,11 +124,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                 }
             }),
             false => Evaluation::create(&folder, settings, games.clone()),
-        }?;
+        }
+        .map_err(stopped)?;
         let players = examinee.players(&games, max_steps)?;
         let tally = in_pool(jobs, || {
             evaluation.run(|task: &Task<'_>| Ok::<_, Halt>(players(&task.subject.id)), &bar)
-        })??;
+        })?
+        .map_err(stopped)?;
         if let Some(why) = tally.halted {
             return Err(Failure::environment(
                 anyhow::anyhow!("{}: {why}", examinee.name),
@@ -142,7 +145,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let found = in_pool(jobs, || calibrated(args, earlier, &first, &persons, &name))??;
     let path = args.out.join("scale.json");
     interrupt::defer();
-    whole_file::write(&path, found.to_text().as_bytes())?;
+    whole_file::write(&path, found.to_text().as_bytes()).map_err(|error| error.resumable("calibration"))?;
     print(&found, &path, console)?;
     Ok(true)
 }

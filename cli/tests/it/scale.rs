@@ -81,6 +81,24 @@ fn interrupted_calibrations_resume() {
     assert_eq!(whole, fs::read(folder.path().join("first/scale.json")).unwrap());
 }
 
+/// On a full disk a calibration ends with the next move.
+#[cfg(unix)]
+#[test]
+fn full_disks_report_how_to_continue() {
+    let home = tempfile::tempdir().unwrap();
+    let more = ["--max-steps", "40", "--runs", "1", "--replicates", "3", "--out", "first"];
+    let script = "trap '' XFSZ; ulimit -f 1; exec \"$@\"";
+    let mut command = std::process::Command::new("sh");
+    command.current_dir(home.path()).args(["-c", script, "sh", env!("CARGO_BIN_EXE_arcade")]);
+    let output = command.args(["calibrate", "hailglass"]).args(more).output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(
+        said.contains("the calibration was stopped") && said.contains("continue with --resume"),
+        "{said}"
+    );
+}
+
 #[test]
 fn players_are_placed_or_refused() {
     let folder = SCALES.path();

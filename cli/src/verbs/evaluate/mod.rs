@@ -222,13 +222,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Choice::All | Choice::Planned(_) => evaluation.run(contestant, &bar),
     });
     interrupt::defer();
-    let tally = tally?.map_err(|error| match Failure::from(error) {
-        Failure::Environment(error) => Failure::environment(
-            error,
-            "the evaluation was stopped by an error; fix it and continue with --resume",
-        ),
-        other => other,
-    })?;
+    let tally = tally?.map_err(|error| Failure::from(error).resumable("evaluation"))?;
     bar.bar.finish_and_clear();
     if let Some(mailbox) = &mailbox {
         mailbox.finish(&tally)?;
