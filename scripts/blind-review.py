@@ -6,6 +6,8 @@
 
 Writes review/01 to review/24, each with rules.txt, level-0.png, level-2.png, level-4.png and two filmstrips of plays by the same
 planner, and review-key.json beside the folder, which reviewers must not see. Needs Pillow.
+
+With --pairs, review-pairs.txt lists each generated game beside one of the corpus, for the question which of the two a person made.
 """
 
 import argparse
@@ -69,6 +71,7 @@ def main():
     parser.add_argument("--corpus", type=pathlib.Path, required=True)
     parser.add_argument("--numbers", type=int, nargs=3, default=[12, 6, 6])
     parser.add_argument("--seed", default="review")
+    parser.add_argument("--pairs", action="store_true", help="list pairs of a generated and a corpus game")
     parser.add_argument("--out", type=pathlib.Path, required=True)
     args = parser.parse_args()
     draw = random.Random(args.seed)
@@ -91,6 +94,11 @@ def main():
             filmstrip(args.arcade, game, at, folder / f"film-{at}.png", args.seed)
         print(f"{number:02} of {len(games)}", flush=True)
     args.out.with_name(args.out.name + "-key.json").write_text(json.dumps(key, indent=1) + "\n")
+    if args.pairs:
+        ours, theirs = ([number for number, game in key.items() if game["group"] == group]
+                        for group in ("generated", "corpus"))
+        pairs = [sorted(pair) for pair in zip(ours, theirs)]
+        args.out.with_name(args.out.name + "-pairs.txt").write_text("".join(f"{a} {b}\n" for a, b in sorted(pairs)))
 
 
 def has_levels(game):

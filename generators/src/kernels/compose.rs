@@ -7,7 +7,7 @@ use super::kernel::{Casting, Kernel, Slot};
 use super::naming;
 use super::phrase::{self, Nouns};
 use super::scene::Scene;
-use super::template;
+use super::{template, ways};
 use crate::GenerateError;
 use crate::games::{english, palette};
 use engine::syntax::{self, MappingLine, Param, SpriteLine};
@@ -121,6 +121,7 @@ impl Choices<'_> {
             description.interactions.extend(graft.interactions.iter().cloned());
         }
         let edge = self.habits.apply(&mut description);
+        ways::set_obstacles(&mut description);
         let mut sampler = self.nouns.sampler();
         let nouns = self.cast(&mut sampler)?;
         let traits = traits(&description);

@@ -1,7 +1,7 @@
 //! Grafts: a type of one kernel, with the rules that tie it to types of the same roles in another kernel.
 
 use super::kernel::{Casting, Kernel};
-use super::map::Item;
+use super::map::{Item, Place};
 use super::scene::Scene;
 use engine::syntax::{self, InteractionLine, SpriteLine};
 use engine::{Description, Seed};
@@ -198,11 +198,16 @@ impl<'a> Guest<'a> {
         self.rules.interactions.iter().filter_map(rule).collect()
     }
 
-    /// The way in which the maps of the kernel place the type, if they do.
+    /// The way in which a level places the type: as the maps of the kernel do, and apart from other things where they only draw it.
     fn items(&self, stype: &str) -> Option<Vec<Item>> {
         let maps = self.kernel.levels.iter().filter_map(|level| level.map(&self.values).ok());
-        let mut items = maps.flat_map(|map| map.rooms).flat_map(|room| room.items);
-        let item = items.find(|item| item.stype == stype)?;
-        Some(vec![item])
+        let rooms: Vec<_> = maps.flat_map(|map| map.rooms).collect();
+        if let Some(item) = rooms.iter().flat_map(|room| &room.items).find(|item| item.stype == stype) {
+            return Some(vec![item.clone()]);
+        }
+        let symbol = self.kernel.legend.iter().find(|(_, name)| *name == stype).map(|(symbol, _)| *symbol)?;
+        let pieces = rooms.iter().filter_map(|room| self.kernel.pieces.get(&room.piece.as_ref()?.name));
+        let is_drawn = pieces.flatten().any(|row| row.contains(symbol));
+        is_drawn.then(|| vec![Item { stype: stype.to_owned(), count: (1, 1), place: Place::default() }])
     }
 }

@@ -49,7 +49,7 @@ impl Habits {
         let of = |name| seed.child(name, 0).sampler();
         let points = *of("score").choose(&[Points::Written, Points::Single, Points::Gains]);
         let unit = *of("unit").choose(&[1, 1, 1, 2, 5, 10]);
-        let edge = if of("edge").ratio(2, 5) { Edge::Screen } else { Edge::Walls };
+        let edge = if of("edge").ratio(1, 4) { Edge::Screen } else { Edge::Walls };
         Habits { points, unit, edge, space: Space::draw(&mut of("space")) }
     }
 

@@ -22,6 +22,7 @@ mod tests;
 mod turns;
 mod variation;
 mod vocabulary;
+mod ways;
 
 pub use compose::{Course, CourseLevel};
 pub use genome::{KernelGame, KernelGenome, preview};

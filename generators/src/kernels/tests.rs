@@ -97,7 +97,7 @@ fn the_same_seed_gives_the_same_game_and_levels() {
 
 #[test]
 fn a_faulty_kernel_is_refused_with_its_fault() {
-    let file = include_str!("../../kernels/weight-on-the-plate.toml");
+    let file = include_str!("../../kernels/bridges-burn-behind.toml");
     let seed = Seed::from_text("faults");
     assert!(preview("sound", file, None, None, false, seed).is_ok());
     let check = |from: &str, to: &str, said: &str| {

@@ -1,0 +1,69 @@
+//! Obstacles of the types that find their way (`PathChaser`), which the first line of a game has to name.
+
+use super::habits::STILL;
+use engine::Description;
+use engine::syntax::{Param, SpriteLine};
+
+/// Names what stops all types that find their way, and stays: the map of ways is made once, when a level begins (spec page 01, section 8).
+/// Games without such types stay as they are.
+pub(super) fn set_obstacles(description: &mut Description) {
+    let mut seekers = Vec::new();
+    find_seekers(&description.sprites, &[], &mut seekers);
+    if seekers.is_empty() {
+        return;
+    }
+    let interactions = &description.interactions;
+    let stops = |names: &[&str], stype: &str| {
+        interactions.iter().any(|line| {
+            line.effect.text == "stepBack"
+                && names.contains(&line.first.text.as_str())
+                && line.second.iter().any(|word| word.text == stype)
+        })
+    };
+    let stays = |stype: &str| {
+        interactions.iter().all(|line| {
+            let is_named = line.second.iter().any(|word| word.text == stype);
+            line.first.text != stype && !(is_named && line.effect.text == "killBoth")
+        })
+    };
+    let lines = description.sprite_lines();
+    let is_still =
+        |line: &SpriteLine| line.class.as_ref().is_some_and(|class| STILL.contains(&class.text.as_str()));
+    let still = lines.iter().filter(|(_, line)| is_still(line)).map(|(_, line)| line.name.text.as_str());
+    let obstacles = still.filter(|stype| stays(stype) && seekers.iter().all(|names| stops(names, stype)));
+    let obstacles = Param::new("obs", obstacles.collect::<Vec<_>>().join(","));
+    description.header.params.push(obstacles);
+}
+
+/// Adds the names by which rules mean each of these types: its own and those of the types above it.
+fn find_seekers<'a>(lines: &'a [SpriteLine], above: &[&'a str], seekers: &mut Vec<Vec<&'a str>>) {
+    for line in lines {
+        let names = [above, &[line.name.text.as_str()]].concat();
+        if line.class.as_ref().is_some_and(|class| class.text == "PathChaser") {
+            seekers.push(names.clone());
+        }
+        find_seekers(&line.children, &names, seekers);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::syntax::{parse, print_bare};
+
+    #[test]
+    fn what_stops_all_seekers_and_stays_is_an_obstacle() {
+        let game = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    pond > Immovable\n    fence > Immovable\n    hedge > Immovable\n    foe >\n      wolf > PathChaser stype=hero\n      fox > PathChaser stype=hero\n    hero > MovingAvatar\n  LevelMapping\n    w > wall\n  InteractionSet\n    hero wall pond fence hedge > stepBack\n    foe wall fence pond > stepBack\n    wolf hedge > stepBack\n    fence hero > killSprite\n  TerminationSet\n    SpriteCounter stype=fence win=True\n";
+        let mut description = parse(game).0;
+        set_obstacles(&mut description);
+        assert!(
+            print_bare(&description).starts_with("BasicGame obs=wall,pond\n"),
+            "{}",
+            print_bare(&description)
+        );
+        let mut straight = parse(&game.replace("PathChaser", "Chaser")).0;
+        let before = straight.clone();
+        set_obstacles(&mut straight);
+        assert_eq!(straight, before);
+    }
+}
