@@ -56,10 +56,10 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
         parts.push(Phrase::Held.with(&[("limit", &info.resource_limit.to_string()), ("each", &each)]));
     }
     if info.class.is_some_and(|class| class.is_a(SpriteClass::Flicker)) {
-        parts.push(vanishing(analysis, stype, i64::from(traits.limit) - i64::from(traits.age) + 2));
+        parts.extend(vanishing(analysis, stype, i64::from(traits.limit) - i64::from(traits.age) + 2));
     }
     if traits.time_to_live >= 0 {
-        parts.push(vanishing(analysis, stype, i64::from(traits.time_to_live) + 1));
+        parts.extend(vanishing(analysis, stype, i64::from(traits.time_to_live) + 1));
     }
     if traits.health != 0 {
         let points = count(i64::from(traits.health), "health point");
@@ -176,8 +176,10 @@ fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     if gained { Phrase::Most.with(&[("limit", &limit)]) } else { String::new() }
 }
 
-fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
-    Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))])
+/// The end of a type after a number of updates, if it comes before the time limit.
+fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> Option<String> {
+    let is_seen = updates <= analysis.game().time_limit().cast_signed();
+    is_seen.then(|| Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))]))
 }
 
 fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str) -> String {

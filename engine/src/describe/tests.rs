@@ -131,6 +131,21 @@ fn a_sprite_that_is_alone_has_a_whole_sentence() {
     }
 }
 
+/// What would come after the time limit is not told.
+#[test]
+fn ends_beyond_the_time_limit_are_not_told() {
+    for (limit, is_told) in [(100, true), (5000, false)] {
+        let source = ORCHARD.replace("net > Flicker limit=3", &format!("net > Flicker limit={limit}"));
+        let guide = Guide::of(&Game::from_source(&source).unwrap());
+        assert_eq!(
+            guide.sprites.iter().any(|told| told.contains("vanishes")),
+            is_told,
+            "{:?}",
+            guide.sprites
+        );
+    }
+}
+
 #[test]
 fn several_avatars_are_distinguished() {
     let game = Game::from_source(

@@ -273,8 +273,12 @@ impl Choices<'_> {
             .flat_map(|line| line.second.iter().chain([&line.first]))
             .map(|word| word.text.as_str())
             .collect();
-        let mut symbols = BTreeMap::from([("wall".to_owned(), 'w'), ("hero".to_owned(), 'A')]);
-        let mut taken = vec!['.', 'w', 'A'];
+        let hero = match names["hero"].as_str() {
+            "avatar" => 'A',
+            name => palette::symbol(name, &[]),
+        };
+        let mut symbols = BTreeMap::from([("wall".to_owned(), 'w'), ("hero".to_owned(), hero)]);
+        let mut taken = vec!['.', 'w', hero];
         description.mapping.clear();
         let mut line = |symbol, names: &[&str]| {
             let names = names.iter().map(|&name| name.into()).collect();
@@ -282,7 +286,7 @@ impl Choices<'_> {
         };
         line('.', &["floor"]);
         line('w', &["wall"]);
-        line('A', &["floor", "hero"]);
+        line(hero, &["floor", "hero"]);
         for stype in own
             .iter()
             .filter(|stype| placed.contains(*stype) && !symbols.contains_key(*stype))

@@ -20,8 +20,6 @@ pub(crate) struct Habits {
 pub(crate) enum Points {
     /// As the kernel has them.
     Written,
-    /// One at a time.
-    Single,
     /// As the kernel has them, without penalties.
     Gains,
 }
@@ -47,7 +45,7 @@ const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow
 impl Habits {
     pub(crate) fn draw(seed: Seed) -> Habits {
         let of = |name| seed.child(name, 0).sampler();
-        let points = *of("score").choose(&[Points::Written, Points::Single, Points::Gains]);
+        let points = *of("score").choose(&[Points::Written, Points::Gains]);
         let unit = *of("unit").choose(&[1, 1, 1, 2, 5, 10]);
         let edge = if of("edge").ratio(1, 4) { Edge::Screen } else { Edge::Walls };
         Habits { points, unit, edge, space: Space::draw(&mut of("space")) }
@@ -75,11 +73,6 @@ impl Points {
         let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
         match self {
             Points::Written => {}
-            Points::Single => {
-                for param in params.iter_mut().filter(|param| param.key.text == "scoreChange") {
-                    param.value = if is_penalty(param) { "-1" } else { "1" }.into();
-                }
-            }
             Points::Gains => params.retain(|param| !is_penalty(param)),
         }
     }
@@ -201,7 +194,6 @@ mod tests {
             values.map(str::to_owned).collect::<Vec<_>>()
         };
         assert_eq!(points(habits(Points::Written, 5, Edge::Walls)), ["10", "-5"]);
-        assert_eq!(points(habits(Points::Single, 1, Edge::Walls)), ["1", "-1"]);
         assert_eq!(points(habits(Points::Gains, 10, Edge::Walls)), ["20"]);
     }
 }

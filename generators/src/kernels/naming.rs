@@ -1,7 +1,7 @@
 //! Names of types in VGDL, as authors of small games write them: one short word in lower case.
 //!
-//! Titles and stories use the nouns of the scene; rules use these names. An `iceBear` is a `bear`, a lit `fairLamp` a
-//! `litlamp`, an open `boathouse` an `exit`.
+//! Titles and stories use the nouns of the scene; rules use these names. An `iceBear` is an `icebear`, a `curtainCord` a `cord`, a lit
+//! `lamp` a `litlamp`, an open `boathouse` an `exit`.
 
 use super::kernel::Casting;
 use super::phrase::Nouns;
@@ -18,8 +18,10 @@ const VAGUE: &[&str] = &[
     "shoot", "side", "step", "stick", "strip", "stroke", "stub", "tip", "waste",
 ];
 
-/// The longest name of two words: a chandelier that is lit is `lit`.
-const LONGEST: usize = 12;
+/// The longest noun of two words that is a name as it is.
+const WHOLE: usize = 10;
+/// The longest name of a state: a chandelier that is lit is `lit`.
+const LONGEST: usize = 10;
 
 /// Draws the names of the types of a game, by their names in the kernel. Types without a noun and `wall` keep theirs.
 pub(crate) fn names<'a>(
@@ -34,8 +36,8 @@ pub(crate) fn names<'a>(
     let mut names = Names { nouns, given: BTreeMap::new(), taken };
     let habit = sampler.below(3);
     names.give("floor", &[["floor", "floor", "ground"][habit]]);
-    // Authors call the player by its part in the story, or `avatar`.
-    if sampler.below(2) == 0 && !names.taken.contains("avatar") {
+    // Authors call the player by its part in the story, some of them `avatar`.
+    if sampler.below(4) == 0 && !names.taken.contains("avatar") {
         names.give("hero", &["avatar"]);
     }
     for (stype, casting) in &castings {
@@ -92,11 +94,11 @@ impl Names<'_> {
     }
 }
 
-/// Returns the last word of a noun, or the whole noun where that says too little.
+/// Returns a noun as one word, or the last word of a long one where that says enough.
 fn short(noun: &str) -> String {
     let spaced = english::spaced(noun);
     match spaced.rsplit_once(' ') {
-        Some((_, last)) if !VAGUE.contains(&last) => last.to_owned(),
+        Some((_, last)) if noun.len() > WHOLE && !VAGUE.contains(&last) => last.to_owned(),
         _ => joined(noun),
     }
 }
@@ -121,6 +123,7 @@ mod tests {
             ("fuel", role("fuel"), "oilCan"),
             ("globe", role("lamp"), "chandelier"),
             ("hunter", role("hunter"), "polarBear"),
+            ("lever", role("lever"), "curtainCord"),
             ("other", role("beast"), "polarbear"),
             ("litLamp", state("lamp", "lit"), "litFairLamp"),
             ("litGlobe", state("globe", "lit"), "litChandelier"),
@@ -133,16 +136,17 @@ mod tests {
         let castings = castings.iter().map(|(stype, casting)| (stype, casting));
         let names = names(&nouns, castings, BTreeSet::new(), &mut Seed::from_text("names").sampler());
         let expect = [
-            ("bear", "bear"),
+            ("bear", "icebear"),
             ("dazed", "dazed"),
             ("exit", "boathouse"),
             ("fuel", "oilcan"),
             ("hunter", "polarbear"),
+            ("lever", "cord"),
             ("other", "polarbear2"),
-            ("litLamp", "litlamp"),
+            ("litLamp", "litfairlamp"),
             ("litGlobe", "lit"),
             ("openExit", "exit"),
-            ("wokenBear", "wokenbear"),
+            ("wokenBear", "woken"),
         ];
         for (stype, name) in expect {
             assert_eq!(names[stype], name, "{stype}");
