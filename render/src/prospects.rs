@@ -191,6 +191,7 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
     };
     match glyph {
+        _ if analysis.aims().prevent.contains(&stype) => "too many, and you lose".to_owned(),
         Glyph::Neutral if form == Form::Glyph(Glyph::Floor) => "ground".to_owned(),
         Glyph::Enemy | Glyph::Charger | Glyph::Friend | Glyph::Raft if !motion.is_empty() => {
             format!("{motion}, {harm}")

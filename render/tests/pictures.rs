@@ -160,6 +160,17 @@ fn pictures_of_a_game_are_drawn_but_the_rules_decide_the_meaning() {
 }
 
 #[test]
+fn what_loses_the_game_by_its_coming_is_not_called_harmless() {
+    let source = GAME.replace("plum > Immovable", "plum > Immovable\n        rotten > Immovable")
+        + "        SpriteCounterMore stype=rotten limit=1 win=False\n";
+    let source =
+        source.replace("InteractionSet\n", "InteractionSet\n        plum newt > transformTo stype=rotten\n");
+    let game = Game::from_source(&source).unwrap();
+    let looks = Looks::of(&Analysis::of(&game));
+    assert_eq!(looks.meaning(game.sprite_type("rotten").unwrap()), "too many, and you lose");
+}
+
+#[test]
 fn captions_tell_what_is_left() {
     let source = GAME.replace("limit=1\n        marten latch", "limit=2\n        marten latch");
     let source = source.replace(

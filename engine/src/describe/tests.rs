@@ -131,7 +131,7 @@ fn a_sprite_that_is_alone_has_a_whole_sentence() {
     }
 }
 
-/// What would come after the time limit is not told.
+/// A type that would vanish after the time limit stays, as far as anyone sees.
 #[test]
 fn ends_beyond_the_time_limit_are_not_told() {
     for (limit, is_told) in [(100, true), (5000, false)] {

@@ -273,9 +273,10 @@ impl Choices<'_> {
             .flat_map(|line| line.second.iter().chain([&line.first]))
             .map(|word| word.text.as_str())
             .collect();
+        // A type called `avatar` has `A` in the language; the heroes of some kernels are a group of that name.
         let hero = match names["hero"].as_str() {
-            "avatar" => 'A',
-            name => palette::symbol(name, &[]),
+            name if name != "avatar" && own.iter().all(|own| own != "avatar") => palette::symbol(name, &[]),
+            _ => 'A',
         };
         let mut symbols = BTreeMap::from([("wall".to_owned(), 'w'), ("hero".to_owned(), hero)]);
         let mut taken = vec!['.', 'w', hero];

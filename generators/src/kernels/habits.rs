@@ -20,7 +20,7 @@ pub(crate) struct Habits {
 pub(crate) enum Points {
     /// As the kernel has them.
     Written,
-    /// As the kernel has them, without penalties.
+    /// As the kernel has them, without penalties for a death. Others are the price of what can be done again, and stay.
     Gains,
 }
 
@@ -54,7 +54,7 @@ impl Habits {
     /// Changes rules to these habits, and returns the edge that the levels have.
     pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
-            self.points.apply(&mut line.params);
+            self.points.apply(line);
             for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
                 if let Ok(points) = param.value.text.parse::<i64>() {
                     param.value = (points * i64::from(self.unit)).to_string().as_str().into();
@@ -69,11 +69,12 @@ impl Habits {
 }
 
 impl Points {
-    fn apply(self, params: &mut Vec<Param>) {
+    fn apply(self, line: &mut InteractionLine) {
         let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
+        let is_death = line.first.text == "hero" && line.effect.text.starts_with("kill");
         match self {
-            Points::Written => {}
-            Points::Gains => params.retain(|param| !is_penalty(param)),
+            Points::Gains if is_death => line.params.retain(|param| !is_penalty(param)),
+            Points::Gains | Points::Written => {}
         }
     }
 }
@@ -195,5 +196,9 @@ mod tests {
         };
         assert_eq!(points(habits(Points::Written, 5, Edge::Walls)), ["10", "-5"]);
         assert_eq!(points(habits(Points::Gains, 10, Edge::Walls)), ["20"]);
+        let priced =
+            GAME.replace("plum hero > killSprite scoreChange=2", "plum hero > stepBack scoreChange=-2");
+        let text = applied(&priced, habits(Points::Gains, 1, Edge::Walls)).0;
+        assert!(text.contains("plum hero > stepBack scoreChange=-2"), "{text}");
     }
 }
