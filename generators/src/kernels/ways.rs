@@ -22,8 +22,15 @@ pub(super) fn set_obstacles(description: &mut Description) {
     };
     let stays = |stype: &str| {
         interactions.iter().all(|line| {
-            let is_named = line.second.iter().any(|word| word.text == stype);
-            line.first.text != stype && !(is_named && line.effect.text == "killBoth")
+            let is_met = line.second.iter().any(|word| word.text == stype);
+            let is_named =
+                line.params.iter().any(|param| param.key.text == "stype" && param.value.text == stype);
+            let goes = match line.effect.text.as_str() {
+                "killBoth" => is_met,
+                "killAll" | "transformToAll" => is_named,
+                _ => false,
+            };
+            line.first.text != stype && !goes
         })
     };
     let lines = description.sprite_lines();
@@ -53,7 +60,7 @@ mod tests {
 
     #[test]
     fn what_stops_all_seekers_and_stays_is_an_obstacle() {
-        let game = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    pond > Immovable\n    fence > Immovable\n    hedge > Immovable\n    foe >\n      wolf > PathChaser stype=hero\n      fox > PathChaser stype=hero\n    hero > MovingAvatar\n  LevelMapping\n    w > wall\n  InteractionSet\n    hero wall pond fence hedge > stepBack\n    foe wall fence pond > stepBack\n    wolf hedge > stepBack\n    fence hero > killSprite\n  TerminationSet\n    SpriteCounter stype=fence win=True\n";
+        let game = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    pond > Immovable\n    gate > Immovable\n    fence > Immovable\n    hedge > Immovable\n    foe >\n      wolf > PathChaser stype=hero\n      fox > PathChaser stype=hero\n    hero > MovingAvatar\n  LevelMapping\n    w > wall\n  InteractionSet\n    hero wall pond fence hedge > stepBack\n    foe wall fence pond gate > stepBack\n    wolf hedge > stepBack\n    fence hero > killSprite\n    hero TIME > transformToAll stype=gate stypeTo=floor timer=9\n  TerminationSet\n    SpriteCounter stype=fence win=True\n";
         let mut description = parse(game).0;
         set_obstacles(&mut description);
         assert!(
