@@ -4,6 +4,7 @@ use super::course::{self, Board, Space, Traits};
 use super::graft::Graft;
 use super::habits::{Edge, Habits};
 use super::kernel::{Casting, Kernel, Slot};
+use super::map::Map;
 use super::naming;
 use super::phrase::{self, Nouns};
 use super::scene::Scene;
@@ -74,18 +75,20 @@ impl Course {
         let plans: Vec<_> = self.kernel.levels.iter().filter(|level| level.slot == slot).collect();
         let plan = *seed.child("plan", 0).sampler().choose(&plans);
         let is_present = |stype: &str| stype == "wall" || self.traits.present.contains(stype);
-        let mut map =
-            plan.map(&self.values).map_err(GenerateError::Unsuitable)?.without_bare_ends(is_present);
-        // What another kernel brings comes into play when the kernel's own trick is known.
-        if slot >= Slot::Combine {
+        let map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?.without_bare_ends(is_present);
+        let lay_out = |map: &Map| course::lay_out(map, self.kernel, &self.traits, self.space, seed);
+        // What another kernel brings comes into play when the kernel's own trick is known; a map that is drawn full goes without.
+        let grafted = (slot >= Slot::Combine && !self.grafts.is_empty()).then(|| {
+            let mut map = map.clone();
             let sampler = &mut seed.child("grafts", 0).sampler();
             for graft in &self.grafts {
                 let items = graft.items.iter().map(|item| graft.placed(item));
                 let room = sampler.below(map.rooms.len());
                 map.rooms[room].items.extend(items);
             }
-        }
-        let board = course::lay_out(&map, self.kernel, &self.traits, self.space, seed).ok_or_else(|| {
+            map
+        });
+        let board = grafted.and_then(|map| lay_out(&map)).or_else(|| lay_out(&map)).ok_or_else(|| {
             GenerateError::Unlucky(format!("no layout has room for a map of slot {slot:?}"))
         })?;
         let board = match self.edge {

@@ -112,6 +112,25 @@ fn a_faulty_kernel_is_refused_with_its_fault() {
     check("TerminationSet", "", "the rules have no TerminationSet");
 }
 
+/// Drawn maps may have no room for a thing of another kernel; a game with one has levels nevertheless.
+#[test]
+fn games_with_grafts_have_a_level_in_every_slot() {
+    let mut tried = 0;
+    for kernel in Kernel::all() {
+        let seed = Seed::from_text(&kernel.name);
+        let genome = KernelGenome::in_form(kernel, &mut seed.sampler());
+        let grafted = (0..8).filter_map(|number| genome.grafted(seed.child("graft", number)));
+        for KernelGame { course, .. } in grafted.filter_map(|genome| genome.build().ok()) {
+            for slot in Slot::ALL {
+                let has_level = (0..4).any(|number| course.level(slot, seed.child("level", number)).is_ok());
+                assert!(has_level, "{} {slot:?}", kernel.name);
+            }
+            tried += 1;
+        }
+    }
+    assert!(tried > 100, "{tried} games");
+}
+
 /// Nothing stays beyond the edge of a board that has no ring of walls. What comes to be there, such as a shot off the edge, is gone in
 /// the next tick.
 #[test]
