@@ -47,7 +47,9 @@ pub use early_death::NoEarlyDeath;
 pub use evidence::{Evidence, Line};
 pub use game_measures::{GameKind, PlayMeasures};
 pub use game_report::{GameCase, GameReport, GameValidator};
-pub use gates::{ActorsMatter, Drama, GATES, Gates, Necessity, NoDeadTime, NotInstant, Progression, Tight};
+pub use gates::{
+    ActorsMatter, Drama, GATES, Gates, Necessity, NoDeadTime, NotInstant, OpenGround, Progression, Tight,
+};
 pub use idle::NotIdle;
 pub use ladder::{Difficulty, Ladder, LadderConfig, PlayerResult, Rung, UnknownDifficulty};
 pub use length::LengthWithin;

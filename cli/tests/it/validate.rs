@@ -128,6 +128,21 @@ fn game_criteria_cover_all_levels() {
 }
 
 #[test]
+fn gates_are_asked_of_a_game_with_all_its_levels() {
+    let folder = folder(GAME, "wwwwwwww\nwA...n.w\nwwwwwwww\n");
+    fs::write(folder.path().join("lvl1.txt"), LEVEL).unwrap();
+    let output = run(folder.path(), &["--json", "validate", ".", "--gates", "--budget", "20000"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let judged = document["judgements"].as_array().unwrap();
+    let asked: Vec<&str> = judged.iter().filter_map(|judgement| judgement["criterion"].as_str()).collect();
+    let gates =
+        ["open-ground", "progression", "drama", "no-dead-time", "not-instant", "actors-matter", "tight"];
+    assert!(gates.iter().all(|gate| asked.contains(gate)) && asked.contains(&"necessity"), "{asked:?}");
+    let refused = run(folder.path(), &["validate", ".", "1", "--gates"], 2);
+    assert!(text(&refused.stderr).contains("--gates judges a game with all its levels"));
+}
+
+#[test]
 fn the_number_of_threads_changes_no_byte_of_a_verdict() {
     let folder = folder(GAME, LEVEL);
     let args = ["--json", "validate", ".", "--budget", "100000"];

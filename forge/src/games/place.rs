@@ -9,7 +9,7 @@ use generators::kernels::{Course, CourseLevel, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use std::slice;
-use validators::{Criteria, Demand, Finding, Judgement, NotInstant, Panel, Verdict};
+use validators::{Criteria, Demand, Finding, Judgement, NotInstant, OpenGround, Panel, Verdict};
 
 /// The place of a level in a game, beside the levels that other places have.
 pub(super) struct Place<'a> {
@@ -140,6 +140,10 @@ impl<'a> Place<'a> {
             tally.no_level("like another level");
             return None;
         }
+        if self.is_narrow(&level) {
+            tally.no_level("open-ground");
+            return None;
+        }
         if self.is_walked_through(&level, seed) {
             tally.no_level("not-instant");
             return None;
@@ -217,6 +221,16 @@ impl<'a> Place<'a> {
         let is_asked = criteria.includes("not-instant") && matches!(source, LevelSource::Course(_));
         let first = if exceptions >= 1.0 { 2 } else { 1 };
         (is_asked && self.number >= first).then(|| NotInstant(gates.clone()))
+    }
+
+    /// Tests whether a level of a course has too much narrow ground, together with those before it.
+    fn is_narrow(&self, level: &Level) -> bool {
+        let Levels { criteria, source, .. } = self.levels;
+        let is_asked = criteria.includes("open-ground") && matches!(source, LevelSource::Course(_));
+        let levels = self.others.iter().map(|(_, found)| &found.level).chain([level]);
+        is_asked
+            && OpenGround::narrow(&Analysis::of(self.game), levels)
+                .is_some_and(|share| share > criteria.gates.narrow)
     }
 
     /// Tests whether whoever walks to the nearest goal wins a level, before a win is searched for.

@@ -148,7 +148,11 @@ mod tests {
         assert_eq!((row.levels, row.won), (1, 1));
         assert_eq!(row.gates["drama"].passes, Some(false));
         assert_eq!(row.gates["progression"].passes, None);
-        assert!(row.line().starts_with("plums: won 1 of 1, progression?, drama! 0.00,"), "{}", row.line());
+        assert!(
+            row.line().starts_with("plums: won 1 of 1, open-ground! 1.00, progression?, drama! 0.00,"),
+            "{}",
+            row.line()
+        );
         let table = GateRow::table(&[("ours", &[row])]).to_markdown();
         assert!(table.contains("| drama | 0 of 1 | 0.00 |"), "{table}");
     }

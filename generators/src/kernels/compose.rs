@@ -211,6 +211,11 @@ impl Choices<'_> {
             if free.is_empty() {
                 return Err(GenerateError::Unsuitable(missing()));
             }
+            // Authors of small games name things by one word where there is one: a `tarpaulin`, not a `canvas sheet`.
+            let is_word = |noun: &&str| !noun.contains(|letter: char| letter.is_ascii_uppercase());
+            if free.iter().any(is_word) {
+                free.retain(is_word);
+            }
             Ok((*sampler.choose(&free)).to_owned())
         };
         for role in ["floor", "wall"] {

@@ -11,6 +11,7 @@ mod elements;
 mod necessity;
 mod no_dead_time;
 mod not_instant;
+mod open_ground;
 mod progression;
 mod thresholds;
 mod tight;
@@ -22,6 +23,7 @@ pub use drama::Drama;
 pub use necessity::Necessity;
 pub use no_dead_time::NoDeadTime;
 pub use not_instant::NotInstant;
+pub use open_ground::OpenGround;
 pub use progression::Progression;
 pub use thresholds::Gates;
 pub use tight::Tight;
@@ -33,12 +35,21 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Level, Outcome};
 
 /// The names of the gates, in the order of checking: the cheapest first.
-pub const GATES: &[&str] =
-    &["progression", "drama", "no-dead-time", "not-instant", "actors-matter", "tight", "necessity"];
+pub const GATES: &[&str] = &[
+    "open-ground",
+    "progression",
+    "drama",
+    "no-dead-time",
+    "not-instant",
+    "actors-matter",
+    "tight",
+    "necessity",
+];
 
 /// Returns all gates with these thresholds, in the order of [`GATES`].
-pub(crate) fn all(gates: &Gates) -> [Box<dyn GameValidator + Send>; 7] {
+pub(crate) fn all(gates: &Gates) -> [Box<dyn GameValidator + Send>; 8] {
     [
+        Box::new(OpenGround(gates.clone())),
         Box::new(Progression(gates.clone())),
         Box::new(Drama(gates.clone())),
         Box::new(NoDeadTime(gates.clone())),

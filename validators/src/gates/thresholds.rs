@@ -7,6 +7,8 @@ engine::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
+        /// `open-ground`: the share of the ground that may be narrow, on average over the levels.
+        pub narrow: f64 = 0.3,
         /// `not-instant`: ticks that the shortest known win of a level after the first takes at least.
         pub least_win: usize = 25,
         /// `not-instant`: periods of the slowest spawner on the level that it takes at least.
@@ -79,6 +81,7 @@ impl Gates {
     /// Returns the first value that is out of its range: its key and the reason.
     pub(crate) fn problem(&self) -> Option<(&'static str, String)> {
         let shares = [
+            ("gates.narrow", self.narrow),
             ("gates.bot_wins", self.bot_wins),
             ("gates.instant_levels", self.instant_levels),
             ("gates.dead_share", self.dead_share),

@@ -11,7 +11,7 @@ use document::{Document, LevelDocument};
 use engine::{Analysis, Diagnostic, Diagnostics, Game, Level, LevelMapping, Seed, describe};
 use rayon::prelude::*;
 use std::path::PathBuf;
-use validators::{Criteria, Panel, Report};
+use validators::{Criteria, GATES, Panel, Report};
 
 /// Judges a game and its levels: all problems of all files first, then each criterion of a release.
 ///
@@ -34,6 +34,9 @@ pub(crate) struct Args {
     /// Forward-model calls to find a win, for each level; all other criteria take at most about eight times as many
     #[arg(long, value_name = "CALLS", default_value_t = Criteria::default().budget, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     budget: u64,
+    /// Put the game and all its levels through the gates of generated games, too (`arcade docs gates`)
+    #[arg(long)]
+    gates: bool,
     /// Text to derive the validators' seed from
     #[arg(long, value_name = "TEXT", default_value = "validate")]
     seed: String,
@@ -68,7 +71,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.witness.is_some() && levels.len() > 1 {
         bail!("--witness takes one level, not {}: name it after the game", levels.len());
     }
-    let criteria = Criteria { budget: args.budget, ..Criteria::full() };
+    let mut criteria = Criteria { budget: args.budget, ..Criteria::full() };
+    if args.gates {
+        if levels.len() < input.count() {
+            bail!("--gates judges a game with all its levels in order: name none, or all");
+        }
+        criteria.ask.extend(GATES.iter().map(|&gate| gate.to_owned()));
+    }
     let panel = Panel::bounded(&criteria, args.budget).map_err(Failure::malformed)?;
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");

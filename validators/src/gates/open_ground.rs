@@ -1,0 +1,93 @@
+//! The `open-ground` gate: levels are places to move about in, not tunnels in solid rock.
+
+use super::{Gates, finding, without_subject};
+use crate::evidence::Evidence;
+use crate::game_report::{GameCase, GameValidator};
+use crate::verdict::Finding;
+use engine::analysis::Role;
+use engine::{Analysis, Level};
+
+/// The share of narrow ground is at most [`Gates::narrow`], on average over the levels.
+///
+/// Ground is a cell without a wall ([`Role::Wall`]: it stands still, always blocks, and nothing removes it). It is narrow if no square of
+/// two by two cells of ground has it: corridors, doorways, alcoves. Nothing is played. Cost: O(cells) a level.
+#[derive(Clone, Debug)]
+pub struct OpenGround(pub Gates);
+
+impl OpenGround {
+    /// The share of the ground of levels that is narrow, on average; `None` if none of them has ground.
+    pub fn narrow<'a>(analysis: &Analysis, levels: impl Iterator<Item = &'a Level>) -> Option<f64> {
+        let shares: Vec<f64> = levels.filter_map(|level| narrow_share(analysis, level)).collect();
+        (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
+    }
+}
+
+impl GameValidator for OpenGround {
+    fn name(&self) -> &'static str {
+        "open-ground"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let levels = case.recording.iter().map(|recorded| recorded.level);
+        let shares: Vec<f64> =
+            levels.clone().filter_map(|level| narrow_share(case.analysis, level)).collect();
+        let Some(mean) = OpenGround::narrow(case.analysis, levels) else {
+            return without_subject("skipped: no level has ground");
+        };
+        let most = self.0.narrow;
+        let each: Vec<String> = shares.iter().map(|share| format!("{:.0}", 100.0 * share)).collect();
+        let text = format!(
+            "{:.0} % of the ground is narrow on average ({}), {:.0} % allowed",
+            100.0 * mean,
+            each.join(", "),
+            100.0 * most
+        );
+        let seen =
+            Evidence::new(text).advise("widen corridors and alcoves: leave islands of walls in open ground");
+        match mean <= most {
+            true => finding(Vec::new(), vec![seen], Some(mean)),
+            false => finding(vec![seen], Vec::new(), Some(mean)),
+        }
+    }
+}
+
+/// Returns the share of the ground that is narrow; `None` without ground.
+fn narrow_share(analysis: &Analysis, level: &Level) -> Option<f64> {
+    let game = analysis.game();
+    let is_wall = |cell: &u8| game.places(*cell).iter().any(|&stype| analysis.role(stype) == Role::Wall);
+    let walls: Vec<bool> = level.cells().iter().map(is_wall).collect();
+    let (columns, rows) = (level.columns(), level.rows());
+    let mut wide = vec![false; walls.len()];
+    for row in 1..rows {
+        for column in 1..columns {
+            let corner = row * columns + column;
+            let square = [corner, corner - 1, corner - columns, corner - columns - 1];
+            if square.iter().all(|&cell| !walls[cell]) {
+                square.iter().for_each(|&cell| wide[cell] = true);
+            }
+        }
+    }
+    let ground = walls.iter().filter(|&&wall| !wall).count();
+    let narrow = walls.iter().zip(&wide).filter(|&(&wall, &wide)| !wall && !wide).count();
+    (ground > 0).then(|| narrow as f64 / ground as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gates::tests::check;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=200 win=False\n";
+
+    #[test]
+    fn tunnels_fail_and_halls_pass() {
+        let tunnel = "wwwwwwwww\nwA www pw\nwww   www\nwwwwwwwww\n";
+        check("open-ground", GAME, &[tunnel], Some("100 % of the ground is narrow"));
+        let hall = "wwwwwwwww\nwA     pw\nw   w   w\nw       w\nwwwwwwwww\n";
+        check("open-ground", GAME, &[hall], None);
+        // What can be removed is ground.
+        let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
+        check("open-ground", GAME, &[gates], None);
+        // A narrow level may stand among wide ones.
+        check("open-ground", GAME, &[tunnel, hall, gates, hall], None);
+    }
+}
