@@ -88,6 +88,6 @@ mod tests {
         let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
         check("open-ground", GAME, &[gates], None);
         // A narrow level may stand among wide ones.
-        check("open-ground", GAME, &[tunnel, hall, gates, hall], None);
+        check("open-ground", GAME, &[tunnel, gates, gates, hall], None);
     }
 }
