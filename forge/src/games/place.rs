@@ -223,14 +223,17 @@ impl<'a> Place<'a> {
         (is_asked && self.number >= first).then(|| NotInstant(gates.clone()))
     }
 
-    /// Tests whether a level of a course has too much narrow ground, together with those before it.
+    /// Tests whether a level of a course has so much narrow ground, together with those found before it, that the game could not pass
+    /// the gate if all others had none.
     fn is_narrow(&self, level: &Level) -> bool {
-        let Levels { criteria, source, .. } = self.levels;
-        let is_asked = criteria.includes("open-ground") && matches!(source, LevelSource::Course(_));
+        let Levels { criteria, source, count, .. } = self.levels;
+        if !criteria.includes("open-ground") || !matches!(source, LevelSource::Course(_)) {
+            return false;
+        }
+        let analysis = Analysis::of(self.game);
         let levels = self.others.iter().map(|(_, found)| &found.level).chain([level]);
-        is_asked
-            && OpenGround::narrow(&Analysis::of(self.game), levels)
-                .is_some_and(|share| share > criteria.gates.narrow)
+        let shares = levels.filter_map(|level| OpenGround::narrow(&analysis, level));
+        shares.sum::<f64>() > criteria.gates.narrow * f64::from(*count)
     }
 
     /// Tests whether whoever walks to the nearest goal wins a level, before a win is searched for.

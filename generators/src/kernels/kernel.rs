@@ -7,6 +7,7 @@ use super::form::Form;
 use super::map::Map;
 use super::template::{Numbers, Template};
 use crate::games::Kind;
+use itertools::Itertools;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::iter;
@@ -197,6 +198,12 @@ impl Kernel {
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
+        if let Some(twice) = file.form.iter().map(|form| &form.name).duplicates().next() {
+            return Err(KernelError {
+                kernel: name.to_owned(),
+                message: format!("two forms are called `{twice}`"),
+            });
+        }
         let forms = file.form.iter().map(|form| Kernel::of_file(name, form.applied(&file), Some(form)));
         let forms = forms.collect::<Result<_, _>>()?;
         let of_no_form = |level: &LevelFile| level.form.is_none();

@@ -110,6 +110,8 @@ fn a_faulty_kernel_is_refused_with_its_fault() {
     check("slot = \"exam\"", "slot = \"final\"", "unknown variant `final`");
     check(": hero", ": hero@nowhere", "there is no place `@nowhere`");
     check("TerminationSet", "", "the rules have no TerminationSet");
+    let form = "[[form]]\nname = \"other\"\ngoal = \"Leave\"\nterminations = \"\"\n\n";
+    check("[[level]]", &format!("{form}{form}[[level]]"), "two forms are called `other`");
 }
 
 /// Drawn maps may have no room for a thing of another kernel; a game with one has levels nevertheless.

@@ -318,7 +318,7 @@ mod tests {
         };
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 2\nleast_interactions = 3\n\
             least_mechanics = 1\ncandidates = 1.0\n[corpus]\ngames = 1\nlevels = 2\n[criteria]\n\
-            ask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\ndecision = 50\nmcts_plays = 1\n";
+            ask = ['not-idle', 'not-random', 'winnable']\nbudget = 100000\ndecision = 50\nmcts_plays = 1\n";
         let recipe = Recipe::from_toml(text).unwrap();
         let corpus = corpus(&[("fetch", FETCH)]);
         let plan = Plan::new(&recipe, None, &corpus).unwrap();

@@ -15,10 +15,25 @@ use engine::{Analysis, Level};
 pub struct OpenGround(pub Gates);
 
 impl OpenGround {
-    /// The share of the ground of levels that is narrow, on average; `None` if none of them has ground.
-    pub fn narrow<'a>(analysis: &Analysis, levels: impl Iterator<Item = &'a Level>) -> Option<f64> {
-        let shares: Vec<f64> = levels.filter_map(|level| narrow_share(analysis, level)).collect();
-        (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
+    /// The share of the ground of a level that is narrow; `None` without ground.
+    pub fn narrow(analysis: &Analysis, level: &Level) -> Option<f64> {
+        let game = analysis.game();
+        let is_wall = |cell: &u8| game.places(*cell).iter().any(|&stype| analysis.role(stype) == Role::Wall);
+        let walls: Vec<bool> = level.cells().iter().map(is_wall).collect();
+        let (columns, rows) = (level.columns(), level.rows());
+        let mut wide = vec![false; walls.len()];
+        for row in 1..rows {
+            for column in 1..columns {
+                let corner = row * columns + column;
+                let square = [corner, corner - 1, corner - columns, corner - columns - 1];
+                if square.iter().all(|&cell| !walls[cell]) {
+                    square.iter().for_each(|&cell| wide[cell] = true);
+                }
+            }
+        }
+        let ground = walls.iter().filter(|&&wall| !wall).count();
+        let narrow = walls.iter().zip(&wide).filter(|&(&wall, &wide)| !wall && !wide).count();
+        (ground > 0).then(|| narrow as f64 / ground as f64)
     }
 }
 
@@ -29,12 +44,11 @@ impl GameValidator for OpenGround {
 
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let levels = case.recording.iter().map(|recorded| recorded.level);
-        let shares: Vec<f64> =
-            levels.clone().filter_map(|level| narrow_share(case.analysis, level)).collect();
-        let Some(mean) = OpenGround::narrow(case.analysis, levels) else {
+        let shares: Vec<f64> = levels.filter_map(|level| OpenGround::narrow(case.analysis, level)).collect();
+        if shares.is_empty() {
             return without_subject("skipped: no level has ground");
-        };
-        let most = self.0.narrow;
+        }
+        let (mean, most) = (shares.iter().sum::<f64>() / shares.len() as f64, self.0.narrow);
         let each: Vec<String> = shares.iter().map(|share| format!("{:.0}", 100.0 * share)).collect();
         let text = format!(
             "{:.0} % of the ground is narrow on average ({}), {:.0} % allowed",
@@ -49,27 +63,6 @@ impl GameValidator for OpenGround {
             false => finding(vec![seen], Vec::new(), Some(mean)),
         }
     }
-}
-
-/// Returns the share of the ground that is narrow; `None` without ground.
-fn narrow_share(analysis: &Analysis, level: &Level) -> Option<f64> {
-    let game = analysis.game();
-    let is_wall = |cell: &u8| game.places(*cell).iter().any(|&stype| analysis.role(stype) == Role::Wall);
-    let walls: Vec<bool> = level.cells().iter().map(is_wall).collect();
-    let (columns, rows) = (level.columns(), level.rows());
-    let mut wide = vec![false; walls.len()];
-    for row in 1..rows {
-        for column in 1..columns {
-            let corner = row * columns + column;
-            let square = [corner, corner - 1, corner - columns, corner - columns - 1];
-            if square.iter().all(|&cell| !walls[cell]) {
-                square.iter().for_each(|&cell| wide[cell] = true);
-            }
-        }
-    }
-    let ground = walls.iter().filter(|&&wall| !wall).count();
-    let narrow = walls.iter().zip(&wide).filter(|&(&wall, &wide)| !wall && !wide).count();
-    (ground > 0).then(|| narrow as f64 / ground as f64)
 }
 
 #[cfg(test)]

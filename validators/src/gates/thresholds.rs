@@ -8,7 +8,7 @@ engine::with_defaults! {
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
         /// `open-ground`: the share of the ground that may be narrow, on average over the levels.
-        pub narrow: f64 = 0.3,
+        pub narrow: f64 = 0.45,
         /// `not-instant`: ticks that the shortest known win of a level after the first takes at least.
         pub least_win: usize = 25,
         /// `not-instant`: periods of the slowest spawner on the level that it takes at least.
