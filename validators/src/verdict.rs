@@ -54,6 +54,9 @@ pub struct Finding {
     /// The figure that a gate measures, for tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figure: Option<f64>,
+    /// The names of the placed types that winning does not depend on, as far as `necessity` was asked.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub idle_types: Vec<String>,
     /// The observations, in the order to report them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
@@ -73,6 +76,7 @@ impl From<Verdict> for Finding {
             searched: None,
             optimal: None,
             figure: None,
+            idle_types: Vec::new(),
             evidence: Vec::new(),
             ladder: None,
             episodes: Vec::new(),

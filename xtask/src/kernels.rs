@@ -12,6 +12,7 @@ use report::{Table, TableCell};
 use snapshots::Recipe;
 use std::fs;
 use std::path::PathBuf;
+use validators::novelty::{GameForm, NEAR, distance};
 
 /// Attempts games of each kernel under the criteria of a recipe, and counts those that are accepted and why the others fail.
 ///
@@ -27,6 +28,12 @@ pub(crate) struct Args {
     /// Kernels to attempt (default: all)
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     kernel: Vec<String>,
+    /// The only form to attempt; `plain` for kernels as such (default: all)
+    #[arg(long, value_name = "NAME")]
+    form: Option<String>,
+    /// Tell how far the rules of each form are from the nearest other form of its kernel, and attempt nothing
+    #[arg(long, conflicts_with = "form")]
+    distances: bool,
     /// Attempts at each kernel
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..))]
     attempts: u32,
@@ -34,6 +41,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TEXT", default_value = "kernels")]
     seed: String,
 }
+
+/// The name of a kernel as such among its forms.
+const PLAIN: &str = "plain";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let text = fs::read_to_string(&args.recipe).with_context(|| args.recipe.display().to_string())?;
@@ -52,17 +62,23 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("there is no kernel {strange}; the kernels are: {}", kernels.iter().join(", "));
     }
     kernels.retain(|name| args.kernel.is_empty() || args.kernel.iter().any(|wanted| wanted == name));
+    if args.distances {
+        kernels.iter().for_each(|kernel| println!("{}", distances(kernel).to_markdown()));
+        return Ok(());
+    }
     let seed = Seed::from_text(&args.seed);
     let columns = ["kernel", "made", "of", "forms made", "calls, millions", "why not"];
     let note = "The reasons count levels and games, the most frequent first.";
     let mut table = Table::new("kernels", "Games of each kernel", note, &columns);
     for kernel in kernels {
-        let attempt = |number| attempt_kernel(&order, kernel, seed, number);
+        let is_wanted =
+            |form: Option<&str>| args.form.as_deref().is_none_or(|wanted| wanted == form.unwrap_or(PLAIN));
+        let attempt = |number| attempt_kernel(&order, (kernel, &is_wanted), seed, number);
         let attempts: Vec<_> = (0..args.attempts).into_par_iter().map(attempt).collect();
         let mut tally = Tally::default();
         attempts.iter().for_each(|(_, of_attempt)| tally.add(of_attempt));
         let forms = attempts.iter().filter_map(|(made, _)| made.as_ref());
-        let forms = forms.map(|made| made.card.origin.form().unwrap_or("plain")).counts();
+        let forms = forms.map(|made| made.card.origin.form().unwrap_or(PLAIN)).counts();
         table.push(vec![
             TableCell::text(kernel),
             TableCell::Count(tally.games_accepted),
@@ -74,4 +90,26 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     println!("{}", table.to_markdown());
     Ok(())
+}
+
+/// The distances of the forms of a kernel, without and with its variants, to the nearest other.
+fn distances(kernel: &str) -> Table {
+    let built = KernelGenome::all_of(kernel).into_iter().filter_map(|genome| genome.build().ok());
+    let forms: Vec<(String, GameForm)> = built
+        .map(|built| {
+            let of_rules = |name: &&String| name.starts_with("form/") || name.starts_with("variant/");
+            let parts = built.game.patterns.iter().filter(of_rules).join(", ");
+            let name = if parts.is_empty() { PLAIN.to_owned() } else { parts };
+            (name, GameForm::of(&built.game.rules))
+        })
+        .collect();
+    let note = format!("Rules nearer than {NEAR} count as the same.");
+    let mut table = Table::new(kernel, kernel, &note, &["rules", "nearest others", "distance"]);
+    for (at, (name, form)) in forms.iter().enumerate() {
+        let others = forms.iter().enumerate().filter(|(other, _)| *other != at);
+        let apart = others.map(|(_, (name, other))| (distance(form, other), name));
+        let Some((apart, nearest)) = apart.min_by(|one, two| one.0.total_cmp(&two.0)) else { continue };
+        table.push(vec![TableCell::text(name), TableCell::text(nearest), TableCell::number(apart, 2)]);
+    }
+    table
 }

@@ -36,6 +36,8 @@ const MEAGRE: &str = "meagre";
 const SECOND_JUDGES: &str = "second judges";
 /// The reason for turning down a game that passes the gates with some dice, and with others does not.
 const FURTHER_JUDGES: &str = "further judges";
+/// The reason for turning down a game of which a type of another kernel is no part that matters.
+const IDLE_GRAFT: &str = "idle graft";
 /// The number of further judges, each with dice of its own, who put a game through the gates.
 const FURTHER: u64 = 3;
 /// The reason for turning down a game that is too much like another.
@@ -142,6 +144,13 @@ impl<'a> GameGate<'a> {
                 return None;
             }
         };
+        let mut idle = together.iter().flat_map(|judgement| &judgement.finding.idle_types);
+        if let LevelSource::Course(course) = levels.source
+            && idle.any(|stype| course.is_grafted(stype))
+        {
+            tally.game_rejected(IDLE_GRAFT);
+            return None;
+        }
         let mut spent = Tally::default();
         let holds = levels.hold(game, &found, seed.child("second judges", 0), &mut spent);
         tally.judge(SECOND_JUDGES, holds, spent.calls);

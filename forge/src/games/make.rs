@@ -112,12 +112,17 @@ pub fn make_one(
     (made, tally)
 }
 
-/// An attempt at a game of a kernel, by its number: for authors of kernels. Cost: about a second of one core. None if there is no
-/// such kernel, or the attempt fails for a reason in the tally.
-pub fn attempt_kernel(order: &GameOrder, kernel: &str, seed: Seed, number: u32) -> (Option<MadeGame>, Tally) {
+/// An attempt at a game of a kernel in one of the forms that are open, by its number: for authors of kernels. Cost: about a second of one
+/// core. None if there is no such kernel or form, or the attempt fails for a reason in the tally.
+pub fn attempt_kernel(
+    order: &GameOrder,
+    (kernel, is_open): (&str, &dyn Fn(Option<&str>) -> bool),
+    seed: Seed,
+    number: u32,
+) -> (Option<MadeGame>, Tally) {
     let maker = Maker { order, gate: GameGate::new(order, &[], ""), seed, progress: &() };
     let seed = seed.child(kernel, number.into());
-    let drawn = KernelGenome::of_kernel(kernel, |_| true, &BTreeSet::new(), seed.child("rules", 0));
+    let drawn = KernelGenome::of_kernel(kernel, is_open, &BTreeSet::new(), seed.child("rules", 0));
     let mut attempted = Attempted::default();
     if let Some(drawn) = drawn {
         maker.judge_proposed((drawn, None), number, seed, &|_| None, &mut attempted);

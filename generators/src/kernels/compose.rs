@@ -46,6 +46,8 @@ pub struct Course {
     kernel: &'static Kernel,
     values: Vec<u32>,
     grafts: Vec<&'static Graft>,
+    /// The names of the types that grafts brought.
+    grafted: Vec<String>,
     traits: Traits,
     space: Space,
     edge: Edge,
@@ -97,6 +99,11 @@ impl Course {
         };
         let asks = phrase::fill(&plan.asks, &self.nouns).map_err(GenerateError::Unsuitable)?;
         Ok(CourseLevel { text: self.text(&board), slot, asks: phrase::sentence(&asks) })
+    }
+
+    /// Tests whether a graft brought the type of this name.
+    pub fn is_grafted(&self, stype: &str) -> bool {
+        self.grafted.iter().any(|grafted| grafted == stype)
     }
 
     fn text(&self, board: &Board) -> String {
@@ -159,6 +166,7 @@ impl Choices<'_> {
                 summary.push(phrase::sentence(&fact));
             }
         }
+        let grafted = self.grafts.iter().flat_map(|graft| graft.roles.keys());
         Ok(Composed {
             title,
             summary: summary.join(" "),
@@ -167,6 +175,7 @@ impl Choices<'_> {
                 kernel: self.kernel,
                 values: self.values.to_vec(),
                 grafts: self.grafts.to_vec(),
+                grafted: grafted.filter_map(|stype| names.get(stype)).cloned().collect(),
                 traits,
                 space: self.habits.space,
                 edge,

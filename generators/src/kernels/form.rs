@@ -19,6 +19,9 @@ pub(super) struct Form {
     /// Has only the levels that name it.
     #[serde(default)]
     own_levels: bool,
+    /// Has only the facts that it names.
+    #[serde(default)]
+    own_facts: bool,
     #[serde(default)]
     facts: Vec<String>,
     #[serde(default)]
@@ -55,13 +58,14 @@ impl Form {
                 && !variant.parts().into_iter().any(names)
                 && !variant.roles.values().any(|casting| self.lacks(casting.role()))
         };
+        let of_kernel = if self.own_facts { Vec::new() } else { said(&file.facts) };
         let mut roles = file.roles.clone();
         roles.retain(|stype, _| !self.lacks(stype));
         roles.extend(self.roles.clone());
         File {
             dilemma: self.dilemma.clone().unwrap_or_else(|| file.dilemma.clone()),
             goal: self.goal.clone(),
-            facts: said(&file.facts).into_iter().chain(self.facts.clone()).collect(),
+            facts: of_kernel.into_iter().chain(self.facts.clone()).collect(),
             titles: said(&file.titles).into_iter().chain(self.titles.clone()).collect(),
             rules: self.rules(&file.rules),
             whole_rules: file.rules.clone(),

@@ -114,6 +114,25 @@ fn a_faulty_kernel_is_refused_with_its_fault() {
     check("[[level]]", &format!("{form}{form}[[level]]"), "two forms are called `other`");
 }
 
+/// Facts of the kernel may be false in a form.
+#[test]
+fn a_form_can_have_facts_of_its_own_only() {
+    let file = include_str!("../../kernels/bridges-burn-behind.toml");
+    let terminations = "SpriteCounter stype=hero limit=0 win=False";
+    let form = |own: &str| {
+        let form = format!(
+            "[[form]]\nname = \"other\"\ngoal = \"Leave\"\nfacts = [\"It rains\"]\n{own}terminations = \"{terminations}\"\n\n"
+        );
+        let text = file.replacen("[[level]]", &format!("{form}[[level]]"), 1);
+        let kernel = Kernel::read("other", &text).unwrap();
+        let other = kernel.in_all_forms().find(|kernel| kernel.form.as_deref() == Some("other"));
+        (kernel.facts.len(), other.unwrap().facts.clone())
+    };
+    let (of_kernel, facts) = form("");
+    assert!(of_kernel > 0 && facts.len() == of_kernel + 1, "{facts:?}");
+    assert_eq!(form("own_facts = true\n").1, ["It rains"]);
+}
+
 /// Drawn maps may have no room for a thing of another kernel; a game with one has levels nevertheless.
 #[test]
 fn games_with_grafts_have_a_level_in_every_slot() {

@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 
 /// A rule or a placed type, and the game without it.
 pub(super) struct Element {
-    /// Its name in sentences: `rule` or `type` with its text.
-    pub(super) name: String,
+    /// The text of the rule, or the name of the type.
+    pub(super) text: String,
     line: Option<Line>,
     /// The levels (numbers) on which it occurs: the type is placed, or a recorded episode executes the rule.
     pub(super) levels: Vec<usize>,
@@ -50,7 +50,7 @@ pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]
         levels.extend(executed.iter().filter(|(_, lines)| lines.contains(&line)).map(|(number, _)| *number));
         let written = Line::interaction(game, line);
         Element {
-            name: format!("`{}`", written.text),
+            text: written.text.clone(),
             line: Some(written),
             levels: levels.into_iter().collect(),
             without: game.without(line),
@@ -83,7 +83,7 @@ pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]
         let moves = analysis.facts(stype).motion != Motion::Still || !analysis.facts(stype).makes.is_empty();
         let without = (!levels.is_empty()).then(|| without_type(game, stype))??;
         Some(Element {
-            name: format!("`{}`", game.name(stype)),
+            text: game.name(stype).to_owned(),
             line: Line::sprite(game, game.name(stype)),
             levels,
             without,

@@ -78,6 +78,9 @@ impl GameValidator for Necessity {
         let needed = matters.iter().filter(|(matters, _)| *matters).count();
         let share = if elements.is_empty() { 1.0 } else { needed as f64 / elements.len() as f64 };
         let idle = elements.iter().zip(&matters).filter(|(_, (matters, _))| !matters);
+        let idle_types =
+            idle.clone().filter(|(element, _)| element.is_type).map(|(element, _)| element.text.clone());
+        let idle_types = idle_types.collect();
         let idle: Vec<Evidence> = idle.map(|(element, (_, why))| element.problem(why.clone())).collect();
         let text = format!("{needed} of {} rules and types change how the game is won", elements.len());
         let note = Evidence::new(text);
@@ -86,7 +89,7 @@ impl GameValidator for Necessity {
             false => finding(idle, vec![note], Some(share)),
         };
         let spent = subjects.iter().map(|subject| subject.spent.load(Ordering::Relaxed)).sum();
-        Finding { searched: Some(spent), ..found }
+        Finding { searched: Some(spent), idle_types, ..found }
     }
 }
 
@@ -112,7 +115,7 @@ impl Necessity {
         let on = subjects.iter().filter(|subject| element.levels.contains(&subject.won.number));
         let on: Vec<&Subject<'_>> = on.collect();
         if on.is_empty() {
-            return (false, format!("{} never takes part in play", element.name));
+            return (false, format!("`{}` never takes part in play", element.text));
         }
         let wanted = ((on.len() as f64 * self.0.needed_levels).ceil() as usize).max(1);
         let shown: Vec<bool> = on.iter().map(|subject| self.shows(element, subject)).collect();
@@ -126,8 +129,8 @@ impl Necessity {
             count += usize::from(self.hinders(case, element, subject));
         }
         let text = format!(
-            "winning does not depend on {}: it matters on {count} of {} levels, {wanted} wanted",
-            element.name,
+            "winning does not depend on `{}`: it matters on {count} of {} levels, {wanted} wanted",
+            element.text,
             on.len()
         );
         (count >= wanted, text)
@@ -217,8 +220,9 @@ mod tests {
         assert!(reason.0.starts_with("winning does not depend on `bead avatar > killSprite"), "{reason:?}");
         let plain = GAME.replace("    bead avatar > killSprite scoreChange=1\n", "");
         let plain = plain.replace("    b > bead\n", "").replace("    bead > Immovable\n", "");
+        assert_eq!(finding.idle_types, ["bead"]);
         let finding = judged("necessity", &plain, &[&LEVEL.replace('b', " ")], all);
         assert!(finding.verdict.is_pass(), "{finding:#?}");
-        assert_eq!(finding.figure, Some(1.0));
+        assert_eq!((finding.figure, finding.idle_types.len()), (Some(1.0), 0));
     }
 }
