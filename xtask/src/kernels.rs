@@ -73,7 +73,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for kernel in kernels {
         let is_wanted =
             |form: Option<&str>| args.form.as_deref().is_none_or(|wanted| wanted == form.unwrap_or(PLAIN));
-        let attempt = |number| attempt_kernel(&order, (kernel, &is_wanted), seed, number);
+        let attempt = |number| attempt_kernel(&order, kernel, is_wanted, seed, number);
         let attempts: Vec<_> = (0..args.attempts).into_par_iter().map(attempt).collect();
         let mut tally = Tally::default();
         attempts.iter().for_each(|(_, of_attempt)| tally.add(of_attempt));

@@ -116,7 +116,8 @@ pub fn make_one(
 /// core. None if there is no such kernel or form, or the attempt fails for a reason in the tally.
 pub fn attempt_kernel(
     order: &GameOrder,
-    (kernel, is_open): (&str, &dyn Fn(Option<&str>) -> bool),
+    kernel: &str,
+    is_open: impl Fn(Option<&str>) -> bool,
     seed: Seed,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
