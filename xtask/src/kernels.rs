@@ -10,6 +10,7 @@ use itertools::Itertools;
 use rayon::prelude::*;
 use report::{Table, TableCell};
 use snapshots::Recipe;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 use validators::novelty::{GameForm, NEAR, distance};
@@ -62,6 +63,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("there is no kernel {strange}; the kernels are: {}", kernels.iter().join(", "));
     }
     kernels.retain(|name| args.kernel.is_empty() || args.kernel.iter().any(|wanted| wanted == name));
+    if let Some(form) = &args.form {
+        let forms: BTreeSet<&str> = kernels
+            .iter()
+            .flat_map(|kernel| KernelGenome::forms(kernel))
+            .map(|form| form.unwrap_or(PLAIN))
+            .collect();
+        if !forms.contains(form.as_str()) {
+            bail!("there is no form {form}; the forms are: {}", forms.iter().join(", "));
+        }
+    }
     if args.distances {
         kernels.iter().for_each(|kernel| println!("{}", distances(kernel).to_markdown()));
         return Ok(());

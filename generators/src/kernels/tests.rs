@@ -141,7 +141,10 @@ fn games_with_grafts_have_a_level_in_every_slot() {
         let seed = Seed::from_text(&kernel.name);
         let genome = KernelGenome::in_form(kernel, &mut seed.sampler());
         let grafted = (0..8).filter_map(|number| genome.grafted(seed.child("graft", number)));
-        for KernelGame { course, .. } in grafted.filter_map(|genome| genome.build().ok()) {
+        for KernelGame { course, game } in grafted.filter_map(|genome| genome.build().ok()) {
+            let lines = game.rules.description().sprite_lines();
+            let brought = lines.iter().filter(|(_, line)| course.is_grafted(&line.name.text)).count();
+            assert!((1..lines.len()).contains(&brought), "{}: {brought} types of grafts", kernel.name);
             for slot in Slot::ALL {
                 let has_level = (0..4).any(|number| course.level(slot, seed.child("level", number)).is_ok());
                 assert!(has_level, "{} {slot:?}", kernel.name);

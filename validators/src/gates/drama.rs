@@ -1,6 +1,6 @@
 //! The `drama` gate: winning is in doubt on the way.
 
-use super::{Gates, NO_WIN, finding, without_subject, won_levels};
+use super::{Gates, NO_WIN, measured, without_subject, won_levels};
 use crate::PlayMeasures;
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameValidator};
@@ -29,10 +29,7 @@ impl GameValidator for Drama {
         let text = format!("drama is {drama:.2} on average over {} levels, {least:.2} wanted", play.levels);
         let note =
             Evidence::new(text).advise("add danger on the way to the goal, or costs that can ruin a win");
-        match drama >= least {
-            true => finding(Vec::new(), vec![note], Some(drama)),
-            false => finding(vec![note], Vec::new(), Some(drama)),
-        }
+        measured(drama >= least, note, drama)
     }
 }
 

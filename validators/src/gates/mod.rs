@@ -104,6 +104,14 @@ fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -
     Finding { figure, ..Finding::from(verdict).seen(problems).seen(notes) }
 }
 
+/// Returns the finding of a gate that says one thing, which is a problem unless the game passes.
+fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
+    match passes {
+        true => finding(Vec::new(), vec![seen], Some(figure)),
+        false => finding(vec![seen], Vec::new(), Some(figure)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::{Criteria, Finding, Gates, Panel};

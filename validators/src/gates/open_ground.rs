@@ -1,6 +1,6 @@
 //! The `open-ground` gate: levels are places to move about in, not tunnels in solid rock.
 
-use super::{Gates, finding, without_subject};
+use super::{Gates, measured, without_subject};
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
@@ -58,10 +58,7 @@ impl GameValidator for OpenGround {
         );
         let seen =
             Evidence::new(text).advise("widen corridors and alcoves: leave islands of walls in open ground");
-        match mean <= most {
-            true => finding(Vec::new(), vec![seen], Some(mean)),
-            false => finding(vec![seen], Vec::new(), Some(mean)),
-        }
+        measured(mean <= most, seen, mean)
     }
 }
 
