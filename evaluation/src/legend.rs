@@ -157,9 +157,9 @@ fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
 }
 
 /// Returns `true` for a type whose sprites move straight on, unless all of them always move in the direction that the rules
-/// name.
+/// name; and for one whose sprites stand still and are turned.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
-    let Motion::Straight(direction) = analysis.facts(stype).motion else { return false };
+    let motion = analysis.facts(stype).motion;
     let turns = |effect: &EffectSummary| match effect {
         EffectSummary::Turn => true,
         // A sprite keeps its direction when it turns into another one.
@@ -174,7 +174,13 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
         .encounters()
         .iter()
         .any(|encounter| encounter.effects.iter().any(|effect| turns(effect) && is_own(encounter, effect)));
-    direction_name(direction).is_none() || by_rules || analysis.role(stype) == Role::Shot
+    match motion {
+        Motion::Straight(direction) => {
+            direction_name(direction).is_none() || by_rules || analysis.role(stype) == Role::Shot
+        }
+        Motion::Still => by_rules,
+        _ => false,
+    }
 }
 
 /// Gives all states of the avatar the character [`AVATAR`]. The type that had it takes over a freed character.

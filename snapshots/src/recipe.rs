@@ -51,6 +51,9 @@ pub struct Recipe {
     /// New puzzles of locks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locks: Option<PuzzlePart>,
+    /// New puzzles of yards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yards: Option<PuzzlePart>,
     /// The sizes of the boards.
     #[serde(default)]
     pub board: Board,
@@ -288,8 +291,11 @@ impl Recipe {
             return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
         }
         self.tiers.check()?;
-        for (part, section) in [(&self.puzzles, PuzzleSection::PUZZLES), (&self.locks, PuzzleSection::LOCKS)]
-        {
+        for (part, section) in [
+            (&self.puzzles, PuzzleSection::PUZZLES),
+            (&self.locks, PuzzleSection::LOCKS),
+            (&self.yards, PuzzleSection::YARDS),
+        ] {
             part.as_ref().map_or(Ok(()), |part| part.check(&section, &self.tiers))?;
         }
         self.marks.as_ref().map_or(Ok(()), MarksPart::check)?;
@@ -472,9 +478,9 @@ impl Recipe {
         self.generated.games + self.puzzle_parts().map(|part| part.games).sum::<u32>()
     }
 
-    /// The puzzles, of pushed things and of locks.
+    /// The puzzles, of pushed things, of locks and of yards.
     fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
-        self.puzzles.iter().chain(&self.locks)
+        self.puzzles.iter().chain(&self.locks).chain(&self.yards)
     }
 }
 

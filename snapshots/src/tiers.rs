@@ -1,8 +1,8 @@
 //! The parts of a recipe that ask for tiers: shares of levels by what they demand, and puzzles that are made to them, of
-//! pushed things or of locks.
+//! pushed things, of locks or of yards.
 
 use crate::recipe::{RecipeError, wrong};
-use generators::games::{LockRules, PushRules};
+use generators::games::{LockRules, PushRules, YardRules};
 use serde::{Deserialize, Serialize};
 
 /// The minimum side of a puzzle.
@@ -49,11 +49,19 @@ impl PuzzleSection {
         thing_key: "locks.things",
         things: 3,
     };
+    /// Puzzles of yards.
+    pub(crate) const YARDS: PuzzleSection = PuzzleSection {
+        keys: keys!("yards"),
+        rules: YardRules::ALL.len(),
+        cells: 196,
+        thing_key: "yards.things",
+        things: 3,
+    };
 }
 
 engine::with_defaults! {
     /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
-    /// of the recipe; or, in a section of their own, games of locks.
+    /// of the recipe; or, in sections of their own, games of locks and of yards.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PuzzlePart {
@@ -65,7 +73,7 @@ engine::with_defaults! {
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The number of things to push in tiers 3 and 4: 3 to 5. Not for locks.
+        /// The number of things to push in tiers 3 and 4: 3 to 5. Not for locks and yards.
         pub things: u32 = 3,
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
@@ -186,10 +194,16 @@ mod tests {
             "at most 256 cells",
         );
         assert_eq!(Recipe::from_toml(&locks).unwrap().games(), 2);
+        let yards = locks.replace("[locks]", "[yards]");
+        check(&yards.replace("= 2", "= 5"), "`yards.games` is 5; it takes 1 to 4");
+        check(
+            &yards.replace("games = 2", "games = 2\nrows = [14, 15]\ncolumns = [14, 14]"),
+            "at most 196 cells",
+        );
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
         // Recipes that ask for neither keep their bytes.
         let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
-        assert!(["tiers", "puzzles", "locks"].iter().all(|key| plain.get(key).is_none()));
+        assert!(["tiers", "puzzles", "locks", "yards"].iter().all(|key| plain.get(key).is_none()));
     }
 }

@@ -45,6 +45,8 @@ phrases! {
     // Movement.
     MovesTo: "moves {way}, {pace}",
     MovesFirstTo: "moves {way} at first, {pace}",
+    Faces: "faces {way}",
+    FacesFirst: "faces {way} at first",
     MovesAnyWay: "moves straight in a random direction, {pace}",
     MovesAhead: "moves straight ahead, {pace}",
     Wanders: "wanders at random, {pace}",

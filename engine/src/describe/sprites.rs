@@ -38,7 +38,8 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let facts = analysis.facts(stype);
     let traits = &info.traits;
     let name = |stype: SpriteType| analysis.game().name(stype);
-    let mut parts: Vec<String> = motion(analysis, stype).into_iter().collect();
+    let mut parts: Vec<String> =
+        motion(analysis, stype).or_else(|| facing(analysis, stype)).into_iter().collect();
     if matches!(info.class, Some(SpriteClass::RandomAltChaser | SpriteClass::RandomPathAltChaser)) {
         parts.push(Phrase::Strays.with(&[("chance", &percent(traits.epsilon))]));
     }
@@ -104,6 +105,18 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
         Motion::Chasing(target) => following(chase(info.class), target),
         Motion::Fleeing(target) => following(Phrase::Flees, target),
     })
+}
+
+/// The way that a type faces which stands still, if others turn on touching it.
+fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let traits = &analysis.game().0.types[stype.index()].traits;
+    let way = direction_name(traits.orientation).filter(|_| traits.is_oriented)?;
+    let turns = |encounter: &Encounter| {
+        let is_other = encounter.second.is_some_and(|written| analysis.applies(written, stype));
+        is_other && encounter.does(|effect| *effect == EffectSummary::Turn)
+    };
+    let phrase = if is_turned(analysis, stype) { Phrase::FacesFirst } else { Phrase::Faces };
+    analysis.encounters().iter().any(turns).then(|| phrase.with(&[("way", way)]))
 }
 
 /// The words for the way in which sprites of a class chase.

@@ -179,6 +179,23 @@ fn groups_that_are_chased_are_told() {
     assert_eq!(guide.groups, ["Any lure means you or the bait."]);
 }
 
+/// Signs that turn others tell their way; other things that stand do not.
+#[test]
+fn signs_tell_where_they_point() {
+    let source = "BasicGame\n  SpriteSet\n    sign > Immovable orientation=UP\n    points > Missile speed=0 orientation=LEFT\n    \
+                  pond > Immovable orientation=UP\n    cart > Missile orientation=RIGHT\n    avatar > MovingAvatar\n  LevelMapping\n    \
+                  s > sign\n    p > points\n    o > pond\n    c > cart\n  InteractionSet\n    cart sign points > attractGaze\n    \
+                  points cart > reverseDirection\n    avatar pond > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";
+    let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
+    let expected = [
+        "The sign faces up.",
+        "The points faces left at first.",
+        "The cart moves right at first, a cell a tick.",
+        "The pond only stands there.",
+    ];
+    assert_eq!(guide.sprites, expected);
+}
+
 #[test]
 fn counters_and_their_decisions() {
     let source = "BasicGame no_counters=2\n  SpriteSet\n    key > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    k > key\n  InteractionSet\n    avatar key > stepBack counter=1,-2 counterElse=0,-1\n  TerminationSet\n    Timeout limit=9 use_counter=True compare=True\n";

@@ -232,6 +232,22 @@ fn directions_are_told_where_they_vary_and_scenery_is_not_listed() {
     assert_eq!(encoding::directions(&walk.now, &legend), ["bird: left (8,1), right (2,1)"]);
 }
 
+/// The direction of what stands still is told where it changes.
+#[test]
+fn points_tell_the_way_to_which_they_are_set() {
+    let yard = FIELD
+        .replace("soil > Immovable", "soil > Missile speed=0 orientation=UP")
+        .replace("soil avatar > killSprite", "soil avatar > reverseDirection")
+        .replace("rain soil > stepBack", "bird soil > attractGaze");
+    let levels = [(0, "wwwww\nw.A.w\nw.s.w\nw.b.w\nw.c.w\nwwwww\n".to_owned(), None)];
+    let subject = Subject::read("yard", &yard, &levels, SubjectFacts::default()).unwrap();
+    let legend = Legend::new(&subject.analysis, &LegendOptions::default());
+    let mut walk = Walk::new(&subject, 0);
+    assert_eq!(encoding::directions(&walk.now, &legend)[0], "soil: up (2,2)");
+    walk.play(Action::Down);
+    assert_eq!(encoding::directions(&walk.now, &legend)[0], "soil: down (2,2)");
+}
+
 #[test]
 fn pictures_show_the_visible_sprites() {
     let subject = game("first-ice");

@@ -53,7 +53,7 @@ pub enum LevelSource<'a> {
     Rules(&'a LevelConfig),
     /// The maps of a kernel; each place has a slot.
     Course(&'a Course),
-    /// Puzzles of pushed things or of locks; each place has a tier.
+    /// Puzzles of pushed things, locks or yards; each place has a tier.
     Puzzles(&'a PuzzleLevels),
 }
 

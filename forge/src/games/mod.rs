@@ -30,5 +30,5 @@ pub use make::{
     GameSet, GamesError, NO_RULES, Progress, Shortfall, attempt_kernel, make_archive, make_games, make_one,
 };
 pub use order::{Board, GameEffort, GameOrder};
-pub use puzzles::{Locks, PuzzleLevels};
+pub use puzzles::{PuzzleLevels, PuzzleRules};
 pub use rule_sets::RuleSets;

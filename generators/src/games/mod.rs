@@ -15,12 +15,14 @@ mod role;
 mod surface;
 mod theme;
 mod themes;
+mod yard;
 
 pub use kind::Kind;
 pub use lock::LockRules;
 pub use masked::Masked;
 pub use push::PushRules;
 pub use rethemed::Rethemed;
+pub use yard::YardRules;
 
 use engine::Game;
 

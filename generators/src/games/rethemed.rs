@@ -22,6 +22,8 @@ use std::collections::{BTreeMap, BTreeSet};
 const MAX_NAMES: usize = 4;
 /// The number of titles to draw before a plain one is used.
 const MAX_TITLES: usize = 32;
+/// The directions in which names end that are given to types of one kind.
+const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
 /// Adjectives that distinguish types if a theme has no more words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
 
@@ -50,12 +52,25 @@ impl Rethemed {
     /// [`GenerateError::Unsuitable`], whatever the seed: the game does not compile under other names (it was loaded with the
     /// reference's recovery from faults), or it uses up all characters.
     pub fn of(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
+        Rethemed::retell(game, seed, false)
+    }
+
+    /// The same for games whose compound names are made of the names of other types, and of directions: `sackPorter` and
+    /// `signUp` become `loafBaker` and `doormatUp`.
+    ///
+    /// # Errors
+    /// As [`Rethemed::of`].
+    pub fn of_compounds(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
+        Rethemed::retell(game, seed, true)
+    }
+
+    fn retell(game: &Game, seed: Seed, keeps_compounds: bool) -> Result<Rethemed, GenerateError> {
         let analysis = Analysis::of(game);
         let old = OldNames::of(game.description());
         let mut sampler = seed.child("retold", 0).sampler();
         let theme = old.theme(&mut sampler);
-        let mut casting =
-            Assigner { analysis: &analysis, theme, old: &old, sampler, assigned: BTreeMap::new() };
+        let (assigned, stems) = (BTreeMap::new(), keeps_compounds.then(BTreeMap::new));
+        let mut casting = Assigner { analysis: &analysis, theme, old: &old, sampler, assigned, stems };
         casting.lines(&game.description().sprites);
         let Assigner { mut sampler, assigned, .. } = casting;
         let named = assigned.iter().filter(|(name, _)| !RESERVED.contains(&name.as_str()));
@@ -145,6 +160,8 @@ struct Assigner<'a> {
     sampler: Sampler,
     /// By old name.
     assigned: BTreeMap<String, Assignment>,
+    /// The words of names without their directions, by old stem; `None` if compounds are named like other types.
+    stems: Option<BTreeMap<String, String>>,
 }
 
 impl Assigner<'_> {
@@ -173,13 +190,36 @@ impl Assigner<'_> {
             let words = casting::group(member).to_vec();
             return Assignment { word: self.word(words), role };
         }
+        if let Some(word) = self.compound(name, roles) {
+            return Assignment { word, role };
+        }
+        self.of_roles(roles)
+    }
+
+    /// The new name of a compound: a direction stays, and names of types that have a word get it.
+    fn compound(&mut self, name: &str, roles: &[Role]) -> Option<String> {
+        self.stems.as_ref()?;
+        if let Some((stem, way)) = DIRECTIONS.iter().find_map(|way| Some((name.strip_suffix(way)?, way))) {
+            let known = self.stems.as_ref().and_then(|stems| stems.get(stem)).cloned();
+            let word = known.unwrap_or_else(|| self.of_roles(roles).word);
+            self.stems.as_mut()?.insert(stem.to_owned(), word.clone());
+            return Some(format!("{word}{way}"));
+        }
+        let parts = spaced(name);
+        let words: Option<Vec<&str>> =
+            parts.split(' ').map(|part| Some(self.assigned.get(part)?.word.as_str())).collect();
+        let (first, rest) = words.as_deref()?.split_first().filter(|(_, rest)| !rest.is_empty())?;
+        Some(rest.iter().fold((*first).to_owned(), |name, word| name + &capital(word)))
+    }
+
+    fn of_roles(&mut self, roles: &[Role]) -> Assignment {
         for &role in roles {
             let words = self.free(self.theme.words(role));
             if !words.is_empty() {
                 return Assignment { word: (*self.sampler.choose(&words)).to_owned(), role };
             }
         }
-        Assignment { word: self.word(self.theme.words(role)), role }
+        Assignment { word: self.word(self.theme.words(roles[0])), role: roles[0] }
     }
 
     fn of_name(&self, name: &str) -> Option<SpriteType> {
@@ -208,7 +248,8 @@ impl Assigner<'_> {
     }
 
     fn is_taken(&self, word: &str) -> bool {
-        self.assigned.values().any(|assignment| assignment.word == word)
+        let mut stems = self.stems.iter().flat_map(BTreeMap::values);
+        self.assigned.values().any(|assignment| assignment.word == word) || stems.any(|stem| stem == word)
     }
 }
 
@@ -511,6 +552,29 @@ mod tests {
         // The level keeps its floor, its avatar, and a wall that has no line of its own.
         let level = rethemed.level("wwww\nwA.w\nwpsw\n");
         assert!(level.starts_with("wwww\nwA.w\nw") && !level.contains(['p', 's']), "{level}");
+    }
+
+    /// Parts of compounds are named like the types that they name, and directions stay.
+    #[test]
+    fn compounds_are_named_by_their_parts() {
+        let source = ORCHARD
+            .replace("fruit >\n", "fruitUp > Immovable\n    fruitDown > Immovable\n    fruit >\n")
+            .replace(
+                "picker > MovingAvatar",
+                "picker > MovingAvatar\n    pearPicker > MovingAvatar\n    oddPicker > MovingAvatar",
+            )
+            .replace("picker snail >", "picker pear > transformTo stype=pearPicker\n    picker snail >");
+        let game = game(&source);
+        let rethemed = Rethemed::of_compounds(&game, seed()).unwrap();
+        let twin = Game::compile(&rethemed.description).unwrap();
+        let name = |old: &str| twin.name(game.sprite_type(old).unwrap()).to_owned();
+        let both = name("pear") + &capital(&name("picker"));
+        assert_eq!(name("pearPicker"), both);
+        assert!(!name("oddPicker").contains(&capital(&name("picker"))), "{}", name("oddPicker"));
+        let [up, down] = ["fruitUp", "fruitDown"].map(name);
+        assert_eq!(up.strip_suffix("Up"), down.strip_suffix("Down"), "{up} {down}");
+        let other = Rethemed::of(&game, seed()).unwrap();
+        assert!(!syntax::print(&other.description).contains(&both));
     }
 
     /// Games with the maximum number of types and characters get a word and a character for each.

@@ -29,6 +29,7 @@ mod symmetry;
 mod variation;
 mod vault;
 mod warehouse;
+mod yards;
 
 #[cfg(test)]
 mod tests;
@@ -42,3 +43,4 @@ pub use puzzles::{PuzzleConfig, PuzzleTarget, PuzzleVariation};
 pub use search::LevelSearch;
 pub use symmetry::LevelSimilarity;
 pub use variation::LevelVariation;
+pub use yards::{YardConfig, YardLevel};

@@ -265,7 +265,8 @@ mod tests {
     fn puzzles_are_minted_to_tiers() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'tiers'\n[puzzles]\ngames = 1\nlevels = 2\n\
                     level_tries = 12\ncandidates = 1.0\ncolumns = [8, 9]\nrows = [8, 8]\n[locks]\ngames = 1\nlevels = 1\n\
-                    level_tries = 12\ncandidates = 1.0\ncolumns = [9, 9]\nrows = [8, 9]\n[tiers]\n2 = 1.0\n[criteria]\n\
+                    level_tries = 12\ncandidates = 1.0\ncolumns = [9, 9]\nrows = [8, 9]\n[yards]\ngames = 1\nlevels = 1\n\
+                    level_tries = 12\ncandidates = 1.0\ncolumns = [9, 9]\nrows = [9, 9]\n[tiers]\n2 = 1.0\n[criteria]\n\
                     ask = ['not-idle', 'not-random', 'winnable']\nbudget = 1000000\nshortest = 1.0\nmcts_plays = 1\n";
         let recipe = Recipe::from_toml(text).unwrap();
         let corpus = corpus(&[]);
@@ -277,7 +278,7 @@ mod tests {
             assert!(game.paths.iter().all(|path| !path.is_empty()), "{job:?}");
         }
         let Minted { cards, card, .. } = minted(&recipe, &corpus).unwrap();
-        assert_eq!((cards.len(), card.tiers.get("2")), (2, Some(&3)));
+        assert_eq!((cards.len(), card.tiers.get("2")), (3, Some(&4)));
         assert!(cards[0].origin.mechanics().iter().all(|name| name.starts_with("puzzle/")));
         for level in cards.iter().flat_map(|card| &card.levels) {
             let demand = level.demand.as_ref().unwrap();

@@ -15,11 +15,11 @@ use forge::Tally;
 use forge::card::Origin;
 use forge::games::Step;
 use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, Locks, MadeGame, PuzzleLevels,
+    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules,
     RuleSets, make_archive, make_one,
 };
 use forge::levels::Method;
-use generators::games::{LockRules, PushRules, Rethemed};
+use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::{Examples, LevelConfig};
 use report::canonical::canonical_digest;
 use std::sync::{Arc, OnceLock};
@@ -60,6 +60,8 @@ pub enum Job {
     Puzzle(u32),
     /// A new puzzle of locks, by its number.
     Locks(u32),
+    /// A new puzzle of yards, by its number.
+    Yards(u32),
 }
 
 /// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
@@ -75,6 +77,7 @@ const CONSTRUCTIVE: [f64; 3] = [0.6, 2.8, 3.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
 const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
+const YARDS: [f64; 3] = [30.0, 30.0, 30.0];
 /// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
 const SECOND_WINS: f64 = 1.2;
 /// The calls of a search for a win for which the costs with gates hold.
@@ -161,7 +164,9 @@ impl<'a> Plan<'a> {
                 Job::Archive(_) => (ISLAND * new, false),
                 Job::Search(_) | Job::Constructive(_) => (new, false),
                 Job::Corpus(_) => (old, false),
-                Job::Puzzle(_) | Job::Locks(_) => (self.puzzle_part(job).map_or(0, |part| part.levels), true),
+                Job::Puzzle(_) | Job::Locks(_) | Job::Yards(_) => {
+                    (self.puzzle_part(job).map_or(0, |part| part.levels), true)
+                }
             };
             f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain))
         };
@@ -170,8 +175,12 @@ impl<'a> Plan<'a> {
             Job::Search(_) => of(SEARCH, new, &self.recipe.criteria),
             Job::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
             Job::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
-            Job::Puzzle(_) | Job::Locks(_) => {
-                let each = if matches!(job, Job::Locks(_)) { LOCKS } else { PUZZLE };
+            Job::Puzzle(_) | Job::Locks(_) | Job::Yards(_) => {
+                let each = match job {
+                    Job::Yards(_) => YARDS,
+                    Job::Locks(_) => LOCKS,
+                    _ => PUZZLE,
+                };
                 of(each, self.puzzle_part(job).map_or(0, |part| part.levels), &self.recipe.criteria)
             }
         };
@@ -195,6 +204,7 @@ impl<'a> Plan<'a> {
             Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
             Job::Puzzle(number) => format!("puzzle-{number}"),
             Job::Locks(number) => format!("locks-{number}"),
+            Job::Yards(number) => format!("yards-{number}"),
         }
     }
 
@@ -217,8 +227,8 @@ impl<'a> Plan<'a> {
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
         let decisive = |part: &PuzzlePart| (part.levels, part.level_tries, part.columns, part.rows);
-        let (puzzles, locks) = (self.recipe.puzzles.as_ref(), self.recipe.locks.as_ref());
-        let (puzzles, locks) = (puzzles.map(decisive), locks.map(decisive));
+        let [puzzles, locks, yards] = [&self.recipe.puzzles, &self.recipe.locks, &self.recipe.yards]
+            .map(|part| part.as_ref().map(decisive));
         let mut decisive = serde_json::json!({
             "puzzles": puzzles,
             "tiers": self.recipe.tiers,
@@ -242,6 +252,9 @@ impl<'a> Plan<'a> {
         }
         if let Some(locks) = locks {
             decisive["locks"] = serde_json::json!(locks);
+        }
+        if let Some(yards) = yards {
+            decisive["yards"] = serde_json::json!(yards);
         }
         if self.recipe.generated.games > 0 {
             decisive["grafts"] = self.has_grafts().into();
@@ -272,31 +285,45 @@ impl<'a> Plan<'a> {
             0..all.min(rules as u32)
         };
         let pushing = all(&self.recipe.puzzles, PushRules::ALL.len()).map(Job::Puzzle);
-        pushing.chain(all(&self.recipe.locks, LockRules::ALL.len()).map(Job::Locks))
+        let locks = all(&self.recipe.locks, LockRules::ALL.len()).map(Job::Locks);
+        pushing.chain(locks).chain(all(&self.recipe.yards, YardRules::ALL.len()).map(Job::Yards))
     }
 
     /// The part of the recipe that a puzzle is of.
     fn puzzle_part(&self, job: &Job) -> Option<&PuzzlePart> {
-        if matches!(job, Job::Locks(_)) { self.recipe.locks.as_ref() } else { self.recipe.puzzles.as_ref() }
+        match job {
+            Job::Yards(_) => self.recipe.yards.as_ref(),
+            Job::Locks(_) => self.recipe.locks.as_ref(),
+            _ => self.recipe.puzzles.as_ref(),
+        }
     }
 
     /// A puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
     fn puzzle(&self, job: Job, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let Some(part) = self.puzzle_part(&job) else { return (Vec::new(), tally) };
-        let locks =
-            matches!(job, Job::Locks(_)).then(|| LockRules::ALL[number as usize % LockRules::ALL.len()]);
-        let pushing = PushRules::ALL[number as usize % PushRules::ALL.len()];
-        let (plain, name) = match locks {
-            Some(rules) => (rules.game(), rules.name()),
-            None => (pushing.game(), pushing.name()),
+        /// The rules of a number, of all that there are.
+        fn at<Rules: Copy>(all: &[Rules], number: u32) -> Rules {
+            all[number as usize % all.len()]
+        }
+        let (pushing, locks, yards) =
+            (at(&PushRules::ALL, number), at(&LockRules::ALL, number), at(&YardRules::ALL, number));
+        let (plain, name) = match job {
+            Job::Locks(_) => (locks.game(), locks.name()),
+            Job::Yards(_) => (yards.game(), yards.name()),
+            _ => (pushing.game(), pushing.name()),
         };
         let mut themes: Vec<&str> = Rethemed::themes().collect();
         self.seed.child("themes", 0).sampler().shuffle(&mut themes);
-        // Locks take theirs from the other end.
-        let at = number as usize % themes.len();
-        let theme = themes[if locks.is_some() { themes.len() - 1 - at } else { at }];
-        let fictions = (0..FICTIONS).map(|draw| Rethemed::of(&plain, seed.child("fiction", draw)));
+        // Locks take theirs from the other end, and yards after them.
+        let at = match job {
+            Job::Locks(_) => themes.len() - 1 - number as usize % themes.len(),
+            Job::Yards(_) => themes.len() - 1 - (LockRules::ALL.len() + number as usize) % themes.len(),
+            _ => number as usize % themes.len(),
+        };
+        let theme = themes[at];
+        let retell = if matches!(job, Job::Yards(_)) { Rethemed::of_compounds } else { Rethemed::of };
+        let fictions = (0..FICTIONS).map(|draw| retell(&plain, seed.child("fiction", draw)));
         let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
         let Some(retold) = retold else {
             tally.game_rejected("no fiction fits");
@@ -306,7 +333,11 @@ impl<'a> Plan<'a> {
             tally.game_rejected("the rules do not compile");
             return (Vec::new(), tally);
         };
-        let locks = locks.map(|rules| Locks::of(rules, &retold));
+        let rules = match job {
+            Job::Locks(_) => PuzzleRules::locks(locks, &retold),
+            Job::Yards(_) => PuzzleRules::yards(yards, &retold),
+            _ => PuzzleRules::Pushing,
+        };
         let candidate = Candidate {
             title: retold.title,
             description: retold.summary,
@@ -323,7 +354,7 @@ impl<'a> Plan<'a> {
         let of_tiers = Tier::ALL.into_iter().zip(apportion(part.levels, &self.recipe.tiers.shares()));
         let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
         let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
-        let puzzles = PuzzleLevels { config, tiers, locks, things: part.things as usize };
+        let puzzles = PuzzleLevels { config, tiers, rules, things: part.things as usize };
         let panel = Panel::of_candidates(&self.recipe.criteria).expect("the recipe was checked");
         let levels = Levels {
             count: part.levels,
@@ -366,7 +397,7 @@ impl<'a> Plan<'a> {
         let seed = descendant(self.seed, &steps);
         let (games, tally) = match job {
             Job::Corpus(at) => self.new_levels(at, seed),
-            Job::Puzzle(number) | Job::Locks(number) => self.puzzle(job, number, seed),
+            Job::Puzzle(number) | Job::Locks(number) | Job::Yards(number) => self.puzzle(job, number, seed),
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
             Job::Archive(number) => {
@@ -412,6 +443,7 @@ impl<'a> Plan<'a> {
             Job::Archive(number) => vec![step("archive", number)],
             Job::Puzzle(number) => vec![step("puzzle", number)],
             Job::Locks(number) => vec![step("locks", number)],
+            Job::Yards(number) => vec![step("yards", number)],
         }
     }
 

@@ -34,10 +34,12 @@ pub(super) enum Part {
     Puzzles,
     /// Puzzles of locks.
     Locks,
+    /// Puzzles of yards.
+    Yards,
 }
 
 impl Part {
-    const ALL: [Part; 4] = [Part::Corpus, Part::Generated, Part::Puzzles, Part::Locks];
+    const ALL: [Part; 5] = [Part::Corpus, Part::Generated, Part::Puzzles, Part::Locks, Part::Yards];
 
     /// The name of its section in a recipe.
     fn name(self) -> &'static str {
@@ -46,6 +48,7 @@ impl Part {
             Part::Generated => "generated",
             Part::Puzzles => "puzzles",
             Part::Locks => "locks",
+            Part::Yards => "yards",
         }
     }
 
@@ -55,6 +58,7 @@ impl Part {
             Job::Corpus(_) => Part::Corpus,
             Job::Puzzle(_) => Part::Puzzles,
             Job::Locks(_) => Part::Locks,
+            Job::Yards(_) => Part::Yards,
             Job::Archive(_) | Job::Search(_) | Job::Constructive(_) => Part::Generated,
         }
     }
@@ -67,6 +71,7 @@ impl Part {
             Part::Generated => recipe.generated.games,
             Part::Puzzles => puzzles(&recipe.puzzles),
             Part::Locks => puzzles(&recipe.locks),
+            Part::Yards => puzzles(&recipe.yards),
         };
         games as usize
     }
@@ -336,7 +341,7 @@ impl<'a> Choice<'a> {
         recipe: &'a Recipe,
         contenders: &'a [Contender],
         order: Vec<usize>,
-        asked: [(Part, usize); 4],
+        asked: [(Part, usize); 5],
     ) -> Choice<'a> {
         let mut room: BTreeMap<Part, usize> = asked.into();
         let (mut taken, mut left) = (Vec::new(), Vec::new());

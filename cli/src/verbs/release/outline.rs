@@ -46,7 +46,8 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
             count(new.levels as usize, "level")
         ));
     }
-    let puzzles = [(&recipe.puzzles, "new puzzle"), (&recipe.locks, "new lock puzzle")];
+    let puzzles =
+        [(&recipe.puzzles, "new puzzle"), (&recipe.locks, "new lock puzzle"), (&recipe.yards, "new yard")];
     let puzzles: Vec<_> =
         puzzles.into_iter().filter_map(|(part, what)| Some((part.as_ref()?, what))).collect();
     for (at, (part, what)) in puzzles.iter().enumerate() {

@@ -1,0 +1,45 @@
+//! Makes levels of yards to a target, and writes each game with its levels to a folder of its own.
+//!
+//! ```sh
+//! cargo run --release -p infinite-arcade-generators --example yards -- OUT LEVELS ACTIONS SIDE [RULES]...
+//! ```
+#![allow(clippy::print_stdout, reason = "a program")]
+
+use engine::{Seed, syntax};
+use infinite_arcade_generators::games::YardRules;
+use infinite_arcade_generators::levels::YardConfig;
+use std::fs;
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [out, levels, decisions, side, names @ ..] = &arguments[..] else {
+        return Err("OUT LEVELS ACTIONS SIDE [RULES]...".into());
+    };
+    let (levels, decisions, side): (u64, usize, usize) = (levels.parse()?, decisions.parse()?, side.parse()?);
+    for rules in YardRules::ALL {
+        let name = rules.name();
+        if !names.is_empty() && !names.contains(&name) {
+            continue;
+        }
+        let folder = Path::new(out).join(&name);
+        fs::create_dir_all(&folder)?;
+        fs::write(folder.join("game.vgdl"), syntax::print(rules.game().description()))?;
+        let config = YardConfig {
+            columns: (side, side),
+            rows: (side, side),
+            decisions: (decisions, decisions * 2),
+            ..YardConfig::default()
+        };
+        let mut made = Vec::new();
+        for number in 0..levels {
+            let Some(level) = config.level(rules, Seed::from_text("yards").child(&name, number)) else {
+                continue;
+            };
+            fs::write(folder.join(format!("lvl{}.txt", made.len())), level.text)?;
+            made.push(level.solution.len());
+        }
+        println!("{name}: {} of {levels} levels, of {made:?} actions", made.len());
+    }
+    Ok(())
+}

@@ -1,0 +1,168 @@
+//! Rules of yards: parcels are carried to depots, one at a time, between carts that follow signs, before a fuse has burnt.
+
+use engine::Game;
+use std::fmt::Write;
+
+/// The rules of a game of yards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct YardRules {
+    /// Kinds of parcels, each with a depot of its own: at most [`YardRules::KINDS`].
+    kinds: usize,
+    /// There are points: signs that turn back to front whenever a cart has followed them.
+    has_points: bool,
+    /// There are wagons: carts that take two ticks for a cell.
+    has_wagons: bool,
+    /// There are strays, which wander at random.
+    has_strays: bool,
+}
+
+const fn rules(kinds: usize, has_points: bool, has_wagons: bool, has_strays: bool) -> YardRules {
+    YardRules { kinds, has_points, has_wagons, has_strays }
+}
+
+impl YardRules {
+    /// The maximum number of kinds of parcels.
+    pub const KINDS: usize = 2;
+
+    /// All rules, no two of which are near to each other.
+    pub const ALL: [YardRules; 4] = [
+        rules(1, true, false, false),
+        rules(1, false, false, true),
+        rules(2, false, true, false),
+        rules(2, true, false, true),
+    ];
+
+    /// The characters of its levels.
+    pub const SYMBOLS: &str = ".wAuldrvhcgypqoxsnk";
+
+    /// The characters of floor, wall and avatar in levels of [`YardRules::game`].
+    pub(crate) const FLOOR: char = '.';
+    pub(crate) const WALL: char = 'w';
+    pub(crate) const AVATAR: char = 'A';
+    /// Those of signs, by way: up, left, down and right.
+    pub(crate) const SIGNS: [char; 4] = ['u', 'l', 'd', 'r'];
+    /// Those of points that turn carts up and down in turn, and right and left.
+    pub(crate) const POINTS: [char; 2] = ['v', 'h'];
+    /// Those of a cart and of a wagon, each on a sign to the right.
+    pub(crate) const CARTS: [char; 2] = ['c', 'g'];
+    /// That of a stray.
+    pub(crate) const STRAY: char = 'y';
+    /// Those of parcels and depots, by kind.
+    pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
+    pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
+    /// Those of the spark, the fuse and the keg.
+    pub(crate) const SPARK: char = 's';
+    pub(crate) const FUSE: char = 'n';
+    pub(crate) const KEG: char = 'k';
+    /// The ticks that the spark takes for a cell of fuse.
+    pub(crate) const BURN: usize = 14;
+
+    /// The number of kinds of parcels.
+    pub fn kinds(self) -> usize {
+        self.kinds
+    }
+
+    /// Returns `true` if there are points.
+    pub fn has_points(self) -> bool {
+        self.has_points
+    }
+
+    /// Returns `true` if there are wagons.
+    pub fn has_wagons(self) -> bool {
+        self.has_wagons
+    }
+
+    /// Returns `true` if there are strays, so that chance plays a part.
+    pub fn has_strays(self) -> bool {
+        self.has_strays
+    }
+
+    /// A name, such as `yards-2-points`.
+    pub fn name(self) -> String {
+        let mut name = format!("yards-{}", self.kinds);
+        name.push_str(if self.has_points { "-points" } else { "" });
+        name.push_str(if self.has_wagons { "-wagons" } else { "" });
+        name.push_str(if self.has_strays { "-strays" } else { "" });
+        name
+    }
+
+    /// The game, under plain names.
+    ///
+    /// # Panics
+    /// Never: all rules compile, as a test checks.
+    pub fn game(self) -> Game {
+        Game::from_source(&self.source()).expect("the rules compile")
+    }
+
+    fn source(self) -> String {
+        let (mut sprites, mut mapping, mut rules) = (String::new(), String::new(), String::new());
+        let (mut porters, mut goods) = (String::new(), String::new());
+        if self.has_points {
+            sprites.push_str(
+                "    points > Missile speed=0 color=LIGHTORANGE\n      risingPoints > orientation=UP\n      crossPoints > orientation=RIGHT\n",
+            );
+            let _ = writeln!(mapping, "    {} > floor risingPoints", YardRules::POINTS[0]);
+            let _ = writeln!(mapping, "    {} > floor crossPoints", YardRules::POINTS[1]);
+            rules.push_str("    cart points > attractGaze\n    points cart > reverseDirection\n");
+        }
+        for kind in 0..self.kinds {
+            let (parcel, depot) = (["parcel", "sack"][kind], ["depot", "shed"][kind]);
+            let laden = ["parcelPorter", "sackPorter"][kind];
+            let _ = writeln!(goods, "      {parcel} > color={}", ["PINK", "YELLOW"][kind]);
+            let _ = writeln!(sprites, "    {depot} > Immovable color={}", ["GREEN", "ORANGE"][kind]);
+            let _ = writeln!(porters, "        {laden} > color={}", ["LIGHTRED", "GOLD"][kind]);
+            let _ = writeln!(mapping, "    {} > floor {parcel}", YardRules::PARCELS[kind]);
+            let _ = writeln!(mapping, "    {} > floor {depot}", YardRules::DEPOTS[kind]);
+            let _ = writeln!(rules, "    porter {parcel} > transformTo stype={laden} killSecond=True");
+            let _ = writeln!(rules, "    {laden} {depot} > transformTo stype=porter scoreChange=1");
+        }
+        let mut carts = "      express >\n".to_owned();
+        let _ = writeln!(mapping, "    {} > floor signRight express", YardRules::CARTS[0]);
+        if self.has_wagons {
+            carts.push_str("      wagon > cooldown=2 color=BLUE\n");
+            let _ = writeln!(mapping, "    {} > floor signRight wagon", YardRules::CARTS[1]);
+        }
+        if self.has_strays {
+            sprites.push_str("    stray > RandomNPC cooldown=2 color=DARKGREEN\n");
+            let _ = writeln!(mapping, "    {} > floor stray", YardRules::STRAY);
+            rules.push_str("    stray wall > stepBack\n    worker stray > killSprite\n");
+        }
+        let mut signs = String::new();
+        for (way, symbol) in ["Up", "Left", "Down", "Right"].into_iter().zip(YardRules::SIGNS) {
+            let _ = writeln!(signs, "      sign{way} > orientation={}", way.to_uppercase());
+            let _ = writeln!(mapping, "    {symbol} > floor sign{way}");
+        }
+        format!(
+            "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    wall > Immovable color=GRAY\n    \
+             sign > Immovable color=LIGHTBLUE\n{signs}    goods > Immovable\n{goods}{sprites}    fuse > Immovable color=BROWN\n    keg > Immovable color=BLACK\n    \
+             spark > Missile orientation=RIGHT cooldown={burn} color=ORANGE\n    \
+             cart > Missile orientation=RIGHT color=RED\n{carts}    worker > MovingAvatar color=WHITE\n      porter >\n      carrier >\n{porters}  \
+             LevelMapping\n    {} > floor\n    {} > wall\n    {} > floor porter\n{mapping}    {} > spark\n    {} > fuse\n    {} > keg\n  \
+             InteractionSet\n    worker wall > stepBack\n    cart sign > attractGaze\n{rules}    worker cart > killSprite\n    \
+             fuse spark > killSprite\n    keg spark > killSprite\n  TerminationSet\n    SpriteCounter stype=keg limit=0 win=False\n    \
+             SpriteCounter stype=worker limit=0 win=False\n    MultiSpriteCounter stype1=goods stype2=carrier limit=0 win=True\n    \
+             Timeout limit=1000 win=False\n",
+            YardRules::FLOOR,
+            YardRules::WALL,
+            YardRules::AVATAR,
+            YardRules::SPARK,
+            YardRules::FUSE,
+            YardRules::KEG,
+            burn = YardRules::BURN,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_rules_compile() {
+        for rules in YardRules::ALL {
+            let game = rules.game();
+            assert!(game.warnings().is_empty(), "{}: {:?}", rules.name(), game.warnings());
+            assert_eq!(engine::Analysis::of(&game).is_stochastic(), rules.has_strays(), "{}", rules.name());
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Levels of yards to a target: parcels to carry past carts whose course has to be foreseen, with no time to spare.
+
+mod timetable;
+mod yard;
+
+use crate::games::YardRules;
+use crate::levels::grid::Grid;
+use engine::{Action, Seed};
+use timetable::Timetable;
+use yard::{Furniture, Sign, Yard};
+
+engine::with_defaults! {
+    /// The configuration of levels of yards.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct YardConfig {
+        /// The least and the most columns.
+        pub columns: (usize, usize) = (11, 12),
+        /// The least and the most rows, with that of the fuse.
+        pub rows: (usize, usize) = (11, 12),
+        /// The keys of a fastest win, at least and fewer than.
+        pub decisions: (usize, usize) = (50, 120),
+        /// The number of carts on a board of the usual size.
+        pub carts: usize = 9,
+        /// The number of strays, where the rules have them.
+        pub strays: usize = 4,
+        /// The share of ticks of the win at which it is deadly to stay for ten ticks, at least.
+        pub exposure: f64 = 0.4,
+        /// Yards to draw for a level, at most.
+        pub yards: u64 = 2_000,
+    }
+}
+
+/// The size of a board that has the configured number of carts, in inner cells.
+const USUAL: f64 = 80.0;
+/// The ticks of rest of [`YardConfig::exposure`].
+const WAIT: usize = 10;
+/// The ticks that are left after a fastest win, at least.
+const SPARE: usize = 2;
+/// With strays, one tick more is left for so many.
+const DETOURS: usize = 6;
+/// The most carts: prompts tell the directions of so many of a type.
+const CARTS: usize = 8;
+/// The most parcels, without strays and with them: the search for the win takes twice the time for each.
+const PARCELS: [usize; 2] = [7, 6];
+/// The times that the same tracks are furnished.
+const FURNISHED: usize = 4;
+/// The ticks that a fastest win takes, at most, as a multiple of the steps without carts.
+const DELAY: f64 = 1.5;
+
+/// A level of a yard in the characters of [`YardRules::game`], and actions that win it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct YardLevel {
+    /// The level.
+    pub text: String,
+    /// A win with the fewest ticks, if there are no strays or they keep out of its way.
+    pub solution: Vec<Action>,
+}
+
+impl YardConfig {
+    /// Makes the level of a seed: yards are drawn until one meets the target; `None` if none does. Cost: a hundredth of a
+    /// second for a yard whose carts get by each other.
+    pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
+        let mut sampler = seed.child("size", 0).sampler();
+        let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
+        let (columns, rows) = (side(self.columns), side(self.rows));
+        // The fuse has a row of its own.
+        let grid = Grid { columns, rows: rows - 1 };
+        (0..self.yards).find_map(|draw| self.draw(rules, grid, seed.child("yard", draw)))
+    }
+
+    fn draw(&self, rules: YardRules, grid: Grid, seed: Seed) -> Option<YardLevel> {
+        let furniture = self.furniture(rules, grid);
+        let mut sampler = seed.sampler();
+        let tracks = Yard::draw(rules, grid, furniture.carts, &mut sampler)?;
+        let ticks = (furniture.steps as f64 * DELAY) as usize + YardRules::BURN + WAIT;
+        let timetable = Timetable::of(&tracks, ticks)?;
+        (0..FURNISHED).find_map(|_| {
+            let mut yard = tracks.clone();
+            yard.furnish(rules, furniture, &timetable.visits, &mut sampler)?;
+            self.finish(&yard, &timetable)
+        })
+    }
+
+    /// The level of a yard, if it meets the target.
+    fn finish(&self, yard: &Yard, timetable: &Timetable) -> Option<YardLevel> {
+        // What the longest fuse allows.
+        let most = YardRules::BURN * (yard.grid.columns - 1) - SPARE;
+        let (ways, cells) = timetable.fastest(yard, most)?;
+        let decisions = ways.iter().flatten().count();
+        if !(self.decisions.0..self.decisions.1).contains(&decisions)
+            || timetable.exposure(&cells, WAIT) < self.exposure
+        {
+            return None;
+        }
+        // The keg goes with the tick that ends the last cell of the fuse.
+        let detours = if yard.strays.is_empty() { 0 } else { ways.len() / DETOURS };
+        let fuse = (ways.len() + SPARE.max(detours)).div_ceil(YardRules::BURN).min(yard.grid.columns - 1);
+        let action = |way: Option<usize>| way.map_or(Action::Nil, |way| ACTIONS[way]);
+        Some(YardLevel { text: text(yard, fuse), solution: ways.into_iter().map(action).collect() })
+    }
+
+    /// The things of a board of this size.
+    fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
+        let inner = (grid.columns - 2) * (grid.rows - 2);
+        let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;
+        // Between depots, fewer ways are made without a load.
+        let steps = self.decisions.0.max(8) * (2 + rules.kinds()) / 3;
+        // Parcels lie about as far from their depots as half of the board is around.
+        let way = grid.columns + grid.rows - 6;
+        let parcels = steps.div_ceil(way).clamp(1, PARCELS[usize::from(rules.has_strays())]);
+        let strays = if rules.has_strays() { self.strays } else { 0 };
+        Furniture { carts: carts.min(CARTS), parcels, strays, steps }
+    }
+}
+
+/// The actions of the steps up, left, down and right.
+const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
+
+fn text(yard: &Yard, fuse: usize) -> String {
+    let symbol = |cell: usize| {
+        if let Some(cart) = yard.carts.iter().find(|cart| cart.start == cell) {
+            return YardRules::CARTS[usize::from(cart.is_wagon)];
+        }
+        if let Some((_, kind)) = yard.parcels.iter().find(|(at, _)| *at == cell) {
+            return YardRules::PARCELS[*kind];
+        }
+        if yard.strays.contains(&cell) {
+            return YardRules::STRAY;
+        }
+        if let Some(kind) = yard.depots.iter().position(|&at| at == cell) {
+            return YardRules::DEPOTS[kind];
+        }
+        match yard.signs[cell] {
+            _ if cell == yard.start => YardRules::AVATAR,
+            Some(Sign::Fixed(way)) => YardRules::SIGNS[way],
+            Some(Sign::Points(way)) => YardRules::POINTS[usize::from(way != 0)],
+            None if yard.is_floor[cell] => YardRules::FLOOR,
+            None => YardRules::WALL,
+        }
+    };
+    let columns = yard.grid.columns;
+    let of_fuse = |column: usize| match column {
+        0 => YardRules::SPARK,
+        _ if column < fuse => YardRules::FUSE,
+        _ if column == fuse => YardRules::KEG,
+        _ => YardRules::WALL,
+    };
+    let first: String = (0..columns).map(of_fuse).collect();
+    let row =
+        |row: usize| -> String { (0..columns).map(|column| symbol(yard.grid.at(column, row))).collect() };
+    std::iter::once(first).chain((0..yard.grid.rows).map(row)).map(|row| row + "\n").collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::{Episode, Outcome};
+
+    /// Carts run in the game as in the timetable: the win is one, and the avatar survives to its end.
+    #[test]
+    fn levels_are_won_as_their_solutions_say() {
+        for rules in YardRules::ALL.into_iter().filter(|rules| !rules.has_strays()) {
+            let game = rules.game();
+            let config = YardConfig { decisions: (20, 50), ..YardConfig::default() };
+            let mut made = 0;
+            for number in 0..4 {
+                let seed = Seed::from_text("yards").child(&rules.name(), number);
+                let Some(level) = config.level(rules, seed) else { continue };
+                let ticks = level.solution.len();
+                let text = game.level(&level.text).unwrap_or_else(|problems| panic!("{problems}"));
+                let (mut episode, mut state) = Episode::begin(&game, &text, seed);
+                for action in level.solution {
+                    episode.play(&game, &mut state, action);
+                }
+                assert_eq!(
+                    (episode.outcome, episode.actions.len()),
+                    (Outcome::Won, ticks),
+                    "{}\n{}",
+                    rules.name(),
+                    level.text
+                );
+                made += 1;
+            }
+            assert!(made > 0, "{}", rules.name());
+        }
+    }
+}

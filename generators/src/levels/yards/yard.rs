@@ -1,0 +1,216 @@
+//! A yard: its walls, the signs that carts follow, and what stands in it.
+
+use crate::games::YardRules;
+use crate::levels::grid::{Grid, WAYS};
+use engine::Sampler;
+
+/// The index of the step to the right in [`WAYS`].
+pub(super) const RIGHT: usize = 3;
+/// The share of inner cells that are walls.
+const WALLS: f64 = 0.14;
+
+/// The visits of carts that make a cell one where they come by.
+const OFTEN: u32 = 6;
+
+/// The distance of strays from the avatar, at least.
+const AWAY: usize = 5;
+
+/// A sign that turns the carts that come to its cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sign {
+    /// Turns it this way: an index of [`WAYS`].
+    Fixed(usize),
+    /// Turns it this way first, then the opposite way, and so on.
+    Points(usize),
+}
+
+impl Sign {
+    /// The ways on which carts leave.
+    fn exits(self) -> impl Iterator<Item = usize> {
+        let (one, other) = match self {
+            Sign::Fixed(way) => (way, None),
+            Sign::Points(way) => (way, Some(opposite(way))),
+        };
+        std::iter::once(one).chain(other)
+    }
+}
+
+/// The opposite way.
+pub(super) fn opposite(way: usize) -> usize {
+    (way + 2) % WAYS.len()
+}
+
+/// A cart at its start, where a sign turns it to the right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Cart {
+    pub(super) start: usize,
+    /// It takes two ticks for a cell.
+    pub(super) is_wagon: bool,
+}
+
+/// The numbers of things of a yard.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Furniture {
+    pub(super) carts: usize,
+    pub(super) parcels: usize,
+    pub(super) strays: usize,
+    /// The sum of the ways from each parcel to its depot and back, at least, in steps.
+    pub(super) steps: usize,
+}
+
+/// A yard. Its border is wall.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Yard {
+    pub(super) grid: Grid,
+    pub(super) is_floor: Vec<bool>,
+    pub(super) signs: Vec<Option<Sign>>,
+    pub(super) carts: Vec<Cart>,
+    /// The cell of the avatar.
+    pub(super) start: usize,
+    /// Cells and kinds.
+    pub(super) parcels: Vec<(usize, usize)>,
+    /// By kind.
+    pub(super) depots: Vec<usize>,
+    /// The cells of strays.
+    pub(super) strays: Vec<usize>,
+}
+
+impl Yard {
+    /// Draws a yard whose carts never come to a wall, with nothing else in it; `None` if the draw fails.
+    pub(super) fn draw(rules: YardRules, grid: Grid, carts: usize, sampler: &mut Sampler) -> Option<Yard> {
+        let mut yard = Yard {
+            grid,
+            is_floor: (0..grid.len()).map(|cell| !grid.on_border(cell)).collect(),
+            signs: vec![None; grid.len()],
+            carts: Vec::new(),
+            start: 0,
+            parcels: Vec::new(),
+            depots: Vec::new(),
+            strays: Vec::new(),
+        };
+        yard.wall_off(sampler);
+        yard.lay_tracks(rules, carts, sampler)?;
+        Some(yard)
+    }
+
+    fn floor(&self) -> Vec<usize> {
+        (0..self.grid.len()).filter(|&cell| self.is_floor[cell]).collect()
+    }
+
+    /// Makes some floor wall; what is left stays connected.
+    fn wall_off(&mut self, sampler: &mut Sampler) {
+        let mut inner = self.floor();
+        sampler.shuffle(&mut inner);
+        let walls = (inner.len() as f64 * WALLS).round() as usize;
+        for &cell in inner.iter().take(walls) {
+            if !self.grid.is_cut(cell, |next| self.is_floor[next]) {
+                self.is_floor[cell] = false;
+            }
+        }
+    }
+
+    /// The cells ahead of one, up to a wall.
+    fn ahead(&self, cell: usize, way: usize) -> Vec<usize> {
+        let mut cells = Vec::new();
+        let mut at = cell;
+        while let Some(next) = self.grid.shift(at, WAYS[way]).filter(|&next| self.is_floor[next]) {
+            cells.push(next);
+            at = next;
+        }
+        cells
+    }
+
+    /// Lays signs so that each way out of a sign leads to a sign.
+    fn lay_tracks(&mut self, rules: YardRules, carts: usize, sampler: &mut Sampler) -> Option<()> {
+        let most = 3 * carts + 4;
+        let mut floor = self.floor();
+        sampler.shuffle(&mut floor);
+        let mut open = Vec::new();
+        for cell in floor {
+            if self.carts.len() == carts {
+                break;
+            }
+            if self.ahead(cell, RIGHT).len() >= 2 {
+                self.signs[cell] = Some(Sign::Fixed(RIGHT));
+                let is_wagon = rules.has_wagons() && self.carts.len() % 3 == 2;
+                self.carts.push(Cart { start: cell, is_wagon });
+                open.push((cell, RIGHT));
+            }
+        }
+        let mut laid = self.carts.len();
+        while let Some((cell, way)) = open.pop() {
+            let ahead = self.ahead(cell, way);
+            if ahead.iter().any(|&next| self.signs[next].is_some()) {
+                continue;
+            }
+            if laid == most || ahead.is_empty() {
+                return None;
+            }
+            let at = ahead[sampler.between(ahead.len().min(2), ahead.len()) - 1];
+            let sign = self.sign(rules, at, way, sampler)?;
+            self.signs[at] = Some(sign);
+            laid += 1;
+            open.extend(sign.exits().map(|exit| (at, exit)));
+        }
+        (self.carts.len() == carts).then_some(())
+    }
+
+    /// Draws a sign for carts that come this way, rather one that leads to signs that are there.
+    fn sign(&self, rules: YardRules, cell: usize, way: usize, sampler: &mut Sampler) -> Option<Sign> {
+        let fixed = (0..WAYS.len()).filter(|&exit| exit != way).map(Sign::Fixed);
+        let points = rules.has_points().then_some([Sign::Points(0), Sign::Points(RIGHT)]);
+        let signs: Vec<Sign> = fixed.chain(points.into_iter().flatten()).collect();
+        let weight = |sign: &Sign| {
+            let ways: Vec<Vec<usize>> = sign.exits().map(|exit| self.ahead(cell, exit)).collect();
+            if ways.iter().any(Vec::is_empty) {
+                return 0;
+            }
+            let leads = |ahead: &Vec<usize>| ahead.iter().any(|&next| self.signs[next].is_some());
+            let closed = ways.iter().filter(|ahead| leads(ahead)).count() as u32;
+            let base = match sign {
+                Sign::Fixed(exit) if *exit == opposite(way) => 1,
+                Sign::Fixed(_) => 4,
+                Sign::Points(_) => 9,
+            };
+            base * (1 + 3 * closed)
+        };
+        let weights: Vec<u32> = signs.iter().map(weight).collect();
+        Some(signs[sampler.weighted(&weights)?])
+    }
+
+    /// Places depots, parcels far from them, and the avatar, where carts come by. `visits` are those of carts, by cell.
+    pub(super) fn furnish(
+        &mut self,
+        rules: YardRules,
+        furniture: Furniture,
+        visits: &[u32],
+        sampler: &mut Sampler,
+    ) -> Option<()> {
+        let mut free: Vec<usize> =
+            self.floor().into_iter().filter(|&cell| self.signs[cell].is_none()).collect();
+        sampler.shuffle(&mut free);
+        free.sort_by_key(|&cell| visits[cell] < OFTEN);
+        for _ in 0..rules.kinds() {
+            // Of a few draws the one that is farthest from the middle.
+            let middle = self.grid.at(self.grid.columns / 2, self.grid.rows / 2);
+            let far = (0..free.len().min(4)).max_by_key(|&at| self.grid.manhattan(middle, free[at]))?;
+            self.depots.push(free.remove(far));
+        }
+        self.start = free.pop()?;
+        let mut missing = furniture.steps;
+        for number in 0..furniture.parcels {
+            let kind = number % rules.kinds();
+            let steps = self.grid.flood(&[self.depots[kind]], |cell| self.is_floor[cell]);
+            // The mean that is missing, or a little more.
+            let mean = missing.div_ceil(2 * (furniture.parcels - number)) as u32;
+            let fits = |cell: &usize| (mean..mean + 3).contains(&steps[*cell]);
+            let at = free.iter().position(fits)?;
+            let cell = free.remove(at);
+            missing = missing.saturating_sub(2 * steps[cell] as usize);
+            self.parcels.push((cell, kind));
+        }
+        let is_away = |cell: &usize| self.grid.manhattan(self.start, *cell) >= AWAY;
+        self.strays = free.into_iter().filter(is_away).take(furniture.strays).collect();
+        (self.strays.len() == furniture.strays).then_some(())
+    }
+}
