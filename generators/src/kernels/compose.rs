@@ -254,6 +254,7 @@ impl Choices<'_> {
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
         let mut palette = Palette {
             scene: self.scene,
+            hero: self.habits.hero,
             taken: vec![self.scene.floor_color.clone(), self.scene.wall_color.clone()],
             given: BTreeMap::new(),
         };
@@ -326,6 +327,7 @@ impl Choices<'_> {
 /// The colours that types have got.
 struct Palette {
     scene: &'static Scene,
+    hero: &'static str,
     taken: Vec<String>,
     /// By type, or by the role of which a type is a state.
     given: BTreeMap<String, String>,
@@ -354,7 +356,10 @@ impl Palette {
     }
 
     fn draw(&mut self, name: &str, role: &str) -> String {
-        let color = super::vocabulary::color(role, &self.taken).to_owned();
+        let is_free = !self.taken.iter().any(|taken| taken == self.hero);
+        let color =
+            if role == "hero" && is_free { self.hero } else { super::vocabulary::color(role, &self.taken) };
+        let color = color.to_owned();
         self.taken.push(color.clone());
         self.given.insert(name.to_owned(), color.clone());
         color

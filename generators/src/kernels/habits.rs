@@ -13,6 +13,8 @@ pub(crate) struct Habits {
     pub(crate) unit: u32,
     pub(crate) edge: Edge,
     pub(crate) space: Space,
+    /// The player's colour, unless the floor or the walls have it.
+    pub(crate) hero: &'static str,
 }
 
 /// The points of a game.
@@ -33,6 +35,8 @@ pub(crate) enum Edge {
     Screen,
 }
 
+/// The colours of players; that of most is green.
+const HEROES: [&str; 6] = ["GREEN", "GREEN", "BLUE", "YELLOW", "WHITE", "PINK"];
 /// The classes of types that stay where they are.
 pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
 /// The effects of walls after which a sprite is on the screen again, or gone.
@@ -48,7 +52,8 @@ impl Habits {
         let points = *of("score").choose(&[Points::Written, Points::Gains]);
         let unit = *of("unit").choose(&[1, 1, 1, 2, 5, 10]);
         let edge = if of("edge").ratio(1, 4) { Edge::Screen } else { Edge::Walls };
-        Habits { points, unit, edge, space: Space::draw(&mut of("space")) }
+        let hero = of("hero").choose(&HEROES);
+        Habits { points, unit, edge, space: Space::draw(&mut of("space")), hero }
     }
 
     /// Changes rules to these habits, and returns the edge that the levels have.
@@ -145,7 +150,7 @@ mod tests {
     const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    plum > Immovable\n    foe >\n      cat > Chaser stype=hero\n      dog > Chaser stype=plum\n    hero > ShootAvatar stype=shot\n    shot > Missile\n  LevelMapping\n    p > plum\n  InteractionSet\n    hero wall cat > stepBack\n    foe wall > stepBack\n    shot wall > killSprite\n    plum hero > killSprite scoreChange=2\n    hero foe > killSprite scoreChange=-1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n";
 
     fn habits(points: Points, unit: u32, edge: Edge) -> Habits {
-        Habits { points, unit, edge, space: Space::default() }
+        Habits { points, unit, edge, space: Space::default(), hero: HEROES[0] }
     }
 
     fn applied(source: &str, habits: Habits) -> (String, Edge) {
