@@ -113,8 +113,12 @@ fn marks_of_a_sealed_release_are_withheld() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     let recipe = |commitment: &str| {
-        let sealed = RECIPE.replace("seed = 'lamps'", &format!("commitment = '{commitment}'"));
-        fs::write(folder.join("sealed.toml"), sealed + MARKS).unwrap();
+        let sealed = RECIPE
+            .replace("seed = 'lamps'", &format!("commitment = '{commitment}'"))
+            .replace("games = 2\nlevels = 2", "games = 1\nlevels = 1");
+        let marks =
+            "[marks]\nplayers = ['random', 'nearest-goal']\ncommits = ['1']\nplays = 1\nmax_steps = 100\n";
+        fs::write(folder.join("sealed.toml"), sealed + marks).unwrap();
     };
     recipe(&"0".repeat(64));
     let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);

@@ -1,6 +1,6 @@
 //! Sealed releases: the public part reveals no secret, and the revealed part matches the commitment.
 
-use crate::arcade::{copy_tree, files, run, text};
+use crate::arcade::{copy_tree, files, run, sweeping, text};
 use engine::Digest;
 use snapshots::Secret;
 use std::fs;
@@ -326,7 +326,9 @@ fn coins_follow_from_the_beacon_too() {
         let held = files(&folder.join(&held)).into_keys().filter(|name| name != "secret.json").count();
         assert!(held > 0, "something is withheld");
         run(folder, &["verify", &revealed], 0);
-        run(folder, &["regenerate", &revealed], 0);
+        if name == "two" || sweeping() {
+            run(folder, &["regenerate", &revealed], 0);
+        }
         let manifest = fs::read(folder.join(revealed).join("MANIFEST.json")).unwrap();
         let manifest: serde_json::Value = serde_json::from_slice(&manifest).unwrap();
         assert_eq!(manifest["recipe"]["beacon"]["value"], value);

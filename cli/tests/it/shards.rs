@@ -38,8 +38,11 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     // The proposed command can be pasted into a shell.
     assert!(text(&output.stdout).contains("arcade verify 'all merged'"), "{}", text(&output.stdout));
     fs::rename(folder.join("all merged"), folder.join("merged")).unwrap();
+    // The same bytes, so what is true of a release in one piece (`release.rs`) is true of it: it regenerates.
     assert_eq!(files(&whole), files(&folder.join("merged")));
-    run(folder, &["regenerate", "merged"], 0);
+    if sweeping() {
+        run(folder, &["regenerate", "merged"], 0);
+    }
 
     let said = |arguments: &[&str]| text(&run(folder, arguments, 2).stderr);
     assert!(said(&["merge", "shard1", "shard3", "--out", "x"]).contains("shards are missing: 2/3"));
