@@ -30,6 +30,8 @@ engine::with_defaults! {
     }
 }
 
+/// The least side of a board, with the row of the fuse: below it there is no room for tracks.
+const LEAST_SIDE: usize = 6;
 /// The size of a board that has the configured number of carts, in inner cells.
 const USUAL: f64 = 80.0;
 /// The ticks of rest of [`YardConfig::exposure`].
@@ -57,12 +59,15 @@ pub struct YardLevel {
 }
 
 impl YardConfig {
-    /// Makes the level of a seed: yards are drawn until one meets the target; `None` if none does. Cost: a hundredth of a
-    /// second for a yard whose carts get by each other.
+    /// Makes the level of a seed: yards are drawn until one meets the target; `None` if none does, or if a side has fewer than
+    /// 6 cells. Cost: a hundredth of a second for a yard whose carts get by each other.
     pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
         let (columns, rows) = (side(self.columns), side(self.rows));
+        if columns.min(rows) < LEAST_SIDE {
+            return None;
+        }
         // The fuse has a row of its own.
         let grid = Grid { columns, rows: rows - 1 };
         (0..self.yards).find_map(|draw| self.draw(rules, grid, seed.child("yard", draw)))
@@ -155,6 +160,14 @@ fn text(yard: &Yard, fuse: usize) -> String {
 mod tests {
     use super::*;
     use engine::{Episode, Outcome};
+
+    #[test]
+    fn boards_without_room_have_no_level() {
+        let small = YardConfig { columns: (0, 5), rows: (0, 5), ..YardConfig::default() };
+        assert_eq!(small.level(YardRules::ALL[0], Seed::from_text("small")), None);
+        let tight = YardConfig { columns: (6, 6), rows: (6, 6), yards: 20, ..YardConfig::default() };
+        assert_eq!(tight.level(YardRules::ALL[0], Seed::from_text("tight")), None);
+    }
 
     /// Carts run in the game as in the timetable: the win is one, and the avatar survives to its end.
     #[test]
