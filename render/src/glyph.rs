@@ -86,6 +86,7 @@ glyphs! {
     Cover, "sandbags", "stops shots", STONE, "▒▒", "HH", ground::cover;
     Refuge, "a bush", "stops enemies, not you", GREEN, "♣♣", "\"\"", ground::refuge;
     Conveyor, "chevrons", "carries what stands on it", STONE, "»»", ">>", ground::conveyor;
+    Sign, "an arrow", "turns what comes to it", STONE, "→ ", "->", things::sign;
     Spring, "a tile with a plus", "gives while you are on it", SKY, "++", "++", ground::spring;
     Floor, "a plain tile", "nothing happens on it", GRID, "  ", "  ", ground::floor;
     Neutral, "a pebble", "none of these", STONE, "▪ ", ", ", things::neutral;
@@ -141,6 +142,7 @@ impl Glyph {
             Role::Refuge => Glyph::Refuge,
             Role::Floor if is_thing(analysis, stype) => neutral(analysis.game().class(stype)),
             Role::Floor => Glyph::Floor,
+            Role::Neutral if analysis.sign(stype).is_some() => Glyph::Sign,
             Role::Neutral if still => neutral(analysis.game().class(stype)),
             Role::Neutral if matches!(facts.motion, Motion::Straight(_)) => Glyph::Raft,
             Role::Neutral => Glyph::Friend,
@@ -159,7 +161,7 @@ impl Glyph {
     /// Returns `true` if the tile turns with the sprite's orientation.
     pub(crate) fn turns(self) -> bool {
         use Glyph as G;
-        matches!(self, G::Craft | G::Charger | G::HostileShot | G::Bolt | G::Blade | G::Conveyor)
+        matches!(self, G::Craft | G::Charger | G::HostileShot | G::Bolt | G::Blade | G::Conveyor | G::Sign)
     }
 
     /// Returns `true` if the tile fills its cell: neighbours join, and other sprites of the cell are drawn over it.

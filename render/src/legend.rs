@@ -60,7 +60,12 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, style: &Style, top: u32
     picture.rect(Place { x: 0.0, y: top as f32, w: width as f32, h }, GROUND);
     for (entry, at) in entries.iter().zip(0u32..) {
         let (x, y) = ((at % columns * step + GAP) as f32, (top + GAP + at / columns * (side + GAP)) as f32);
-        picture.sprite(Place { x, y, w: side as f32, h: side as f32 }, entry.name, entry.look, None);
+        picture.sprite(
+            Place { x, y, w: side as f32, h: side as f32 },
+            entry.name,
+            entry.look,
+            looks.front(entry.stype),
+        );
         let left = x + (side + GAP) as f32;
         let room = step.saturating_sub(side + 2 * GAP) as f32;
         let fitting = |text, size: f32| shortened(text, (room / (size * ADVANCE)) as usize);

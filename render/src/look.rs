@@ -1,9 +1,11 @@
 //! The looks of the sprite types of one game.
 
+use crate::board::unit;
 use crate::colour::{Colour, INK, PAPER};
 use crate::figure::{Form, Hint, Mood};
 use crate::glyph::Glyph;
 use crate::prospects::{Prospects, meaning};
+use crate::shape::Point;
 use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 use std::collections::BTreeMap;
@@ -75,6 +77,8 @@ pub struct Looks {
     prospects: Prospects,
     /// The floor of a composed game.
     floor: Option<SpriteType>,
+    /// By type: the direction of a sign as the rules have it.
+    fronts: Vec<Option<Point>>,
 }
 
 impl Looks {
@@ -132,7 +136,9 @@ impl Looks {
         let prospects = Prospects::of(analysis);
         let is_floor = |(_, img): &(&SpriteType, &String)| Hint::of(img).role == Some("floor");
         let floor = pictures.iter().find(is_floor).map(|(&stype, _)| stype);
-        Looks { game: game.clone(), looks, visible, shown, holdings, meanings, prospects, floor }
+        let front = |stype| analysis.sign(stype).and_then(|way| unit((way.x, way.y)));
+        let fronts = game.sprite_types().map(front).collect();
+        Looks { game: game.clone(), looks, visible, shown, holdings, meanings, prospects, floor, fronts }
     }
 
     /// Returns the game that they belong to.
@@ -153,6 +159,11 @@ impl Looks {
     /// Returns the floor of a composed game: its levels leave it out where it would not be seen.
     pub(crate) fn floor(&self) -> Option<SpriteType> {
         self.floor
+    }
+
+    /// Returns the direction of a sign as the rules have it: its sprites may be turned.
+    pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
+        self.fronts[stype.index()]
     }
 
     pub(crate) fn prospects(&self) -> &Prospects {

@@ -5,10 +5,10 @@ use crate::error::RenderError;
 use crate::glyph::Glyph;
 use crate::look::Looks;
 use crate::picture::{Picture, Place};
-use engine::Observation;
+use engine::{MoverView, Observation};
 
 /// Draws an observation with no more information than it holds: sprites fill the cells that they overlap, and only
-/// the avatar's front shows; the avatar is drawn once, in the cell of its middle. The caption of the style is left
+/// the fronts of the avatar and of signs show; the avatar is drawn once, in the cell of its middle. The caption of the style is left
 /// out. Cost: O(cells).
 ///
 /// # Errors
@@ -37,8 +37,17 @@ pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Resu
                 let place = if covered && !ground { over(place) } else { place };
                 covered |= !ground;
                 let turns = look.glyph.turns() || look.glyph == Glyph::Avatar;
-                let front = own.filter(|avatar| turns && avatar.name == *name);
-                let front = front.and_then(|avatar| unit((avatar.facing.x, avatar.facing.y)));
+                let is_here =
+                    |mover: &&MoverView| mover.name == *name && (mover.column, mover.row) == (column, row);
+                let front = match own.filter(|avatar| turns && avatar.name == *name) {
+                    Some(avatar) => unit((avatar.facing.x, avatar.facing.y)),
+                    // Signs that are turned are among the movers.
+                    None if look.glyph == Glyph::Sign => {
+                        let set = observation.movers.iter().find(is_here);
+                        set.map_or(looks.front(stype), |mover| unit((mover.facing.x, mover.facing.y)))
+                    }
+                    None => None,
+                };
                 picture.sprite(place, name, look, front);
             }
         }

@@ -163,9 +163,12 @@ impl Picture {
     }
 }
 
-/// Returns the tile of a sprite type, facing nowhere: for legends and palettes.
+/// Returns the tile of a sprite type, facing nowhere unless it is a sign: for legends and palettes.
 pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
-    Tile { shapes: art::tile(looks.look(stype), None), name: Some(looks.game().name(stype).to_owned()) }
+    Tile {
+        shapes: art::tile(looks.look(stype), looks.front(stype)),
+        name: Some(looks.game().name(stype).to_owned()),
+    }
 }
 
 /// Returns the width of a line of text, in pixels.

@@ -314,3 +314,38 @@ fn the_page_names_every_form() {
         assert!(page.contains(&row), "docs/rendering.md has no row `{row}`");
     }
 }
+
+/// A sign and a set of points beside it: both show their way, on boards and in observations, and points that were turned
+/// show the new one.
+#[test]
+fn signs_point_as_they_are_set() {
+    let source = |ways: [&str; 2]| {
+        format!(
+            "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    sign > Immovable orientation={} color=RED\n    points > Missile speed=0 orientation={} \
+             color=BLUE\n    cart > Missile orientation=RIGHT\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    s > sign\n    p > points\n    \
+             c > cart\n  InteractionSet\n    cart sign points > attractGaze\n    points avatar > reverseDirection\n    \
+             avatar cart > killSprite\n  TerminationSet\n    Timeout limit=9 win=True\n",
+            ways[0], ways[1]
+        )
+    };
+    let drawn = |ways: [&str; 2], actions: [Action; 2]| {
+        let game = Game::from_source(&source(ways)).unwrap();
+        let level = game.level("Ap..\n...s\nc...\n").unwrap();
+        let mut state = game.start(&level, Seed::from_text("signs"));
+        let looks = Looks::of(&Analysis::of(&game));
+        for action in actions {
+            game.step(&mut state, action);
+        }
+        let board = render::svg(&render::picture(&looks, &state, &Style::bare(16)).unwrap());
+        let seen = render::svg(&render::observed(&looks, &game.observe(&state), &Style::bare(16)).unwrap());
+        (board, seen)
+    };
+    let (board, seen) = drawn(["UP", "LEFT"], [Action::Nil; 2]);
+    for ways in [["DOWN", "LEFT"], ["UP", "RIGHT"]] {
+        let (other, other_seen) = drawn(ways, [Action::Nil; 2]);
+        assert!(board != other && seen != other_seen, "{ways:?}");
+    }
+    // On the points and away again, so that nothing covers them.
+    let turned = drawn(["UP", "LEFT"], [Action::Right, Action::Left]);
+    assert_eq!(turned, drawn(["UP", "RIGHT"], [Action::Nil; 2]));
+}

@@ -149,6 +149,19 @@ impl Analysis {
         })
     }
 
+    /// Returns the direction, of unit length, of a sign: a type that stands still and faces somewhere, and on touching which others turn.
+    /// Rules may turn its sprites too. Cost: O(encounters).
+    pub fn sign(&self, stype: SpriteType) -> Option<Direction> {
+        let traits = &self.game.0.types[stype.index()].traits;
+        let faces = traits.is_oriented && traits.orientation != Direction::NONE;
+        let turns = |encounter: &Encounter| {
+            let is_other = encounter.second.is_some_and(|written| self.applies(written, stype));
+            is_other && encounter.does(|effect| *effect == EffectSummary::Turn)
+        };
+        let is_sign = faces && self.facts(stype).motion == Motion::Still && self.encounters.iter().any(turns);
+        is_sign.then_some(traits.orientation)
+    }
+
     /// Returns the interactions of a sprite with the edge of the screen. Cost: O(encounters).
     pub fn at_edge(&self, stype: SpriteType) -> impl Iterator<Item = &Encounter> {
         self.encounters

@@ -107,16 +107,11 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// The way that a type faces which stands still, if others turn on touching it.
+/// The way that a sign faces.
 fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let traits = &analysis.game().0.types[stype.index()].traits;
-    let way = direction_name(traits.orientation).filter(|_| traits.is_oriented)?;
-    let turns = |encounter: &Encounter| {
-        let is_other = encounter.second.is_some_and(|written| analysis.applies(written, stype));
-        is_other && encounter.does(|effect| *effect == EffectSummary::Turn)
-    };
+    let way = direction_name(analysis.sign(stype)?)?;
     let phrase = if is_turned(analysis, stype) { Phrase::FacesFirst } else { Phrase::Faces };
-    analysis.encounters().iter().any(turns).then(|| phrase.with(&[("way", way)]))
+    Some(phrase.with(&[("way", way)]))
 }
 
 /// The words for the way in which sprites of a class chase.

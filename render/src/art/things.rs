@@ -135,6 +135,12 @@ pub(crate) fn gem(art: &mut Art) {
     art.fill(Outline::star(0.34, 0.32, 4, 0.11, 0.04), PAPER);
 }
 
+pub(crate) fn sign(art: &mut Art) {
+    let main = art.main();
+    let arrow = [[0.08, 0.38], [0.5, 0.38], [0.5, 0.16], [0.92, 0.5], [0.5, 0.84], [0.5, 0.62], [0.08, 0.62]];
+    art.solid(Outline::polygon(&arrow), main);
+}
+
 pub(crate) fn neutral(art: &mut Art) {
     let main = art.main();
     let pebble =
