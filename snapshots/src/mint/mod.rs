@@ -10,6 +10,7 @@ mod folder;
 mod job;
 mod job_store;
 mod plan;
+mod puzzles;
 mod select;
 mod shard;
 
@@ -25,6 +26,7 @@ use forge::card::Card;
 pub use job::{FrozenGame, JobResult};
 pub use job_store::{JobFolder, JobStore, Memory};
 pub use plan::{Job, Plan};
+pub use puzzles::PuzzleKind;
 use rayon::prelude::*;
 pub use select::Bin;
 use select::{Contender, Part, select};

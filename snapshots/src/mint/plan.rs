@@ -2,6 +2,7 @@
 
 use super::MintError;
 use super::job::{FrozenGame, JobResult};
+use super::puzzles::PuzzleKind;
 use crate::corpus::Corpus;
 use crate::marks::{MarkPlayers, MarksPart};
 use crate::memory;
@@ -15,16 +16,16 @@ use forge::Tally;
 use forge::card::Origin;
 use forge::games::Step;
 use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules,
-    RuleSets, make_archive, make_one,
+    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, RuleSets, make_archive,
+    make_one,
 };
 use forge::levels::Method;
-use generators::games::{LockRules, PushRules, Rethemed, YardRules};
+use generators::games::Rethemed;
 use generators::levels::{Examples, LevelConfig};
 use report::canonical::canonical_digest;
 use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
-use validators::{Criteria, GATES, Panel, Tier};
+use validators::{Criteria, GATES, Panel};
 
 /// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
@@ -56,12 +57,8 @@ pub enum Job {
     Constructive(u32),
     /// New levels for a corpus game, by its place in the corpus.
     Corpus(usize),
-    /// A new puzzle of pushed things, by its number.
-    Puzzle(u32),
-    /// A new puzzle of locks, by its number.
-    Locks(u32),
-    /// A new puzzle of yards, by its number.
-    Yards(u32),
+    /// A new puzzle, by its kind and its number among them.
+    Puzzle(PuzzleKind, u32),
 }
 
 /// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
@@ -69,21 +66,16 @@ pub enum Job {
 const ISLAND: u32 = 4;
 
 /// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
-/// `starter`, with both as in `medium` and `2026-12`; that of puzzles as in `frontier`, to the highest tiers. Those of archives and searches
-/// without `skill` are guesses.
+/// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
+/// `skill` are guesses.
 const ARCHIVE: [f64; 3] = [0.1, 3.0, 3.0];
 const SEARCH: [f64; 3] = [0.1, 4.5, 4.5];
 const CONSTRUCTIVE: [f64; 3] = [0.6, 2.8, 3.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
-const PUZZLE: [f64; 3] = [35.0, 35.0, 35.0];
-const LOCKS: [f64; 3] = [20.0, 20.0, 20.0];
-const YARDS: [f64; 3] = [30.0, 30.0, 30.0];
 /// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
 const SECOND_WINS: f64 = 1.2;
 /// The calls of a search for a win for which the costs with gates hold.
 const GATED_BUDGET: f64 = 1e6;
-/// The maximum number of fictions to draw for a puzzle, to find one of its theme.
-const FICTIONS: u64 = 400;
 
 impl<'a> Plan<'a> {
     /// Makes the plan of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of
@@ -159,14 +151,13 @@ impl<'a> Plan<'a> {
             f64::from(levels) * (base * share * thought + (skill - base) * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
+        let puzzle_levels = |kind: PuzzleKind| kind.part(self.recipe).map_or(0, |part| part.levels);
         let marks = |job: &Job| {
             let (levels, is_certain) = match *job {
                 Job::Archive(_) => (ISLAND * new, false),
                 Job::Search(_) | Job::Constructive(_) => (new, false),
                 Job::Corpus(_) => (old, false),
-                Job::Puzzle(_) | Job::Locks(_) | Job::Yards(_) => {
-                    (self.puzzle_part(job).map_or(0, |part| part.levels), true)
-                }
+                Job::Puzzle(kind, _) => (puzzle_levels(kind), true),
             };
             f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain))
         };
@@ -175,14 +166,7 @@ impl<'a> Plan<'a> {
             Job::Search(_) => of(SEARCH, new, &self.recipe.criteria),
             Job::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
             Job::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
-            Job::Puzzle(_) | Job::Locks(_) | Job::Yards(_) => {
-                let each = match job {
-                    Job::Yards(_) => YARDS,
-                    Job::Locks(_) => LOCKS,
-                    _ => PUZZLE,
-                };
-                of(each, self.puzzle_part(job).map_or(0, |part| part.levels), &self.recipe.criteria)
-            }
+            Job::Puzzle(kind, _) => of([kind.seconds(); 3], puzzle_levels(kind), &self.recipe.criteria),
         };
         let tossed = if self.recipe.memory.is_some_and(|part| part.witnesses) { SECOND_WINS } else { 1.0 };
         jobs.iter().map(|job| tossed * cost(job) + marks(job)).sum()
@@ -202,9 +186,7 @@ impl<'a> Plan<'a> {
             Job::Search(number) => format!("search-{number}"),
             Job::Constructive(number) => format!("constructive-{number}"),
             Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
-            Job::Puzzle(number) => format!("puzzle-{number}"),
-            Job::Locks(number) => format!("locks-{number}"),
-            Job::Yards(number) => format!("yards-{number}"),
+            Job::Puzzle(kind, number) => format!("{}-{number}", kind.name()),
         }
     }
 
@@ -226,11 +208,10 @@ impl<'a> Plan<'a> {
     /// Never for a checked recipe.
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
-        let decisive = |part: &PuzzlePart| (part.levels, part.level_tries, part.columns, part.rows);
-        let [puzzles, locks, yards] = [&self.recipe.puzzles, &self.recipe.locks, &self.recipe.yards]
-            .map(|part| part.as_ref().map(decisive));
+        let of_puzzles = |part: &PuzzlePart| (part.levels, part.level_tries, part.columns, part.rows);
+        let puzzles = |kind: PuzzleKind| kind.part(self.recipe).map(of_puzzles);
         let mut decisive = serde_json::json!({
-            "puzzles": puzzles,
+            "puzzles": puzzles(PuzzleKind::Pushing),
             "tiers": self.recipe.tiers,
             "marks": self.recipe.marks,
             "generation": generators::GENERATION,
@@ -250,11 +231,10 @@ impl<'a> Plan<'a> {
         {
             decisive["things"] = part.things.into();
         }
-        if let Some(locks) = locks {
-            decisive["locks"] = serde_json::json!(locks);
-        }
-        if let Some(yards) = yards {
-            decisive["yards"] = serde_json::json!(yards);
+        for kind in [PuzzleKind::Locks, PuzzleKind::Yards] {
+            if let Some(part) = puzzles(kind) {
+                decisive[kind.section()] = serde_json::json!(part);
+            }
         }
         if self.recipe.generated.games > 0 {
             decisive["grafts"] = self.has_grafts().into();
@@ -280,98 +260,11 @@ impl<'a> Plan<'a> {
 
     /// The candidates for puzzles.
     fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
-        let all = |part: &Option<PuzzlePart>, rules: usize| {
-            let all = part.as_ref().map_or(0, |part| candidates(part.games, part.candidates));
-            0..all.min(rules as u32)
+        let all = |kind: PuzzleKind| {
+            let asked = kind.part(self.recipe).map_or(0, |part| candidates(part.games, part.candidates));
+            (0..asked.min(kind.rules() as u32)).map(move |number| Job::Puzzle(kind, number))
         };
-        let pushing = all(&self.recipe.puzzles, PushRules::ALL.len()).map(Job::Puzzle);
-        let locks = all(&self.recipe.locks, LockRules::ALL.len()).map(Job::Locks);
-        pushing.chain(locks).chain(all(&self.recipe.yards, YardRules::ALL.len()).map(Job::Yards))
-    }
-
-    /// The part of the recipe that a puzzle is of.
-    fn puzzle_part(&self, job: &Job) -> Option<&PuzzlePart> {
-        match job {
-            Job::Yards(_) => self.recipe.yards.as_ref(),
-            Job::Locks(_) => self.recipe.locks.as_ref(),
-            _ => self.recipe.puzzles.as_ref(),
-        }
-    }
-
-    /// A puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
-    fn puzzle(&self, job: Job, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
-        let mut tally = Tally::default();
-        let Some(part) = self.puzzle_part(&job) else { return (Vec::new(), tally) };
-        /// The rules of a number, of all that there are.
-        fn at<Rules: Copy>(all: &[Rules], number: u32) -> Rules {
-            all[number as usize % all.len()]
-        }
-        let (pushing, locks, yards) =
-            (at(&PushRules::ALL, number), at(&LockRules::ALL, number), at(&YardRules::ALL, number));
-        let (plain, name) = match job {
-            Job::Locks(_) => (locks.game(), locks.name()),
-            Job::Yards(_) => (yards.game(), yards.name()),
-            _ => (pushing.game(), pushing.name()),
-        };
-        let mut themes: Vec<&str> = Rethemed::themes().collect();
-        self.seed.child("themes", 0).sampler().shuffle(&mut themes);
-        // Locks take theirs from the other end, and yards after them.
-        let at = match job {
-            Job::Locks(_) => themes.len() - 1 - number as usize % themes.len(),
-            Job::Yards(_) => themes.len() - 1 - (LockRules::ALL.len() + number as usize) % themes.len(),
-            _ => number as usize % themes.len(),
-        };
-        let theme = themes[at];
-        let retell = if matches!(job, Job::Yards(_)) { Rethemed::of_compounds } else { Rethemed::of };
-        let fictions = (0..FICTIONS).map(|draw| retell(&plain, seed.child("fiction", draw)));
-        let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
-        let Some(retold) = retold else {
-            tally.game_rejected("no fiction fits");
-            return (Vec::new(), tally);
-        };
-        let Ok(game) = Game::from_source(&syntax::print(&retold.description)) else {
-            tally.game_rejected("the rules do not compile");
-            return (Vec::new(), tally);
-        };
-        let rules = match job {
-            Job::Locks(_) => PuzzleRules::locks(locks, &retold),
-            Job::Yards(_) => PuzzleRules::yards(yards, &retold),
-            _ => PuzzleRules::Pushing,
-        };
-        let candidate = Candidate {
-            title: retold.title,
-            description: retold.summary,
-            goal: retold.goal,
-            kind: "puzzle".to_owned(),
-            real_time: false,
-            origin: Origin::Generated {
-                generator: "puzzle".to_owned(),
-                patterns: vec![format!("puzzle/{name}")],
-                candidate: 0,
-            },
-            game,
-        };
-        let of_tiers = Tier::ALL.into_iter().zip(apportion(part.levels, &self.recipe.tiers.shares()));
-        let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
-        let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
-        let puzzles = PuzzleLevels { config, tiers, rules, things: part.things as usize };
-        let panel = Panel::of_candidates(&self.recipe.criteria).expect("the recipe was checked");
-        let levels = Levels {
-            count: part.levels,
-            tries: part.level_tries,
-            source: LevelSource::Puzzles(&puzzles),
-            criteria: &self.recipe.criteria,
-            panel: &panel,
-            seed: seed.child("levels", 0),
-        };
-        let made = levels.find(&candidate.game, &mut tally).and_then(|found| {
-            let path = vec![("levels".to_owned(), 0)];
-            Some(MadeGame { path, ..candidate.finish(found, "")? })
-        });
-        if made.is_some() {
-            tally.game_accepted();
-        }
-        (made.into_iter().collect(), tally)
+        PuzzleKind::ALL.map(all).into_iter().flatten()
     }
 
     /// Draws the corpus games to use.
@@ -397,7 +290,7 @@ impl<'a> Plan<'a> {
         let seed = descendant(self.seed, &steps);
         let (games, tally) = match job {
             Job::Corpus(at) => self.new_levels(at, seed),
-            Job::Puzzle(number) | Job::Locks(number) | Job::Yards(number) => self.puzzle(job, number, seed),
+            Job::Puzzle(kind, number) => self.puzzle(kind, number, seed),
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
             Job::Archive(number) => {
@@ -441,9 +334,7 @@ impl<'a> Plan<'a> {
             Job::Constructive(_) => vec![step("constructive", 0)],
             Job::Search(_) => vec![step("search", 0)],
             Job::Archive(number) => vec![step("archive", number)],
-            Job::Puzzle(number) => vec![step("puzzle", number)],
-            Job::Locks(number) => vec![step("locks", number)],
-            Job::Yards(number) => vec![step("yards", number)],
+            Job::Puzzle(kind, number) => vec![step(kind.name(), number)],
         }
     }
 

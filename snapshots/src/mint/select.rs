@@ -7,10 +7,10 @@
 use super::MintError;
 use super::job::FrozenGame;
 use super::plan::{Job, Plan, apportion};
+use super::puzzles::PuzzleKind;
 use crate::Digest;
 use crate::ancestry::item;
 use crate::recipe::Recipe;
-use crate::tiers::PuzzlePart;
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::games::{Cast, NO_RULES};
@@ -30,25 +30,25 @@ pub(super) enum Part {
     Corpus,
     /// New games.
     Generated,
-    /// Puzzles of pushed things.
-    Puzzles,
-    /// Puzzles of locks.
-    Locks,
-    /// Puzzles of yards.
-    Yards,
+    /// Puzzles of a kind.
+    Puzzles(PuzzleKind),
 }
 
 impl Part {
-    const ALL: [Part; 5] = [Part::Corpus, Part::Generated, Part::Puzzles, Part::Locks, Part::Yards];
+    const ALL: [Part; 5] = [
+        Part::Corpus,
+        Part::Generated,
+        Part::Puzzles(PuzzleKind::Pushing),
+        Part::Puzzles(PuzzleKind::Locks),
+        Part::Puzzles(PuzzleKind::Yards),
+    ];
 
     /// The name of its section in a recipe.
     fn name(self) -> &'static str {
         match self {
             Part::Corpus => "corpus",
             Part::Generated => "generated",
-            Part::Puzzles => "puzzles",
-            Part::Locks => "locks",
-            Part::Yards => "yards",
+            Part::Puzzles(kind) => kind.section(),
         }
     }
 
@@ -56,22 +56,17 @@ impl Part {
     pub(super) fn of(job: Job) -> Part {
         match job {
             Job::Corpus(_) => Part::Corpus,
-            Job::Puzzle(_) => Part::Puzzles,
-            Job::Locks(_) => Part::Locks,
-            Job::Yards(_) => Part::Yards,
+            Job::Puzzle(kind, _) => Part::Puzzles(kind),
             Job::Archive(_) | Job::Search(_) | Job::Constructive(_) => Part::Generated,
         }
     }
 
     /// The number of games that a recipe asks for.
     fn asked(self, recipe: &Recipe) -> usize {
-        let puzzles = |part: &Option<PuzzlePart>| part.as_ref().map_or(0, |part| part.games);
         let games = match self {
             Part::Corpus => recipe.corpus.games,
             Part::Generated => recipe.generated.games,
-            Part::Puzzles => puzzles(&recipe.puzzles),
-            Part::Locks => puzzles(&recipe.locks),
-            Part::Yards => puzzles(&recipe.yards),
+            Part::Puzzles(kind) => kind.part(recipe).map_or(0, |part| part.games),
         };
         games as usize
     }

@@ -1,0 +1,148 @@
+//! Puzzles of a recipe: their kinds, and how a game of one is made.
+
+use super::plan::{Plan, apportion};
+use crate::recipe::Recipe;
+use crate::tiers::PuzzlePart;
+use engine::{Game, Seed, syntax};
+use forge::Tally;
+use forge::card::Origin;
+use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};
+use generators::games::{LockRules, PushRules, Rethemed, YardRules};
+use generators::levels::LevelConfig;
+use validators::{Panel, Tier};
+
+/// The maximum number of fictions to draw for a puzzle, to find one of its theme.
+const FICTIONS: u64 = 400;
+
+/// A kind of puzzle, with a section of its own in recipes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PuzzleKind {
+    /// Things are pushed.
+    Pushing,
+    /// Keys are used up by doors.
+    Locks,
+    /// Parcels are carried between carts.
+    Yards,
+}
+
+impl PuzzleKind {
+    /// All kinds, in the order of jobs.
+    pub const ALL: [PuzzleKind; 3] = [PuzzleKind::Pushing, PuzzleKind::Locks, PuzzleKind::Yards];
+
+    /// The name in jobs and in steps of seeds.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            PuzzleKind::Pushing => "puzzle",
+            PuzzleKind::Locks => "locks",
+            PuzzleKind::Yards => "yards",
+        }
+    }
+
+    /// The name of the section of recipes.
+    pub(super) fn section(self) -> &'static str {
+        match self {
+            PuzzleKind::Pushing => "puzzles",
+            PuzzleKind::Locks | PuzzleKind::Yards => self.name(),
+        }
+    }
+
+    /// The section of a recipe, if it has one.
+    pub(super) fn part(self, recipe: &Recipe) -> Option<&PuzzlePart> {
+        match self {
+            PuzzleKind::Pushing => recipe.puzzles.as_ref(),
+            PuzzleKind::Locks => recipe.locks.as_ref(),
+            PuzzleKind::Yards => recipe.yards.as_ref(),
+        }
+    }
+
+    /// The number of rule sets, no two of which are near to each other.
+    pub(super) fn rules(self) -> usize {
+        match self {
+            PuzzleKind::Pushing => PushRules::ALL.len(),
+            PuzzleKind::Locks => LockRules::ALL.len(),
+            PuzzleKind::Yards => YardRules::ALL.len(),
+        }
+    }
+
+    /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
+    pub(super) fn seconds(self) -> f64 {
+        match self {
+            PuzzleKind::Pushing => 35.0,
+            PuzzleKind::Locks => 20.0,
+            PuzzleKind::Yards => 13.0,
+        }
+    }
+}
+
+impl Plan<'_> {
+    /// A puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
+    pub(super) fn puzzle(&self, kind: PuzzleKind, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
+        let mut tally = Tally::default();
+        let Some(part) = kind.part(self.recipe) else { return (Vec::new(), tally) };
+        let at = number as usize % kind.rules();
+        let (plain, name) = match kind {
+            PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
+            PuzzleKind::Locks => (LockRules::ALL[at].game(), LockRules::ALL[at].name()),
+            PuzzleKind::Yards => (YardRules::ALL[at].game(), YardRules::ALL[at].name()),
+        };
+        let mut themes: Vec<&str> = Rethemed::themes().collect();
+        self.seed.child("themes", 0).sampler().shuffle(&mut themes);
+        // Locks take theirs from the other end, and yards after them.
+        let theme = match kind {
+            PuzzleKind::Pushing => number as usize % themes.len(),
+            PuzzleKind::Locks => themes.len() - 1 - number as usize % themes.len(),
+            PuzzleKind::Yards => themes.len() - 1 - (LockRules::ALL.len() + number as usize) % themes.len(),
+        };
+        let theme = themes[theme];
+        let retell = if kind == PuzzleKind::Yards { Rethemed::of_compounds } else { Rethemed::of };
+        let fictions = (0..FICTIONS).map(|draw| retell(&plain, seed.child("fiction", draw)));
+        let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
+        let Some(retold) = retold else {
+            tally.game_rejected("no fiction fits");
+            return (Vec::new(), tally);
+        };
+        let Ok(game) = Game::from_source(&syntax::print(&retold.description)) else {
+            tally.game_rejected("the rules do not compile");
+            return (Vec::new(), tally);
+        };
+        let rules = match kind {
+            PuzzleKind::Pushing => PuzzleRules::Pushing,
+            PuzzleKind::Locks => PuzzleRules::locks(LockRules::ALL[at], &retold),
+            PuzzleKind::Yards => PuzzleRules::yards(YardRules::ALL[at], &retold),
+        };
+        let candidate = Candidate {
+            title: retold.title,
+            description: retold.summary,
+            goal: retold.goal,
+            kind: "puzzle".to_owned(),
+            real_time: false,
+            origin: Origin::Generated {
+                generator: "puzzle".to_owned(),
+                patterns: vec![format!("puzzle/{name}")],
+                candidate: 0,
+            },
+            game,
+        };
+        let of_tiers = Tier::ALL.into_iter().zip(apportion(part.levels, &self.recipe.tiers.shares()));
+        let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
+        let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
+        let puzzles = PuzzleLevels { config, tiers, rules, things: part.things as usize };
+        let panel = Panel::of_candidates(&self.recipe.criteria).expect("the recipe was checked");
+        let levels = Levels {
+            count: part.levels,
+            tries: part.level_tries,
+            source: LevelSource::Puzzles(&puzzles),
+            criteria: &self.recipe.criteria,
+            panel: &panel,
+            seed: seed.child("levels", 0),
+        };
+        let made = levels.find(&candidate.game, &mut tally).and_then(|found| {
+            let path = vec![("levels".to_owned(), 0)];
+            Some(MadeGame { path, ..candidate.finish(found, "")? })
+        });
+        if made.is_some() {
+            tally.game_accepted();
+        }
+        (made.into_iter().collect(), tally)
+    }
+}
