@@ -69,7 +69,7 @@ impl PuzzleKind {
         match self {
             PuzzleKind::Pushing => 35.0,
             PuzzleKind::Locks => 20.0,
-            PuzzleKind::Yards => 13.0,
+            PuzzleKind::Yards => 25.0,
         }
     }
 }

@@ -1,12 +1,14 @@
 //! Levels of yards to a target: parcels to carry past carts whose course has to be foreseen, with no time to spare.
 
+mod lookout;
 mod timetable;
 mod yard;
 
 use crate::games::YardRules;
 use crate::levels::grid::Grid;
-use engine::{Action, Seed};
-use timetable::Timetable;
+use engine::{Action, Sampler, Seed};
+use lookout::Lookout;
+use timetable::{Errands, Timetable};
 use yard::{Furniture, Sign, Yard};
 
 engine::with_defaults! {
@@ -25,6 +27,10 @@ engine::with_defaults! {
         pub strays: usize = 4,
         /// The share of ticks of the win at which it is deadly to stay for ten ticks, at least.
         pub exposure: f64 = 0.4,
+        /// The share of plays, at least, that a careful player wins with a look before every action, where there are strays.
+        pub fairness: f64 = 0.5,
+        /// Commitments for which its share of wins is measured.
+        pub commitments: Vec<usize> = Vec::new(),
         /// Yards to draw for a level, at most.
         pub yards: u64 = 2_000,
     }
@@ -44,18 +50,24 @@ const DETOURS: usize = 6;
 const CARTS: usize = 8;
 /// The most parcels, without strays and with them: the search for the win takes twice the time for each.
 const PARCELS: [usize; 2] = [7, 6];
+/// The plays of the careful player.
+const PLAYS: usize = 40;
+/// Its plays to measure a commitment.
+const MEASURED: usize = 200;
 /// The times that the same tracks are furnished.
 const FURNISHED: usize = 4;
 /// The ticks that a fastest win takes, at most, as a multiple of the steps without carts.
 const DELAY: f64 = 1.5;
 
 /// A level of a yard in the characters of [`YardRules::game`], and actions that win it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct YardLevel {
     /// The level.
     pub text: String,
     /// A win with the fewest ticks, if there are no strays or they keep out of its way.
     pub solution: Vec<Action>,
+    /// By commitment of the configuration, the share of plays that a careful player wins; empty without strays.
+    pub chances: Vec<f64>,
 }
 
 impl YardConfig {
@@ -82,12 +94,12 @@ impl YardConfig {
         (0..FURNISHED).find_map(|_| {
             let mut yard = tracks.clone();
             yard.furnish(rules, furniture, &timetable.visits, &mut sampler)?;
-            self.finish(&yard, &timetable)
+            self.finish(&yard, &timetable, &mut sampler)
         })
     }
 
     /// The level of a yard, if it meets the target.
-    fn finish(&self, yard: &Yard, timetable: &Timetable) -> Option<YardLevel> {
+    fn finish(&self, yard: &Yard, timetable: &Timetable, sampler: &mut Sampler) -> Option<YardLevel> {
         // What the longest fuse allows.
         let most = YardRules::BURN * (yard.grid.columns - 1) - SPARE;
         let (ways, cells) = timetable.fastest(yard, most)?;
@@ -100,8 +112,17 @@ impl YardConfig {
         // The keg goes with the tick that ends the last cell of the fuse.
         let detours = if yard.strays.is_empty() { 0 } else { ways.len() / DETOURS };
         let fuse = (ways.len() + SPARE.max(detours)).div_ceil(YardRules::BURN).min(yard.grid.columns - 1);
+        let mut chances = Vec::new();
+        if !yard.strays.is_empty() {
+            let lookout = Lookout::new(yard, Errands::new(yard, timetable), YardRules::BURN * fuse - 1);
+            if !lookout.wins(self.fairness, PLAYS, sampler) {
+                return None;
+            }
+            let rates = self.commitments.iter().map(|&commit| lookout.rate(commit, MEASURED, sampler));
+            chances = rates.collect();
+        }
         let action = |way: Option<usize>| way.map_or(Action::Nil, |way| ACTIONS[way]);
-        Some(YardLevel { text: text(yard, fuse), solution: ways.into_iter().map(action).collect() })
+        Some(YardLevel { text: text(yard, fuse), solution: ways.into_iter().map(action).collect(), chances })
     }
 
     /// The things of a board of this size.

@@ -77,57 +77,24 @@ impl Timetable {
     pub(super) fn fastest(&self, yard: &Yard, most: usize) -> Option<(Vec<Option<usize>>, Vec<usize>)> {
         let most = most.min(self.ticks());
         let remaining = Remaining::of(yard);
-        let cells = self.cells;
-        let mut parcels = vec![None; cells];
-        yard.parcels
-            .iter()
-            .enumerate()
-            .for_each(|(number, (cell, kind))| parcels[*cell] = Some((number, *kind)));
-        let loads = yard.depots.len() + 1;
-        let all = (1 << yard.parcels.len()) - 1;
-        let pack = |taken: usize, load: usize, cell: usize| ((taken * loads + load) * cells + cell) as u32;
-        let mut seen = vec![u32::MAX; (all + 1) * loads * cells];
+        let errands = Errands::new(yard, self);
+        let mut seen = vec![u32::MAX; errands.states()];
         // By tick: states, each with its place before and its step.
-        let mut layers: Vec<Vec<(u32, u32, Option<usize>)>> =
-            vec![vec![(pack(0, EMPTY, yard.start), 0, None)]];
+        let mut layers: Vec<Vec<(u32, u32, Option<usize>)>> = vec![vec![(errands.start() as u32, 0, None)]];
         for tick in 0..most {
             let mut layer = Vec::new();
             for (from, &(state, _, _)) in layers[tick].iter().enumerate() {
-                let (cell, rest) = (state as usize % cells, state as usize / cells);
-                let (load, taken) = (rest % loads, rest / loads);
-                for way in (0..WAYS.len()).map(Some).chain([None]) {
-                    let next = match way {
-                        Some(way) => {
-                            match yard.grid.shift(cell, WAYS[way]).filter(|&next| yard.is_floor[next]) {
-                                Some(next) => next,
-                                None => continue,
-                            }
-                        }
-                        None => cell,
-                    };
-                    if self.is_busy(tick, next) {
+                for (way, after) in errands.ways(state as usize) {
+                    let (cell, load, taken) = errands.unpack(after);
+                    if self.is_busy(tick, cell) || tick + 1 + remaining.least(taken, load, cell) > most {
                         continue;
                     }
-                    let (mut load, mut taken) = (load, taken);
-                    if let Some((number, kind)) = parcels[next]
-                        && load == EMPTY
-                        && taken & (1 << number) == 0
-                    {
-                        (load, taken) = (kind + 1, taken | 1 << number);
-                    }
-                    if load != EMPTY && yard.depots[load - 1] == next {
-                        load = EMPTY;
-                    }
-                    if tick + 1 + remaining.least(taken, load, next) > most {
-                        continue;
-                    }
-                    let after = pack(taken, load, next);
-                    if seen[after as usize] != tick as u32 {
-                        seen[after as usize] = tick as u32;
-                        layer.push((after, from as u32, way));
-                        if taken == all && load == EMPTY {
+                    if seen[after] != tick as u32 {
+                        seen[after] = tick as u32;
+                        layer.push((after as u32, from as u32, way));
+                        if errands.is_won(after) {
                             layers.push(layer);
-                            return Some(back(&layers, cells));
+                            return Some(back(&layers, self.cells));
                         }
                     }
                 }
@@ -135,6 +102,98 @@ impl Timetable {
             layers.push(layer);
         }
         None
+    }
+}
+
+/// The moves of a yard's avatar, and what comes of them. A state is its cell, its load, and the parcels that it has taken.
+pub(super) struct Errands<'a> {
+    yard: &'a Yard,
+    timetable: &'a Timetable,
+    /// By cell, the number and kind of its parcel.
+    parcels: Vec<Option<(usize, usize)>>,
+}
+
+impl<'a> Errands<'a> {
+    pub(super) fn new(yard: &'a Yard, timetable: &'a Timetable) -> Errands<'a> {
+        let mut parcels = vec![None; timetable.cells];
+        for (number, &(cell, kind)) in yard.parcels.iter().enumerate() {
+            parcels[cell] = Some((number, kind));
+        }
+        Errands { yard, timetable, parcels }
+    }
+
+    /// The ticks of the timetable.
+    pub(super) fn ticks(&self) -> usize {
+        self.timetable.ticks()
+    }
+
+    /// Nothing, or a parcel of a kind.
+    fn loads(&self) -> usize {
+        self.yard.depots.len() + 1
+    }
+
+    fn all(&self) -> usize {
+        (1 << self.yard.parcels.len()) - 1
+    }
+
+    /// The number of states.
+    pub(super) fn states(&self) -> usize {
+        (self.all() + 1) * self.loads() * self.timetable.cells
+    }
+
+    /// The state at the start.
+    pub(super) fn start(&self) -> usize {
+        self.pack(self.yard.start, EMPTY, 0)
+    }
+
+    /// The cell of a state.
+    pub(super) fn cell(&self, state: usize) -> usize {
+        state % self.timetable.cells
+    }
+
+    fn pack(&self, cell: usize, load: usize, taken: usize) -> usize {
+        (taken * self.loads() + load) * self.timetable.cells + cell
+    }
+
+    /// The cell, the load and the set of taken parcels of a state.
+    fn unpack(&self, state: usize) -> (usize, usize, usize) {
+        let rest = state / self.timetable.cells;
+        (self.cell(state), rest % self.loads(), rest / self.loads())
+    }
+
+    /// Returns `true` if all parcels are where they belong.
+    pub(super) fn is_won(&self, state: usize) -> bool {
+        let (_, load, taken) = self.unpack(state);
+        taken == self.all() && load == EMPTY
+    }
+
+    /// Returns `true` if a cart is in a cell after a tick.
+    pub(super) fn is_busy(&self, tick: usize, cell: usize) -> bool {
+        self.timetable.is_busy(tick, cell)
+    }
+
+    /// The steps of a state, as indices of [`WAYS`], and a rest, with the states after them; whatever the carts.
+    pub(super) fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> + use<'_, 'a> {
+        let (cell, load, taken) = self.unpack(state);
+        (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
+            let next = match way {
+                Some(way) => {
+                    self.yard.grid.shift(cell, WAYS[way]).filter(|&next| self.yard.is_floor[next])?
+                }
+                None => cell,
+            };
+            let (mut load, mut taken) = (load, taken);
+            if let Some((number, kind)) = self.parcels[next]
+                && load == EMPTY
+                && taken & (1 << number) == 0
+            {
+                (load, taken) = (kind + 1, taken | 1 << number);
+            }
+            if load != EMPTY && self.yard.depots[load - 1] == next {
+                load = EMPTY;
+            }
+            Some((way, self.pack(next, load, taken)))
+        })
     }
 }
 

@@ -1,0 +1,52 @@
+//! Makes levels of yards to a target, writes each game with its levels to a folder of its own, and prints how often a careful player
+//! wins those with strays, by the number of actions between two looks.
+//!
+//! ```sh
+//! cargo run --release -p infinite-arcade-generators --example yards -- OUT LEVELS LEAST MOST SIDE [RULES]...
+//! ```
+//! `LEAST` and `MOST` are the keys of a fastest win, at least and fewer than.
+#![allow(clippy::print_stdout, reason = "a program")]
+
+use engine::{Seed, syntax};
+use infinite_arcade_generators::games::YardRules;
+use infinite_arcade_generators::levels::YardConfig;
+use std::fs;
+use std::path::Path;
+
+/// The last one is longer than any level.
+const COMMITMENTS: [usize; 6] = [1, 2, 5, 10, 20, 1000];
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [out, levels, least, most, side, names @ ..] = &arguments[..] else {
+        return Err("OUT LEVELS LEAST MOST SIDE [RULES]...".into());
+    };
+    let (levels, decisions): (u64, (usize, usize)) = (levels.parse()?, (least.parse()?, most.parse()?));
+    let side: usize = side.parse()?;
+    for rules in YardRules::ALL {
+        let name = rules.name();
+        if !names.is_empty() && !names.contains(&name) {
+            continue;
+        }
+        let folder = Path::new(out).join(&name);
+        fs::create_dir_all(&folder)?;
+        fs::write(folder.join("game.vgdl"), syntax::print(rules.game().description()))?;
+        let carts = if rules.has_strays() { 4 } else { 8 };
+        let exposure = if rules.has_strays() { 0.2 } else { 0.4 };
+        let sizes = YardConfig { columns: (side, side), rows: (side, side), ..YardConfig::default() };
+        let config = YardConfig { decisions, carts, exposure, commitments: COMMITMENTS.to_vec(), ..sizes };
+        let mut made = 0;
+        for number in 0..levels {
+            let Some(level) = config.level(rules, Seed::from_text("yards").child(&name, number)) else {
+                continue;
+            };
+            let chances: Vec<String> =
+                level.chances.iter().map(|chance| format!("{:.0}", 100.0 * chance)).collect();
+            println!("{name} {made}: {} ticks; won in percent: {}", level.solution.len(), chances.join(" "));
+            fs::write(folder.join(format!("lvl{made}.txt")), level.text)?;
+            made += 1;
+        }
+        println!("{name}: {made} of {levels} levels");
+    }
+    Ok(())
+}
