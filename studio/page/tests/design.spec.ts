@@ -250,6 +250,8 @@ test('evidence leads to the rule that it names', async ({ page, studio }) => {
   await page.getByRole('radio', { name: /^hedge/ }).click();
   await paint(page, 2, 3);
   await paint(page, 4, 3);
+  // Between the two, another verdict has other evidence.
+  await expect(page.getByText('Cannot be won', { exact: true })).toBeVisible();
   const cause = page.locator('.verdict .evidence li', { hasText: / line \d/ }).first();
   await expect(cause).toBeVisible();
   const line = Number(/ line (\d+)/.exec((await cause.textContent()) ?? '')?.[1]);
