@@ -2,7 +2,7 @@
 
 use super::levels::{FoundLevel, FoundLevels};
 use crate::card::{Card, Origin};
-use engine::{Description, Episode, Game, syntax};
+use engine::{Analysis, Description, Episode, Game, syntax};
 use generators::games::GeneratedGame;
 use validators::Judgement;
 
@@ -73,7 +73,7 @@ impl Candidate {
             goal,
             kind,
             real_time,
-            deterministic: game.is_deterministic(),
+            deterministic: !Analysis::of(&game).is_stochastic(),
             digest: game.digest(),
             origin,
             rules: engine::describe(&game),
