@@ -13,8 +13,8 @@ const HALF: f64 = 3.0;
 const NEVER: u16 = u16::MAX;
 
 /// A player that knows the carts exactly, and of the strays where they are and how they move: it plans the way on which it
-/// meets none with the greatest probability, as if they were independent from tick to tick, and keeps an eye on the fuse. It is
-/// no proof of the best play, but beats the planners, which know less.
+/// meets none with the greatest probability, as if they were independent from tick to tick, and keeps an eye on the fuse. Its
+/// wins are a lower bound of what looking can win, not the best play.
 pub(super) struct Lookout<'a> {
     yard: &'a Yard,
     errands: Errands<'a>,

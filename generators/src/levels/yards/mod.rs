@@ -72,7 +72,8 @@ pub struct YardLevel {
 
 impl YardConfig {
     /// Makes the level of a seed: yards are drawn until one meets the target; `None` if none does, or if a side has fewer than
-    /// 6 cells. Cost: a hundredth of a second for a yard whose carts get by each other.
+    /// 6 cells. Cost: a hundredth of a second for a yard whose carts get by each other,
+    /// and with strays up to a second more for each that meets the rest of the target.
     pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
