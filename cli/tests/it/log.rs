@@ -1,6 +1,6 @@
 //! A public log of a sealed month: committed to, waiting for its beacon, minted, revealed, played.
 
-use crate::arcade::{TINY, copy_tree, files, run, text};
+use crate::arcade::{TINY, commit, copy_tree, files, run, text};
 use serde_json::{Map, Value, json};
 use std::fs;
 use std::path::Path;
@@ -51,31 +51,23 @@ fn a_sealed_month_waits_for_its_beacon() {
     };
     run(folder, &["keygen", "log", "--no-password"], 0);
     let unknown = RECIPE.replace("quicknet", "quiknet").replace("COMMITMENT", &"0".repeat(64));
-    fs::write(folder.join("month.toml"), unknown).unwrap();
-    let commit = ["--json", "release", "month.toml", "--commit", "--out", "secret.json"];
-    says(folder, &commit, 2, "names no network of drand: write `drand quicknet`");
-    append(&["--commitment", "month.toml"], 2, "names no network of drand: write `drand quicknet`");
-    fs::write(folder.join("month.toml"), RECIPE.replace("COMMITMENT", &"0".repeat(64))).unwrap();
-    let output = run(folder, &commit, 0);
-    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
-    fs::write(
-        folder.join("month.toml"),
-        RECIPE.replace("COMMITMENT", answer["commitment"].as_str().unwrap()),
-    )
-    .unwrap();
+    fs::write(folder.join("2027-01.toml"), unknown).unwrap();
+    says(folder, &["release", "2027-01.toml", "--commit"], 2, "names no network of drand: write `drand quicknet`");
+    append(&["--commitment", "2027-01.toml"], 2, "names no network of drand: write `drand quicknet`");
+    commit(folder, &|commitment| RECIPE.replace("COMMITMENT", commitment));
 
-    append(&["--commitment", "month.toml"], 2, "a new log takes a name: --origin");
-    append(&["--commitment", "month.toml", "--origin", "x y"], 2, "cannot name a log");
+    append(&["--commitment", "2027-01.toml"], 2, "a new log takes a name: --origin");
+    append(&["--commitment", "2027-01.toml", "--origin", "x y"], 2, "cannot name a log");
     append(
-        &["--commitment", "month.toml", "--origin", "example.org/arcade"],
+        &["--commitment", "2027-01.toml", "--origin", "example.org/arcade"],
         0,
         "2027-01, with round 1000 of drand quicknet",
     );
-    append(&["--commitment", "month.toml"], 2, "a publisher commits once");
+    append(&["--commitment", "2027-01.toml"], 2, "a publisher commits once");
     run(folder, &["log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
 
     // Nothing is minted before the value is known, and with no other value.
-    let mint = ["release", "month.toml", "--secret", "secret.json", "--out", "out"];
+    let mint = ["release", "2027-01.toml", "--secret", "2027-01.secret.json", "--out", "out"];
     says(folder, &mint, 2, "give its value with --beacon FILE, once it is published");
     let minted = |file: &str, words: &str| {
         says(folder, &[&mint[..], &["--beacon", file]].concat(), 2, words);
@@ -123,7 +115,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     prove(&["--since", "seen", "--out", "growth"], 0, "from 1 to 4 entries");
     let proved = ["log", "check", "--key", "log.pub", "--proof", "proof", "--entry"];
     says(folder, &[&proved[..], &["entry"]].concat(), 0, "entry 2 of 4 in the log example.org/arcade");
-    says(folder, &[&proved[..], &["month.toml"]].concat(), 1, "NOT proved");
+    says(folder, &[&proved[..], &["2027-01.toml"]].concat(), 1, "NOT proved");
     let growth = ["log", "check", "--key", "log.pub", "--growth", "growth", "--seen"];
     says(folder, &[&growth[..], &["seen"]].concat(), 0, "has grown from 1 to 4 entries");
     says(folder, &[&growth[..], &["seen-2"]].concat(), 1, "NOT proved to have only grown");

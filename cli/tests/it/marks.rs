@@ -1,6 +1,6 @@
 //! Marks: players that never change, kept in a release.
 
-use crate::arcade::{files, run, sweeping, text};
+use crate::arcade::{commit, files, run, sweeping, text};
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -112,19 +112,15 @@ fn unknown_marks_are_named() {
 fn marks_of_a_sealed_release_are_withheld() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
-    let recipe = |commitment: &str| {
+    commit(folder, &|commitment| {
         let sealed = RECIPE
             .replace("seed = 'lamps'", &format!("commitment = '{commitment}'"))
             .replace("games = 2\nlevels = 2", "games = 1\nlevels = 1");
         let marks =
             "[marks]\nplayers = ['random', 'nearest-goal']\ncommits = ['1']\nplays = 1\nmax_steps = 100\n";
-        fs::write(folder.join("sealed.toml"), sealed + marks).unwrap();
-    };
-    recipe(&"0".repeat(64));
-    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
-    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    recipe(answer["commitment"].as_str().unwrap());
-    run(folder, &["release", "sealed.toml", "--secret", "marked.secret.json", "--out", "out"], 0);
+        sealed + marks
+    });
+    run(folder, &["release", "marked.toml", "--secret", "marked.secret.json", "--out", "out"], 0);
     assert!(folder.join("out/held/MARKS.json").exists());
     assert!(files(&folder.join("out/public")).keys().all(|name| !name.contains("MARKS")));
     run(folder, &["verify", "out/public"], 0);

@@ -1,6 +1,6 @@
 //! Sealed releases: the public part reveals no secret, and the revealed part matches the commitment.
 
-use crate::arcade::{copy_tree, files, run, sweeping, text};
+use crate::arcade::{commit, copy_tree, files, run, sweeping, text};
 use engine::Digest;
 use snapshots::Secret;
 use std::fs;
@@ -14,14 +14,11 @@ fn recipe(commitment: &str) -> String {
     )
 }
 
-/// Commits and mints into `out`; returns the secret as JSON.
-fn minted(folder: &Path) -> serde_json::Value {
-    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
-    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
-    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    fs::write(folder.join("sealed.toml"), recipe(answer["commitment"].as_str().unwrap())).unwrap();
+/// Commits and mints into `out`; returns the secret.
+fn minted(folder: &Path) -> Secret {
+    let secret = commit(folder, &recipe);
     run(folder, &["release", "sealed.toml", "--secret", "sealed.secret.json", "--out", "out"], 0);
-    serde_json::from_slice(&fs::read(folder.join("sealed.secret.json")).unwrap()).unwrap()
+    secret
 }
 
 #[test]
@@ -45,8 +42,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
 
     // Nothing public reveals the seed, the nonce, or how a level is won.
     let held = files(&folder.join("out/held"));
-    let mut secrets: Vec<String> =
-        ["seed", "nonce"].map(|key| secret[key].as_str().unwrap().to_owned()).into();
+    let mut secrets = vec![secret.seed, secret.nonce.to_string()];
     for (_, content) in held.iter().filter(|(name, _)| *name != "secret.json") {
         let witness: serde_json::Value = serde_json::from_slice(content).unwrap();
         secrets.push(witness["episode"]["seed"].to_string().trim_matches('"').to_owned());
@@ -122,10 +118,9 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
         assert!(!folder.join("x").exists());
         text(&output.stdout)
     };
-    for key in ["seed", "nonce"] {
-        let value = secret[key].as_str().unwrap().to_owned();
+    for value in &secrets[..2] {
         let other = value.chars().rev().collect::<String>();
-        let said = tampered("held/secret.json", &|text| text.replace(&value, &other));
+        let said = tampered("held/secret.json", &|text| text.replace(value.as_str(), &other));
         assert!(said.contains("held/secret.json"), "{said}");
     }
     let level =
@@ -220,10 +215,7 @@ fn shards_of_a_sealed_release_are_private() {
     use std::os::unix::fs::PermissionsExt;
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
-    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
-    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
-    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    fs::write(folder.join("sealed.toml"), recipe(answer["commitment"].as_str().unwrap())).unwrap();
+    let commitment = commit(folder, &recipe).commitment().to_string();
     let secret = ["--secret", "sealed.secret.json"];
     for (shard, out) in [("1/2", "one"), ("2/2", "two")] {
         let mint = [&["release", "sealed.toml", "--shard", shard, "--out", out][..], &secret].concat();
@@ -256,7 +248,7 @@ fn shards_of_a_sealed_release_are_private() {
     // A lost commitment can be restored from the secret.
     fs::write(folder.join("lost.toml"), recipe("x").replace("commitment = 'x'\n", "")).unwrap();
     let lost = text(&run(folder, &[&["release", "lost.toml"][..], &secret].concat(), 2).stderr);
-    assert!(lost.contains(answer["commitment"].as_str().unwrap()), "{lost}");
+    assert!(lost.contains(&commitment), "{lost}");
 }
 
 /// Otherwise seed and witnesses would be published in the belief that they are held back.
@@ -306,13 +298,9 @@ fn another_secret_is_refused() {
 fn coins_follow_from_the_beacon_too() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
-    let text = |commitment: &str| {
+    commit(folder, &|commitment| {
         recipe(commitment) + "[memory]\nwitnesses = true\n[beacon]\nsource = 'dice'\nround = 7\n"
-    };
-    fs::write(folder.join("sealed.toml"), text(&"0".repeat(64))).unwrap();
-    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
-    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    fs::write(folder.join("sealed.toml"), text(answer["commitment"].as_str().unwrap())).unwrap();
+    });
     let mut roots = Vec::new();
     for (name, value) in [("one", "ab"), ("two", "cd")] {
         let value = value.repeat(32);

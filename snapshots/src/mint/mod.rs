@@ -91,15 +91,14 @@ pub enum MintError {
         advice: String,
     },
     /// No selection of candidates meets the quotas.
-    #[error(
-        "no selection of {candidates} candidates meets the recipe: {missed}; raise `generated.candidates` or \
-         `corpus.candidates`, or relax the quotas, and continue with --resume, which keeps finished jobs"
-    )]
+    #[error("no selection of {candidates} candidates meets the recipe: {missed}; {advice}")]
     Uneven {
         /// The number of candidates.
         candidates: usize,
         /// The requirements that the nearest selection misses.
         missed: String,
+        /// The next move.
+        advice: String,
     },
     /// The marks of a game cannot be played.
     #[error("marks: {0}")]
@@ -390,6 +389,22 @@ mod tests {
             ),
             "{error}"
         );
+    }
+
+    /// A commitment covers the recipe, so nobody can raise a number in it and go on.
+    #[test]
+    fn a_sealed_recipe_that_falls_short_is_committed_to_again() {
+        let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
+        let mut recipe = Recipe { seed: None, ..recipe("a") };
+        let secret = Secret::draw(&recipe.name, recipe.committed(), [7; 64]);
+        recipe.commitment = Some(secret.commitment());
+        let corpus = corpus(&[("hopeless", &hopeless)]);
+        let plan = Plan::new(&recipe, Some(&secret), &corpus).unwrap();
+        let store = Memory::default();
+        make_jobs(&plan, plan.jobs(), &store, &()).unwrap();
+        let laid = lay_out(&plan, Some(&secret), &store, Digest::of(b""), &mut |_, _| Ok(()));
+        let error = laid.unwrap_err().to_string();
+        assert!(error.contains("--commit") && !error.contains("--resume"), "{error}");
     }
 
     /// More jobs would make nothing, either.

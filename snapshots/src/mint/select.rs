@@ -196,19 +196,15 @@ const STARTS: u64 = 24;
 /// The amounts by which a selection misses the quotas and the histogram, and the number of duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// The next move where too few candidates of a part can be taken.
-fn advice(part: Part, has_no_rules: bool) -> String {
-    let part = part.name();
-    if has_no_rules {
+/// The next move: a small change of the recipe that keeps finished jobs, or another that does not. A commitment covers the recipe, so
+/// that a sealed one cannot be changed at all.
+fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
+    if recipe.commitment.is_some() {
         return format!(
-            "there are no rules for further jobs: lower `{part}.games` and go on with --resume, which keeps finished jobs; or start over \
-             without the earlier releases that have used them, or with more kernels"
+            "{small}, {other}, commit to the changed recipe with `arcade release RECIPE --commit`, and start over"
         );
     }
-    format!(
-        "raise `{part}.candidates` and go on with --resume, which keeps finished jobs; or raise the tries or relax the criteria, and start \
-         over"
-    )
+    format!("{small} and go on with --resume, which keeps finished jobs; {other}, and start over")
 }
 
 /// Selects as many contenders of each part as the recipe asks for. Returns their indices, in order. The tallies of the jobs explain errors.
@@ -230,8 +226,15 @@ pub(super) fn select(
             let failed = if part == Part::Corpus { of_corpus } else { of_new };
             let why: BTreeMap<String, u64> = dropped.get(&part).cloned().unwrap_or_default();
             let why = [failed.reasons(), reasons(&why)].into_iter().filter(|why| !why.is_empty()).join(", ");
-            let advice = advice(part, failed.rejections.contains_key(NO_RULES));
-            return Err(MintError::TooFew { part: part.name(), asked, there, why, advice });
+            let part = part.name();
+            let advice = if failed.rejections.contains_key(NO_RULES) {
+                let small = format!("there are no rules for further jobs: lower `{part}.games`");
+                advice(recipe, &small, "or leave out the earlier releases that have used them, or add kernels")
+            } else {
+                let small = format!("raise `{part}.candidates`");
+                advice(recipe, &small, "or raise the tries or relax the criteria")
+            };
+            return Err(MintError::TooFew { part, asked, there, why, advice });
         }
     }
     let improved = |start: u64| {
@@ -248,7 +251,12 @@ pub(super) fn select(
     let missed = bins(recipe, contenders, &taken).into_iter().filter(|bin| bin.missed() > 0);
     let told = |bin: Bin| format!("{} {} (asked {} to {})", bin.name, bin.there, bin.least, bin.most);
     let missed = missed.map(told).join(", ");
-    if missed.is_empty() { Ok(taken) } else { Err(MintError::Uneven { candidates: fit.len(), missed }) }
+    if missed.is_empty() {
+        return Ok(taken);
+    }
+    let small = "raise `generated.candidates` or `corpus.candidates`, or relax the quotas";
+    let advice = advice(recipe, small, "or add kernels");
+    Err(MintError::Uneven { candidates: fit.len(), missed, advice })
 }
 
 /// The contenders that may be selected together.
