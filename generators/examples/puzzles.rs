@@ -1,4 +1,5 @@
-//! Makes puzzles of the rules of pushing to a target, and writes each game with its levels to a folder of its own.
+//! Makes puzzles of the rules of pushing to a target, and writes each game with its levels to a folder of its own. Prints how often a
+//! careful player wins those among strays, by the number of actions between two looks.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example puzzles -- OUT LEVELS PUSHES ACTIONS SIDE [RULES]...
@@ -7,9 +8,14 @@
 
 use engine::{Seed, syntax};
 use infinite_arcade_generators::games::PushRules;
-use infinite_arcade_generators::levels::{LevelConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation};
+use infinite_arcade_generators::levels::{
+    LevelConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation, StrayConfig, StrayLevels,
+};
 use std::fs;
 use std::path::Path;
+
+/// The last one is longer than any level.
+const COMMITMENTS: [usize; 6] = [1, 2, 5, 10, 20, 1000];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -18,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let target = PuzzleTarget { pushes: pushes.parse()?, decisions: decisions.parse()? };
     let (levels, side): (u64, usize) = (levels.parse()?, side.parse()?);
-    for rules in PushRules::ALL {
+    for rules in PushRules::ALL.into_iter().chain(PushRules::AMONG_STRAYS) {
         let name = rules.name();
         if !names.is_empty() && !names.contains(&name) {
             continue;
@@ -29,13 +35,37 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         fs::write(folder.join("game.vgdl"), syntax::print(game.description()))?;
         let config = LevelConfig { columns: (side, side), rows: (side, side), ..LevelConfig::default() };
         let puzzle = PuzzleConfig { floor_plans: 20_000, target: Some(target), ..PuzzleConfig::default() };
-        let variation = PuzzleVariation::new(&game, config, puzzle)?;
         let mut made = 0;
-        for number in 0..levels {
-            let solved = variation.create_solved(Seed::from_text("puzzles").child(&name, number));
-            let Some(solved) = solved else { continue };
-            fs::write(folder.join(format!("lvl{made}.txt")), solved.level.to_string())?;
+        let mut keep = |text: String| {
             made += 1;
+            fs::write(folder.join(format!("lvl{}.txt", made - 1)), text)
+        };
+        let seeds = (0..levels).map(|number| Seed::from_text("puzzles").child(&name, number));
+        if rules.has_strays() {
+            let strays = StrayConfig {
+                columns: (side, side),
+                rows: (side, side),
+                decisions: (target.decisions, 2 * target.decisions),
+                commitments: COMMITMENTS.to_vec(),
+                ..StrayConfig::default()
+            };
+            let puzzles = StrayLevels::new(rules, strays);
+            for level in seeds.filter_map(|seed| puzzles.level(seed)) {
+                let chances: Vec<String> =
+                    level.chances.iter().map(|chance| format!("{:.0}", 100.0 * chance)).collect();
+                let strays = level.text.matches('y').count();
+                println!(
+                    "{name}: {} ticks, {strays} strays; won in percent: {}",
+                    level.solution.len(),
+                    chances.join(" ")
+                );
+                keep(level.text)?;
+            }
+        } else {
+            let puzzles = PuzzleVariation::new(&game, config, puzzle)?;
+            for solved in seeds.filter_map(|seed| puzzles.create_solved(seed)) {
+                keep(solved.level.to_string())?;
+            }
         }
         println!("{name}: {made} of {levels} levels");
     }

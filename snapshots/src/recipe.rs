@@ -54,6 +54,9 @@ pub struct Recipe {
     /// New puzzles of yards.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yards: Option<PuzzlePart>,
+    /// New puzzles of pushed things among strays.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strays: Option<PuzzlePart>,
     /// The sizes of the boards.
     #[serde(default)]
     pub board: Board,
@@ -295,6 +298,7 @@ impl Recipe {
             (&self.puzzles, PuzzleSection::PUZZLES),
             (&self.locks, PuzzleSection::LOCKS),
             (&self.yards, PuzzleSection::YARDS),
+            (&self.strays, PuzzleSection::STRAYS),
         ] {
             part.as_ref().map_or(Ok(()), |part| part.check(&section, &self.tiers))?;
         }
@@ -478,9 +482,9 @@ impl Recipe {
         self.generated.games + self.puzzle_parts().map(|part| part.games).sum::<u32>()
     }
 
-    /// The puzzles, of pushed things, of locks and of yards.
+    /// The puzzles, of pushed things, of locks, of yards and of strays.
     fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
-        self.puzzles.iter().chain(&self.locks).chain(&self.yards)
+        self.puzzles.iter().chain(&self.locks).chain(&self.yards).chain(&self.strays)
     }
 }
 

@@ -1,5 +1,5 @@
 //! The parts of a recipe that ask for tiers: shares of levels by what they demand, and puzzles that are made to them, of
-//! pushed things, of locks or of yards.
+//! pushed things, of locks, of yards or of strays.
 
 use crate::recipe::{RecipeError, wrong};
 use generators::games::{LockRules, PushRules, YardRules};
@@ -57,11 +57,19 @@ impl PuzzleSection {
         thing_key: "yards.things",
         things: 3,
     };
+    /// Puzzles of pushed things among strays.
+    pub(crate) const STRAYS: PuzzleSection = PuzzleSection {
+        keys: keys!("strays"),
+        rules: PushRules::AMONG_STRAYS.len(),
+        cells: 128,
+        thing_key: "strays.things",
+        things: 3,
+    };
 }
 
 engine::with_defaults! {
     /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
-    /// of the recipe; or, in sections of their own, games of locks and of yards.
+    /// of the recipe; or, in sections of their own, games of locks, of yards and of strays.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PuzzlePart {
@@ -73,7 +81,7 @@ engine::with_defaults! {
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The number of things to push in tiers 3 and 4: 3 to 5. Not for locks and yards.
+        /// The number of things to push in tiers 3 and 4: 3 to 5. For `[puzzles]` only.
         pub things: u32 = 3,
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
@@ -200,10 +208,12 @@ mod tests {
             &yards.replace("games = 2", "games = 2\nrows = [14, 15]\ncolumns = [14, 14]"),
             "at most 196 cells",
         );
+        let strays = locks.replace("[locks]", "[strays]");
+        check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; it takes 1 to 11");
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
         // Recipes that ask for neither keep their bytes.
         let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
-        assert!(["tiers", "puzzles", "locks", "yards"].iter().all(|key| plain.get(key).is_none()));
+        assert!(["tiers", "puzzles", "locks", "yards", "strays"].iter().all(|key| plain.get(key).is_none()));
     }
 }

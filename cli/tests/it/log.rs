@@ -52,7 +52,12 @@ fn a_sealed_month_waits_for_its_beacon() {
     run(folder, &["keygen", "log", "--no-password"], 0);
     let unknown = RECIPE.replace("quicknet", "quiknet").replace("COMMITMENT", &"0".repeat(64));
     fs::write(folder.join("2027-01.toml"), unknown).unwrap();
-    says(folder, &["release", "2027-01.toml", "--commit"], 2, "names no network of drand: write `drand quicknet`");
+    says(
+        folder,
+        &["release", "2027-01.toml", "--commit"],
+        2,
+        "names no network of drand: write `drand quicknet`",
+    );
     append(&["--commitment", "2027-01.toml"], 2, "names no network of drand: write `drand quicknet`");
     commit(folder, &|commitment| RECIPE.replace("COMMITMENT", commitment));
 

@@ -27,16 +27,23 @@ enum PlaceGenerator<'a> {
     Puzzles(PuzzleGenerator<'a>),
 }
 
+/// The seed of the win of a candidate's puzzle.
+fn of_win(candidate: Seed) -> Seed {
+    candidate.child("judges", 0).child("winnable", 0).child("systematic", 0)
+}
+
 /// A level, its question to the player if it is one of a course, and actions that win it if they are known.
 type Generated = (Level, Option<String>, Option<Vec<Action>>);
 
 impl PlaceGenerator<'_> {
-    fn generate(&self, game: &Game, seed: Seed) -> Result<Generated, GenerateError> {
+    /// Generates the candidate of a seed.
+    fn generate(&self, game: &Game, candidate: Seed) -> Result<Generated, GenerateError> {
+        let seed = candidate.child("layout", 0);
         match self {
             PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None, None)),
             PlaceGenerator::Puzzles(puzzles) => {
                 let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
-                let (level, known) = puzzles.create_solved(game, seed).ok_or_else(far)?;
+                let (level, known) = puzzles.create_solved(game, seed, of_win(candidate)).ok_or_else(far)?;
                 Ok((level, None, Some(known)))
             }
             PlaceGenerator::Course(course, slot) => {
@@ -123,7 +130,7 @@ impl<'a> Place<'a> {
         let Place { levels, game, number, others } = *self;
         let places = levels.seed.child("level", u64::from(number));
         let seed = places.child("candidate", u64::from(candidate));
-        let Ok((level, asks, known)) = generator.generate(game, seed.child("layout", 0)) else {
+        let Ok((level, asks, known)) = generator.generate(game, seed) else {
             tally.no_level("level generator");
             return None;
         };
@@ -191,9 +198,8 @@ impl<'a> Place<'a> {
     ) -> Option<FoundLevel> {
         let criteria = self.levels.criteria;
         let analysis = Analysis::of(self.game);
-        let of_win = seed.child("judges", 0).child("winnable", 0).child("systematic", 0);
         let calls = (criteria.budget as f64 * criteria.shortest) as u64;
-        let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win)?;
+        let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win(seed))?;
         tally.judge("winnable", true, calls);
         let ask = criteria.ask.iter().filter(|name| *name != "winnable").cloned().collect();
         let panel =

@@ -1,10 +1,13 @@
-//! Puzzles for one game, of pushed things, locks or yards, made to a tier.
+//! Puzzles for one game, of pushed things, with strays or without, locks or yards, made to a tier.
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
 use generators::GenerateError;
-use generators::games::{LockRules, Rethemed, YardRules};
-use generators::levels::{LevelConfig, LockConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation, YardConfig};
+use generators::games::{LockRules, PushRules, Rethemed, YardRules};
+use generators::levels::{
+    LevelConfig, LockConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation, StrayConfig, StrayLevels,
+    YardConfig,
+};
 use std::ops::Range;
 use validators::Tier;
 
@@ -30,6 +33,8 @@ pub enum PuzzleRules {
     Locks(Retold<LockRules>),
     /// Parcels are carried between carts.
     Yards(Retold<YardRules>),
+    /// Things are pushed among strays.
+    Strays(Retold<PushRules>),
 }
 
 impl PuzzleRules {
@@ -41,6 +46,11 @@ impl PuzzleRules {
     /// The rules of yards of a game that is these under another theme.
     pub fn yards(rules: YardRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Yards(Retold::of(rules, YardRules::SYMBOLS, retold))
+    }
+
+    /// The rules of pushing among strays of a game that is these under another theme.
+    pub fn strays(rules: PushRules, retold: &Rethemed) -> PuzzleRules {
+        PuzzleRules::Strays(Retold::of(rules, PushRules::SYMBOLS, retold))
     }
 }
 
@@ -60,10 +70,12 @@ impl<Rules> Retold<Rules> {
 
     /// A level in the characters of the game.
     fn translate(&self, text: &str) -> String {
-        let own = |symbol: char| {
-            self.symbols.iter().find(|(plain, _)| *plain == symbol).map_or(symbol, |pair| pair.1)
-        };
-        text.chars().map(own).collect()
+        text.chars().map(|symbol| self.symbol(symbol)).collect()
+    }
+
+    /// A character of the rules in those of the game.
+    fn symbol(&self, plain: char) -> char {
+        self.symbols.iter().find(|(other, _)| *other == plain).map_or(plain, |pair| pair.1)
     }
 }
 
@@ -75,11 +87,17 @@ pub(super) enum PuzzleGenerator<'a> {
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
     Yards(YardConfig, &'a Retold<YardRules>),
+    Strays(Box<StrayLevels>, &'a Retold<PushRules>),
 }
 
 impl PuzzleGenerator<'_> {
-    /// The level of a seed, with actions that win it.
-    pub(super) fn create_solved(&self, game: &Game, seed: Seed) -> Option<(Level, Vec<Action>)> {
+    /// The level of a seed, with actions that win it: with the dice of `of_win`, or if no stray is in the way.
+    pub(super) fn create_solved(
+        &self,
+        game: &Game,
+        seed: Seed,
+        of_win: Seed,
+    ) -> Option<(Level, Vec<Action>)> {
         match self {
             PuzzleGenerator::Pushing(puzzles) => {
                 let solved = puzzles.create_solved(seed)?;
@@ -100,10 +118,21 @@ impl PuzzleGenerator<'_> {
                 let made = config.level(yards.rules, seed)?;
                 Some((game.level(&yards.translate(&made.text)).ok()?, made.solution))
             }
+            PuzzleGenerator::Strays(levels, strays) => {
+                let made = levels.level(seed)?;
+                let level = game.level(&strays.translate(&made.text)).ok()?;
+                let [floor, stray] = [PushRules::FLOOR, PushRules::STRAY]
+                    .map(|symbol| game.places(strays.symbol(symbol) as u8));
+                let stray = *stray.iter().find(|stype| !floor.contains(stype))?;
+                let win = levels.win(&made, (game, &level), stray, of_win)?;
+                Some((level, win))
+            }
         }
     }
 }
 
+/// The actions of a win among strays, fewer than: the time of these games leaves about as many again.
+const MOST_ACTIONS: usize = 180;
 /// The maximum number of floor plans to examine for a level.
 const FLOOR_PLANS: usize = 20_000;
 /// The same without a target, and the levels drawn until one takes as many actions as the tier.
@@ -135,10 +164,15 @@ impl PuzzleLevels {
                 return Ok(PuzzleGenerator::Locks(config, locks));
             }
             PuzzleRules::Yards(yards) => {
-                let (carts, strays, exposure) = traffic(tier, yards.rules);
+                let (carts, exposure) = traffic(tier, yards.rules);
                 let sizes = YardConfig { columns, rows, ..YardConfig::default() };
-                let config = YardConfig { decisions: (decisions, next), carts, strays, exposure, ..sizes };
+                let config = YardConfig { decisions: (decisions, next), carts, exposure, ..sizes };
                 return Ok(PuzzleGenerator::Yards(config, yards));
+            }
+            PuzzleRules::Strays(strays) => {
+                let decisions = (decisions, next.min(MOST_ACTIONS));
+                let config = StrayConfig { columns, rows, decisions, ..StrayConfig::default() };
+                return Ok(PuzzleGenerator::Strays(Box::new(StrayLevels::new(strays.rules, config)), strays));
             }
         }
         let target = target(tier, self.things);
@@ -175,16 +209,15 @@ fn dead_ends(tier: Tier) -> f64 {
     }
 }
 
-/// The carts and strays of a yard, and the share of ticks of the win at which it is deadly to stay. Strays take the place of
-/// carts.
-fn traffic(tier: Tier, rules: YardRules) -> (usize, usize, f64) {
+/// The carts of a yard, and the share of ticks of the win at which it is deadly to stay. Strays take the place of carts.
+fn traffic(tier: Tier, rules: YardRules) -> (usize, f64) {
     let (carts, exposure) = match tier {
         Tier::One => (2, 0.0),
         Tier::Two => (5, 0.1),
         Tier::Three => (8, 0.35),
         Tier::Four => (8, 0.4),
     };
-    if rules.has_strays() { (carts / 2, carts / 2, exposure / 2.0) } else { (carts, 0, exposure) }
+    if rules.has_strays() { (carts / 2, exposure / 2.0) } else { (carts, exposure) }
 }
 
 /// The target for a tier; `None` for those that need none. The generator counts the actions of a win with the fewest pushes;
@@ -204,7 +237,8 @@ fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
 }
 
 /// The win of a puzzle: the shortest, if `calls` forward-model calls suffice to prove it, or else the one that the generator
-/// knows. Also returns whether it is proved to be the shortest, and the calls. `None` if the known actions do not win.
+/// knows. Where chance plays a part nothing can be proved, and a win that is known is not searched for. Also returns whether it is
+/// proved to be the shortest, and the calls. `None` if the known actions do not win.
 pub(super) fn win(
     analysis: &Analysis,
     level: &Level,
@@ -213,23 +247,30 @@ pub(super) fn win(
     seed: Seed,
 ) -> Option<(Episode, bool, u64)> {
     let game = analysis.game();
+    let played = |actions: Vec<Action>| {
+        let (mut episode, mut state) = Episode::begin(game, level, seed);
+        for action in actions {
+            episode.play(game, &mut state, action);
+        }
+        (episode.outcome == Outcome::Won).then_some(episode)
+    };
+    if analysis.is_stochastic()
+        && let Some(won) = played(known.clone())
+    {
+        return Some((won, false, 0));
+    }
     let start = game.start(level, seed);
     let searched = a_star(analysis, &Pushes::of(analysis, level), &start, SearchLimits::calls(calls));
     let (actions, shortest) = match searched.answer {
         Answer::Won { actions, shortest } => (actions, shortest),
         _ => (known, false),
     };
-    let (mut episode, mut state) = Episode::begin(game, level, seed);
-    for action in actions {
-        episode.play(game, &mut state, action);
-    }
-    (episode.outcome == Outcome::Won).then_some((episode, shortest, searched.calls))
+    Some((played(actions)?, shortest, searched.calls))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use generators::games::PushRules;
     use validators::GameForm;
 
     /// No two games of a release are duplicates.
@@ -237,7 +278,9 @@ mod tests {
     fn rules_of_puzzles_differ() {
         let pushing = PushRules::ALL.iter().map(|rules| (rules.name(), rules.game()));
         let locks = LockRules::ALL.iter().map(|rules| (rules.name(), rules.game()));
-        let all = pushing.chain(locks).chain(YardRules::ALL.iter().map(|rules| (rules.name(), rules.game())));
+        let yards = YardRules::ALL.iter().map(|rules| (rules.name(), rules.game()));
+        let strays = PushRules::AMONG_STRAYS.iter().map(|rules| (rules.name(), rules.game()));
+        let all = pushing.chain(locks).chain(yards).chain(strays);
         let forms: Vec<(String, GameForm)> = all.map(|(name, game)| (name, GameForm::of(&game))).collect();
         for (at, (name, form)) in forms.iter().enumerate() {
             let near = forms[..at].iter().find(|(_, other)| form.is_near(other));
@@ -250,19 +293,23 @@ mod tests {
     fn puzzles_are_won_under_every_theme() {
         let seed = Seed::from_text("puzzles");
         let locks = LockRules::ALL.map(|rules| {
-            let retold = Rethemed::of(&rules.game(), seed).unwrap();
+            let retold = Rethemed::of_compounds(&rules.game(), seed).unwrap();
             (rules.name(), PuzzleRules::locks(rules, &retold), retold)
         });
         let yards = YardRules::ALL.map(|rules| {
             let retold = Rethemed::of_compounds(&rules.game(), seed).unwrap();
             (rules.name(), PuzzleRules::yards(rules, &retold), retold)
         });
-        for (name, rules, retold) in locks.into_iter().chain(yards) {
+        let strays = PushRules::AMONG_STRAYS.map(|rules| {
+            let retold = Rethemed::of_compounds(&rules.game(), seed).unwrap();
+            (rules.name(), PuzzleRules::strays(rules, &retold), retold)
+        });
+        for (name, rules, retold) in locks.into_iter().chain(yards).chain(strays) {
             let game = Game::from_source(&engine::syntax::print(&retold.description)).unwrap();
             let config = LevelConfig { columns: (9, 9), rows: (9, 9), ..LevelConfig::default() };
             let puzzles = PuzzleLevels { config, tiers: vec![Tier::Two], rules, things: 3 };
             let generator = puzzles.generator(&game, 0).unwrap();
-            let made = (0..8).find_map(|draw| generator.create_solved(&game, seed.child("draw", draw)));
+            let made = (0..8).find_map(|draw| generator.create_solved(&game, seed.child("draw", draw), seed));
             let (level, known) = made.unwrap_or_else(|| panic!("a level of {name}"));
             let analysis = Analysis::of(&game);
             let ticks = known.len();
@@ -285,14 +332,16 @@ mod tests {
     #[test]
     fn puzzles_have_floor_under_every_theme() {
         for rules in PushRules::ALL.into_iter().filter(|rules| rules.name().contains("mat")).take(2) {
-            let retold = Rethemed::of(&rules.game(), Seed::from_text("floor")).unwrap();
+            let retold = Rethemed::of_compounds(&rules.game(), Seed::from_text("floor")).unwrap();
             let game = Game::from_source(&engine::syntax::print(&retold.description)).unwrap();
             let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
             let puzzles =
                 PuzzleLevels { config, tiers: vec![Tier::One], rules: PuzzleRules::Pushing, things: 3 };
             let generator = puzzles.generator(&game, 0).unwrap();
-            let made = (0..8)
-                .find_map(|draw| generator.create_solved(&game, Seed::from_text("x").child("draw", draw)));
+            let made = (0..8).find_map(|draw| {
+                let seed = Seed::from_text("x").child("draw", draw);
+                generator.create_solved(&game, seed, seed)
+            });
             let (level, _) = made.unwrap_or_else(|| panic!("a level of {}", rules.name()));
             assert!(!level.cells().contains(&b' '), "{}\n{level}", rules.name());
         }

@@ -23,17 +23,28 @@ pub struct PushRules {
     exclusive: bool,
     /// The avatar can walk where things cannot be pushed.
     has_sills: bool,
+    /// There are strays, which wander at random and kill.
+    has_strays: bool,
 }
 
 use End::{Drain, Mat, Pit};
 
 const fn rules(one: End, other: Option<End>, exclusive: bool, has_sills: bool) -> PushRules {
-    PushRules { ends: [Some(one), other], exclusive, has_sills }
+    PushRules { ends: [Some(one), other], exclusive, has_sills, has_strays: false }
+}
+
+const fn among_strays(one: End, other: Option<End>, exclusive: bool, has_sills: bool) -> PushRules {
+    PushRules { has_strays: true, ..rules(one, other, exclusive, has_sills) }
 }
 
 /// The name of a kind.
 fn name_of(kind: usize) -> &'static str {
     ["crate", "barrel"][kind]
+}
+
+/// The name of a kind that lies on its mat.
+fn settled(kind: usize) -> &'static str {
+    ["settledCrate", "settledBarrel"][kind]
 }
 
 impl PushRules {
@@ -56,6 +67,61 @@ impl PushRules {
         rules(Drain, None, false, false),
     ];
 
+    /// All rules with strays, no two of which are near to each other or to one of [`PushRules::ALL`].
+    pub const AMONG_STRAYS: [PushRules; 11] = [
+        among_strays(Drain, Some(Mat), false, true),
+        among_strays(Drain, Some(Pit), true, true),
+        among_strays(Mat, Some(Mat), false, false),
+        among_strays(Pit, Some(Mat), false, true),
+        among_strays(Drain, Some(Drain), true, false),
+        among_strays(Mat, None, false, true),
+        among_strays(Drain, Some(Pit), false, false),
+        among_strays(Drain, Some(Mat), true, false),
+        among_strays(Drain, Some(Drain), false, true),
+        among_strays(Pit, None, false, true),
+        among_strays(Drain, None, false, true),
+    ];
+
+    /// The characters of its levels.
+    pub const SYMBOLS: &str = ".wAcbousy";
+
+    /// The ticks that a stray takes for a cell.
+    pub(crate) const COOLDOWN: usize = 3;
+    /// The ticks of a game with strays.
+    pub(crate) const TICKS: usize = 300;
+
+    /// The character of floor in levels of [`PushRules::game`].
+    pub const FLOOR: char = '.';
+    /// That of a stray.
+    pub const STRAY: char = 'y';
+    /// Those of walls, the avatar and sills.
+    pub(crate) const WALL: char = 'w';
+    pub(crate) const AVATAR: char = 'A';
+    pub(crate) const SILL: char = 's';
+    /// Those of things and their targets, by kind.
+    pub(crate) const THINGS: [char; 2] = ['c', 'b'];
+    pub(crate) const TARGETS: [char; 2] = ['o', 'u'];
+
+    /// Returns `true` if there are strays, so that chance plays a part.
+    pub fn has_strays(self) -> bool {
+        self.has_strays
+    }
+
+    /// The same rules without strays.
+    pub(crate) fn without_strays(self) -> PushRules {
+        PushRules { has_strays: false, ..self }
+    }
+
+    /// Returns `true` if sprites of a type of this name are pushed.
+    pub(crate) fn is_pushed(name: &str) -> bool {
+        (0..2).any(|kind| [name_of(kind), settled(kind)].contains(&name))
+    }
+
+    /// Returns `true` if sprites of a type of this name bar the avatar, and are not pushed.
+    pub(crate) fn is_barrier(name: &str) -> bool {
+        name == "wall" || (0..2).any(|kind| name.strip_prefix(name_of(kind)) == Some("pit"))
+    }
+
     /// A name, such as `drain-pit-sills`.
     pub fn name(self) -> String {
         let mut words: Vec<&str> = Vec::new();
@@ -68,6 +134,7 @@ impl PushRules {
         }
         words.extend(self.exclusive.then_some("exclusive"));
         words.extend(self.has_sills.then_some("sills"));
+        words.extend(self.has_strays.then_some("strays"));
         words.join("-")
     }
 
@@ -84,9 +151,10 @@ impl PushRules {
         let kinds = self.ends.iter().flatten().count();
 
         for kind in 0..kinds {
-            let (thing, mark) = (name_of(kind), ["c", "b"][kind]);
+            let (thing, mark) = (name_of(kind), PushRules::THINGS[kind]);
             if self.ends[kind] == Some(Mat) {
-                let _ = writeln!(sprites, "      set{thing} > color=GREEN\n      {thing} > color=BROWN");
+                let _ =
+                    writeln!(sprites, "      {thing} > color=BROWN\n      {} > color=GREEN", settled(kind));
             } else {
                 let _ = writeln!(sprites, "      {thing} > color=BROWN");
             }
@@ -94,7 +162,7 @@ impl PushRules {
         }
         let mut marks = String::new();
         for (kind, end) in self.ends.iter().enumerate().filter_map(|(kind, end)| Some((kind, (*end)?))) {
-            let (thing, mark) = (name_of(kind), ["o", "u"][kind]);
+            let (thing, mark) = (name_of(kind), PushRules::TARGETS[kind]);
             let target = match end {
                 Drain => format!("{thing}drain"),
                 Pit => format!("{thing}pit"),
@@ -113,25 +181,36 @@ impl PushRules {
                 }
                 Mat => {
                     let _ = writeln!(mapping, "    {mark} > {target}");
+                    let settled = settled(kind);
                     let _ =
-                        writeln!(rules, "    {thing} {target} > transformTo stype=set{thing} scoreChange=1");
-                    let _ =
-                        writeln!(rules, "    set{thing} floor > transformTo stype={thing} scoreChange=-1");
+                        writeln!(rules, "    {thing} {target} > transformTo stype={settled} scoreChange=1");
+                    let _ = writeln!(rules, "    {settled} floor > transformTo stype={thing} scoreChange=-1");
                 }
             }
             if (self.exclusive || end != Drain) && kinds == 2 {
                 let other = 1 - kind;
                 let _ = writeln!(rules, "    {} {target} > undoAll", name_of(other));
                 if self.ends[other] == Some(Mat) {
-                    let _ = writeln!(rules, "    set{} {target} > undoAll", name_of(other));
+                    let _ = writeln!(rules, "    {} {target} > undoAll", settled(other));
                 }
             }
         }
         rules.insert_str(0, "    load load > undoAll\n");
         if self.has_sills {
             marks.push_str("    sill > Immovable color=ORANGE\n");
-            mapping.push_str("    s > floor sill\n");
+            let _ = writeln!(mapping, "    {} > floor sill", PushRules::SILL);
             rules.insert_str(0, "    load sill > undoAll\n");
+        }
+        let mut ticks = 1000;
+        let mut loss = "";
+        if self.has_strays {
+            // Seen above what is pushed.
+            let _ =
+                writeln!(sprites, "    stray > RandomNPC cooldown={} color=DARKGREEN", PushRules::COOLDOWN);
+            let _ = writeln!(mapping, "    {} > floor stray", PushRules::STRAY);
+            rules.push_str("    stray wall > stepBack\n    avatar stray > killSprite\n");
+            loss = "SpriteCounter stype=avatar limit=0 win=False\n    ";
+            ticks = PushRules::TICKS;
         }
         // What a thing pushed off its mat lands on is seen.
         let hidden = if self.ends.contains(&Some(Mat)) { "" } else { " hidden=True" };
@@ -141,9 +220,12 @@ impl PushRules {
         };
         format!(
             "BasicGame\n  SpriteSet\n    floor > Immovable{hidden}\n    wall > Immovable color=GRAY\n{marks}    \
-             load > Passive\n{sprites}    avatar > MovingAvatar color=YELLOW\n  LevelMapping\n    . > floor\n    w > wall\n\
-             {mapping}    A > floor avatar\n  InteractionSet\n    avatar wall > stepBack\n    load avatar > bounceForward\n    \
-             load wall > undoAll\n{rules}  TerminationSet\n    {ending}\n    Timeout limit=1000 win=False\n"
+             load > Passive\n{sprites}    avatar > MovingAvatar color=YELLOW\n  LevelMapping\n    {} > floor\n    {} > wall\n\
+             {mapping}    {} > floor avatar\n  InteractionSet\n    avatar wall > stepBack\n    load avatar > bounceForward\n    \
+             load wall > undoAll\n{rules}  TerminationSet\n    {loss}{ending}\n    Timeout limit={ticks} win=False\n",
+            PushRules::FLOOR,
+            PushRules::WALL,
+            PushRules::AVATAR,
         )
     }
 }

@@ -24,6 +24,8 @@ const MAX_NAMES: usize = 4;
 const MAX_TITLES: usize = 32;
 /// The directions in which names end that are given to types of one kind.
 const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
+/// The state in the name of a type that another becomes where it belongs.
+const SETTLED: &str = "settled";
 /// Adjectives that distinguish types if a theme has no more words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
 
@@ -55,8 +57,8 @@ impl Rethemed {
         Rethemed::retell(game, seed, false)
     }
 
-    /// The same for games whose compound names are made of the names of other types, and of directions: `sackPorter` and
-    /// `signUp` become `loafBaker` and `doormatUp`.
+    /// The same for games whose compound names are made of the names of other types, directions and states: `sackPorter`, `signUp` and
+    /// `settledCrate` become `loafBaker`, `doormatUp` and `settledTrunk`.
     ///
     /// # Errors
     /// As [`Rethemed::of`].
@@ -196,7 +198,7 @@ impl Assigner<'_> {
         self.of_roles(roles)
     }
 
-    /// The new name of a compound: a direction stays, and names of types that have a word get it.
+    /// The new name of a compound: a direction or a state stays, and names of types that have a word get it.
     fn compound(&mut self, name: &str, roles: &[Role]) -> Option<String> {
         self.stems.as_ref()?;
         if let Some((stem, way)) = DIRECTIONS.iter().find_map(|way| Some((name.strip_suffix(way)?, way))) {
@@ -206,8 +208,9 @@ impl Assigner<'_> {
             return Some(format!("{word}{way}"));
         }
         let parts = spaced(name);
-        let words: Option<Vec<&str>> =
-            parts.split(' ').map(|part| Some(self.assigned.get(part)?.word.as_str())).collect();
+        let word =
+            |part| if part == SETTLED { Some(SETTLED) } else { Some(self.assigned.get(part)?.word.as_str()) };
+        let words: Option<Vec<&str>> = parts.split(' ').map(word).collect();
         let (first, rest) = words.as_deref()?.split_first().filter(|(_, rest)| !rest.is_empty())?;
         Some(rest.iter().fold((*first).to_owned(), |name, word| name + &capital(word)))
     }
@@ -371,7 +374,10 @@ fn title(analysis: &Analysis, theme: &Theme, hero: &str, old: &OldNames, sampler
         let title_word = kind.title_word(sampler);
         theme.title(&hero, title_word, sampler)
     });
-    titles.find(|title| !old.mentions_old_name(title)).unwrap_or_else(|| format!("The {hero}"))
+    // "The Avatar's Shift" tells nothing of the game.
+    titles
+        .find(|title| !old.mentions_old_name(title) && !title.contains("Avatar"))
+        .unwrap_or_else(|| format!("The {hero}"))
 }
 
 /// Describes the hero and the place, the tasks and the dangers.
@@ -561,7 +567,7 @@ mod tests {
             .replace("fruit >\n", "fruitUp > Immovable\n    fruitDown > Immovable\n    fruit >\n")
             .replace(
                 "picker > MovingAvatar",
-                "picker > MovingAvatar\n    pearPicker > MovingAvatar\n    oddPicker > MovingAvatar",
+                "picker > MovingAvatar\n    pearPicker > MovingAvatar\n    oddPicker > MovingAvatar\n    settledPear > Immovable",
             )
             .replace("picker snail >", "picker pear > transformTo stype=pearPicker\n    picker snail >");
         let game = game(&source);
@@ -571,6 +577,7 @@ mod tests {
         let both = name("pear") + &capital(&name("picker"));
         assert_eq!(name("pearPicker"), both);
         assert!(!name("oddPicker").contains(&capital(&name("picker"))), "{}", name("oddPicker"));
+        assert_eq!(name("settledPear"), "settled".to_owned() + &capital(&name("pear")));
         let [up, down] = ["fruitUp", "fruitDown"].map(name);
         assert_eq!(up.strip_suffix("Up"), down.strip_suffix("Down"), "{up} {down}");
         let other = Rethemed::of(&game, seed()).unwrap();

@@ -57,6 +57,9 @@ impl YardRules {
     /// The ticks that the spark takes for a cell of fuse.
     pub(crate) const BURN: usize = 14;
 
+    /// The ticks that a stray takes for a cell.
+    pub(crate) const COOLDOWN: usize = 2;
+
     /// The number of kinds of parcels.
     pub fn kinds(self) -> usize {
         self.kinds
@@ -123,7 +126,8 @@ impl YardRules {
             let _ = writeln!(mapping, "    {} > floor signRight wagon", YardRules::CARTS[1]);
         }
         if self.has_strays {
-            sprites.push_str("    stray > RandomNPC cooldown=2 color=DARKGREEN\n");
+            let _ =
+                writeln!(sprites, "    stray > RandomNPC cooldown={} color=DARKGREEN", YardRules::COOLDOWN);
             let _ = writeln!(mapping, "    {} > floor stray", YardRules::STRAY);
             rules.push_str("    stray wall > stepBack\n    worker stray > killSprite\n");
         }

@@ -1,5 +1,6 @@
 //! The board as a graph of cells. A cell is its row-major index.
 
+use engine::Sampler;
 use std::collections::VecDeque;
 
 /// The steps up, left, down and right: (columns, rows).
@@ -132,6 +133,17 @@ impl Grid {
         }
         regions.sort_by_key(|region| std::cmp::Reverse(region.len()));
         regions
+    }
+
+    /// Makes some floor wall, at most `walls` cells; what is left stays connected. Cost: O(cells · walls).
+    pub(crate) fn wall_off(self, is_floor: &mut [bool], walls: usize, sampler: &mut Sampler) {
+        let mut inner: Vec<usize> = (0..self.len()).filter(|&cell| is_floor[cell]).collect();
+        sampler.shuffle(&mut inner);
+        for &cell in inner.iter().take(walls) {
+            if !self.is_cut(cell, |next| is_floor[next]) {
+                is_floor[cell] = false;
+            }
+        }
     }
 
     /// Returns `true` if the open cells next to `cell` would be disconnected without it. Cost: O(1) mostly, else

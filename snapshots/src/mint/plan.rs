@@ -231,7 +231,7 @@ impl<'a> Plan<'a> {
         {
             decisive["things"] = part.things.into();
         }
-        for kind in [PuzzleKind::Locks, PuzzleKind::Yards] {
+        for kind in [PuzzleKind::Locks, PuzzleKind::Yards, PuzzleKind::Strays] {
             if let Some(part) = puzzles(kind) {
                 decisive[kind.section()] = serde_json::json!(part);
             }

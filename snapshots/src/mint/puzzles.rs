@@ -23,11 +23,14 @@ pub enum PuzzleKind {
     Locks,
     /// Parcels are carried between carts.
     Yards,
+    /// Things are pushed among strays.
+    Strays,
 }
 
 impl PuzzleKind {
     /// All kinds, in the order of jobs.
-    pub const ALL: [PuzzleKind; 3] = [PuzzleKind::Pushing, PuzzleKind::Locks, PuzzleKind::Yards];
+    pub const ALL: [PuzzleKind; 4] =
+        [PuzzleKind::Pushing, PuzzleKind::Locks, PuzzleKind::Yards, PuzzleKind::Strays];
 
     /// The name in jobs and in steps of seeds.
     pub(super) fn name(self) -> &'static str {
@@ -35,6 +38,7 @@ impl PuzzleKind {
             PuzzleKind::Pushing => "puzzle",
             PuzzleKind::Locks => "locks",
             PuzzleKind::Yards => "yards",
+            PuzzleKind::Strays => "strays",
         }
     }
 
@@ -42,7 +46,7 @@ impl PuzzleKind {
     pub(super) fn section(self) -> &'static str {
         match self {
             PuzzleKind::Pushing => "puzzles",
-            PuzzleKind::Locks | PuzzleKind::Yards => self.name(),
+            PuzzleKind::Locks | PuzzleKind::Yards | PuzzleKind::Strays => self.name(),
         }
     }
 
@@ -52,6 +56,7 @@ impl PuzzleKind {
             PuzzleKind::Pushing => recipe.puzzles.as_ref(),
             PuzzleKind::Locks => recipe.locks.as_ref(),
             PuzzleKind::Yards => recipe.yards.as_ref(),
+            PuzzleKind::Strays => recipe.strays.as_ref(),
         }
     }
 
@@ -61,6 +66,7 @@ impl PuzzleKind {
             PuzzleKind::Pushing => PushRules::ALL.len(),
             PuzzleKind::Locks => LockRules::ALL.len(),
             PuzzleKind::Yards => YardRules::ALL.len(),
+            PuzzleKind::Strays => PushRules::AMONG_STRAYS.len(),
         }
     }
 
@@ -70,6 +76,7 @@ impl PuzzleKind {
             PuzzleKind::Pushing => 35.0,
             PuzzleKind::Locks => 20.0,
             PuzzleKind::Yards => 25.0,
+            PuzzleKind::Strays => 25.0,
         }
     }
 }
@@ -84,18 +91,21 @@ impl Plan<'_> {
             PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
             PuzzleKind::Locks => (LockRules::ALL[at].game(), LockRules::ALL[at].name()),
             PuzzleKind::Yards => (YardRules::ALL[at].game(), YardRules::ALL[at].name()),
+            PuzzleKind::Strays => (PushRules::AMONG_STRAYS[at].game(), PushRules::AMONG_STRAYS[at].name()),
         };
         let mut themes: Vec<&str> = Rethemed::themes().collect();
         self.seed.child("themes", 0).sampler().shuffle(&mut themes);
-        // Locks take theirs from the other end, and yards after them.
+        // Locks take theirs from the other end, and yards and strays after them.
+        let number = number as usize;
+        let from_end = |place: usize| themes.len() - 1 - place % themes.len();
         let theme = match kind {
-            PuzzleKind::Pushing => number as usize % themes.len(),
-            PuzzleKind::Locks => themes.len() - 1 - number as usize % themes.len(),
-            PuzzleKind::Yards => themes.len() - 1 - (LockRules::ALL.len() + number as usize) % themes.len(),
+            PuzzleKind::Pushing => number % themes.len(),
+            PuzzleKind::Locks => from_end(number),
+            PuzzleKind::Yards => from_end(LockRules::ALL.len() + number),
+            PuzzleKind::Strays => from_end(LockRules::ALL.len() + YardRules::ALL.len() + number),
         };
         let theme = themes[theme];
-        let retell = if kind == PuzzleKind::Yards { Rethemed::of_compounds } else { Rethemed::of };
-        let fictions = (0..FICTIONS).map(|draw| retell(&plain, seed.child("fiction", draw)));
+        let fictions = (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.child("fiction", draw)));
         let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
         let Some(retold) = retold else {
             tally.game_rejected("no fiction fits");
@@ -109,6 +119,7 @@ impl Plan<'_> {
             PuzzleKind::Pushing => PuzzleRules::Pushing,
             PuzzleKind::Locks => PuzzleRules::locks(LockRules::ALL[at], &retold),
             PuzzleKind::Yards => PuzzleRules::yards(YardRules::ALL[at], &retold),
+            PuzzleKind::Strays => PuzzleRules::strays(PushRules::AMONG_STRAYS[at], &retold),
         };
         let candidate = Candidate {
             title: retold.title,

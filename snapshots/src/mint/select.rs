@@ -35,12 +35,13 @@ pub(super) enum Part {
 }
 
 impl Part {
-    const ALL: [Part; 5] = [
+    const ALL: [Part; 6] = [
         Part::Corpus,
         Part::Generated,
         Part::Puzzles(PuzzleKind::Pushing),
         Part::Puzzles(PuzzleKind::Locks),
         Part::Puzzles(PuzzleKind::Yards),
+        Part::Puzzles(PuzzleKind::Strays),
     ];
 
     /// The name of its section in a recipe.
@@ -229,7 +230,11 @@ pub(super) fn select(
             let part = part.name();
             let advice = if failed.rejections.contains_key(NO_RULES) {
                 let small = format!("there are no rules for further jobs: lower `{part}.games`");
-                advice(recipe, &small, "or leave out the earlier releases that have used them, or add kernels")
+                advice(
+                    recipe,
+                    &small,
+                    "or leave out the earlier releases that have used them, or add kernels",
+                )
             } else {
                 let small = format!("raise `{part}.candidates`");
                 advice(recipe, &small, "or raise the tries or relax the criteria")
@@ -344,7 +349,7 @@ impl<'a> Choice<'a> {
         recipe: &'a Recipe,
         contenders: &'a [Contender],
         order: Vec<usize>,
-        asked: [(Part, usize); 5],
+        asked: [(Part, usize); Part::ALL.len()],
     ) -> Choice<'a> {
         let mut room: BTreeMap<Part, usize> = asked.into();
         let (mut taken, mut left) = (Vec::new(), Vec::new());

@@ -46,8 +46,12 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
             count(new.levels as usize, "level")
         ));
     }
-    let puzzles =
-        [(&recipe.puzzles, "new puzzle"), (&recipe.locks, "new lock puzzle"), (&recipe.yards, "new yard")];
+    let puzzles = [
+        (&recipe.puzzles, "new puzzle"),
+        (&recipe.locks, "new lock puzzle"),
+        (&recipe.yards, "new yard"),
+        (&recipe.strays, "new stray puzzle"),
+    ];
     let puzzles: Vec<_> =
         puzzles.into_iter().filter_map(|(part, what)| Some((part.as_ref()?, what))).collect();
     for (at, (part, what)) in puzzles.iter().enumerate() {

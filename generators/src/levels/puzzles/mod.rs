@@ -5,8 +5,11 @@ mod backward;
 mod floor;
 mod floor_plan;
 mod rules;
+mod strays;
 #[cfg(test)]
 mod tests;
+mod trail;
 mod variation;
 
+pub use strays::{StrayConfig, StrayLevel, StrayLevels};
 pub use variation::{PuzzleConfig, PuzzleTarget, PuzzleVariation};

@@ -1,13 +1,12 @@
 //! Levels of yards to a target: parcels to carry past carts whose course has to be foreseen, with no time to spare.
 
-mod lookout;
 mod timetable;
 mod yard;
 
 use crate::games::YardRules;
 use crate::levels::grid::Grid;
+use crate::levels::lookout::{ACTIONS, Lookout, Strays};
 use engine::{Action, Sampler, Seed};
-use lookout::Lookout;
 use timetable::{Errands, Timetable};
 use yard::{Furniture, Sign, Yard};
 
@@ -23,8 +22,8 @@ engine::with_defaults! {
         pub decisions: (usize, usize) = (50, 120),
         /// The number of carts on a board of the usual size.
         pub carts: usize = 9,
-        /// The number of strays, where the rules have them.
-        pub strays: usize = 4,
+        /// The least and the most strays, where the rules have them: a level has the most with which it is fair.
+        pub strays: (usize, usize) = (4, 8),
         /// The share of ticks of the win at which it is deadly to stay for ten ticks, at least.
         pub exposure: f64 = 0.4,
         /// The share of plays, at least, that a careful player wins with a look before every action, where there are strays.
@@ -95,15 +94,15 @@ impl YardConfig {
         (0..FURNISHED).find_map(|_| {
             let mut yard = tracks.clone();
             yard.furnish(rules, furniture, &timetable.visits, &mut sampler)?;
-            self.finish(&yard, &timetable, &mut sampler)
+            self.finish(yard, &timetable, &mut sampler)
         })
     }
 
     /// The level of a yard, if it meets the target.
-    fn finish(&self, yard: &Yard, timetable: &Timetable, sampler: &mut Sampler) -> Option<YardLevel> {
+    fn finish(&self, mut yard: Yard, timetable: &Timetable, sampler: &mut Sampler) -> Option<YardLevel> {
         // What the longest fuse allows.
         let most = YardRules::BURN * (yard.grid.columns - 1) - SPARE;
-        let (ways, cells) = timetable.fastest(yard, most)?;
+        let (ways, cells) = timetable.fastest(&yard, most)?;
         let decisions = ways.iter().flatten().count();
         if !(self.decisions.0..self.decisions.1).contains(&decisions)
             || timetable.exposure(&cells, WAIT) < self.exposure
@@ -115,15 +114,15 @@ impl YardConfig {
         let fuse = (ways.len() + SPARE.max(detours)).div_ceil(YardRules::BURN).min(yard.grid.columns - 1);
         let mut chances = Vec::new();
         if !yard.strays.is_empty() {
-            let lookout = Lookout::new(yard, Errands::new(yard, timetable), YardRules::BURN * fuse - 1);
-            if !lookout.wins(self.fairness, PLAYS, sampler) {
-                return None;
-            }
+            let mut lookout = lookout(&yard, timetable, YardRules::BURN * fuse - 1);
+            let (least, most) = self.strays;
+            let number = lookout.most_fair(&yard.strays, least..=most, self.fairness, PLAYS, sampler)?;
             let rates = self.commitments.iter().map(|&commit| lookout.rate(commit, MEASURED, sampler));
             chances = rates.collect();
+            yard.strays.truncate(number);
         }
         let action = |way: Option<usize>| way.map_or(Action::Nil, |way| ACTIONS[way]);
-        Some(YardLevel { text: text(yard, fuse), solution: ways.into_iter().map(action).collect(), chances })
+        Some(YardLevel { text: text(&yard, fuse), solution: ways.into_iter().map(action).collect(), chances })
     }
 
     /// The things of a board of this size.
@@ -135,13 +134,21 @@ impl YardConfig {
         // Parcels lie about as far from their depots as half of the board is around.
         let way = grid.columns + grid.rows - 6;
         let parcels = steps.div_ceil(way).clamp(1, PARCELS[usize::from(rules.has_strays())]);
-        let strays = if rules.has_strays() { self.strays } else { 0 };
+        let strays = if rules.has_strays() { self.strays.1 } else { 0 };
         Furniture { carts: carts.min(CARTS), parcels, strays, steps }
     }
 }
 
-/// The actions of the steps up, left, down and right.
-const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
+/// A careful player of a yard for so many ticks.
+fn lookout<'a>(yard: &'a Yard, timetable: &'a Timetable, ticks: usize) -> Lookout<Errands<'a>> {
+    let strays = Strays {
+        grid: yard.grid,
+        is_floor: yard.is_floor.clone(),
+        cells: yard.strays.clone(),
+        cooldown: YardRules::COOLDOWN,
+    };
+    Lookout::new(strays, Errands::new(yard, timetable), ticks.min(timetable.ticks()))
+}
 
 fn text(yard: &Yard, fuse: usize) -> String {
     let symbol = |cell: usize| {
@@ -182,6 +189,36 @@ fn text(yard: &Yard, fuse: usize) -> String {
 mod tests {
     use super::*;
     use engine::{Episode, Outcome};
+
+    /// In the game, as many plays of the careful player are won as in the generator.
+    #[test]
+    fn plays_among_strays_agree_with_the_game() {
+        const FUSE: usize = 6;
+        let rules = YardRules::ALL.into_iter().find(|rules| rules.has_strays()).unwrap();
+        let grid = Grid { columns: 11, rows: 10 };
+        let furniture = Furniture { carts: 3, parcels: 2, strays: 9, steps: 40 };
+        let drawn = |number: u64| {
+            let mut sampler = Seed::from_text("lookout").child("yard", number).sampler();
+            let mut yard = Yard::draw(rules, grid, furniture.carts, &mut sampler)?;
+            let timetable = Timetable::of(&yard, YardRules::BURN * FUSE)?;
+            yard.furnish(rules, furniture, &timetable.visits, &mut sampler)?;
+            timetable.fastest(&yard, YardRules::BURN * (FUSE - 1))?;
+            Some((yard, timetable))
+        };
+        let (yard, timetable) = (0..200).find_map(drawn).unwrap();
+        let lookout = lookout(&yard, &timetable, YardRules::BURN * FUSE - 1);
+        let expected = lookout.rate(1, 200, &mut Seed::from_text("plays").sampler());
+        assert!((0.2..0.95).contains(&expected), "{expected}");
+        let game = rules.game();
+        let level = game.level(&text(&yard, FUSE)).unwrap();
+        let stray = game.sprite_types().find(|stype| game.name(*stype) == "stray").unwrap();
+        const PLAYS: u64 = 40;
+        let dice = |play: &u64| Seed::from_text("dice").child("play", *play);
+        let won =
+            (0..PLAYS).filter(|play| lookout.play_game(&game, &level, stray, dice(play)).is_some()).count();
+        let rate = won as f64 / PLAYS as f64;
+        assert!((rate - expected).abs() < 0.2, "{rate} in the game, {expected} here");
+    }
 
     #[test]
     fn boards_without_room_have_no_level() {

@@ -2,6 +2,7 @@
 
 use super::yard::{RIGHT, Sign, Yard, opposite};
 use crate::levels::grid::WAYS;
+use crate::levels::lookout::Moves;
 use std::collections::BTreeSet;
 
 /// The cells of carts after each tick.
@@ -55,7 +56,8 @@ impl Timetable {
         (apart.len() as f64 >= APART * carts.len() as f64).then_some(timetable)
     }
 
-    fn ticks(&self) -> usize {
+    /// The number of its ticks.
+    pub(super) fn ticks(&self) -> usize {
         self.is_busy.len() / self.cells
     }
 
@@ -122,11 +124,6 @@ impl<'a> Errands<'a> {
         Errands { yard, timetable, parcels }
     }
 
-    /// The ticks of the timetable.
-    pub(super) fn ticks(&self) -> usize {
-        self.timetable.ticks()
-    }
-
     /// Nothing, or a parcel of a kind.
     fn loads(&self) -> usize {
         self.yard.depots.len() + 1
@@ -134,21 +131,6 @@ impl<'a> Errands<'a> {
 
     fn all(&self) -> usize {
         (1 << self.yard.parcels.len()) - 1
-    }
-
-    /// The number of states.
-    pub(super) fn states(&self) -> usize {
-        (self.all() + 1) * self.loads() * self.timetable.cells
-    }
-
-    /// The state at the start.
-    pub(super) fn start(&self) -> usize {
-        self.pack(self.yard.start, EMPTY, 0)
-    }
-
-    /// The cell of a state.
-    pub(super) fn cell(&self, state: usize) -> usize {
-        state % self.timetable.cells
     }
 
     fn pack(&self, cell: usize, load: usize, taken: usize) -> usize {
@@ -160,20 +142,33 @@ impl<'a> Errands<'a> {
         let rest = state / self.timetable.cells;
         (self.cell(state), rest % self.loads(), rest / self.loads())
     }
+}
 
-    /// Returns `true` if all parcels are where they belong.
-    pub(super) fn is_won(&self, state: usize) -> bool {
+impl Moves for Errands<'_> {
+    fn states(&self) -> usize {
+        (self.all() + 1) * self.loads() * self.timetable.cells
+    }
+
+    fn start(&self) -> usize {
+        self.pack(self.yard.start, EMPTY, 0)
+    }
+
+    fn cell(&self, state: usize) -> usize {
+        state % self.timetable.cells
+    }
+
+    /// All parcels are where they belong.
+    fn is_won(&self, state: usize) -> bool {
         let (_, load, taken) = self.unpack(state);
         taken == self.all() && load == EMPTY
     }
 
-    /// Returns `true` if a cart is in a cell after a tick.
-    pub(super) fn is_busy(&self, tick: usize, cell: usize) -> bool {
+    fn is_busy(&self, tick: usize, cell: usize) -> bool {
         self.timetable.is_busy(tick, cell)
     }
 
-    /// The steps of a state, as indices of [`WAYS`], and a rest, with the states after them; whatever the carts.
-    pub(super) fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> + use<'_, 'a> {
+    /// Whatever the carts.
+    fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (cell, load, taken) = self.unpack(state);
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
             let next = match way {

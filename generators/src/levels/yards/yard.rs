@@ -88,25 +88,14 @@ impl Yard {
             depots: Vec::new(),
             strays: Vec::new(),
         };
-        yard.wall_off(sampler);
+        let walls = (yard.floor().len() as f64 * WALLS).round() as usize;
+        grid.wall_off(&mut yard.is_floor, walls, sampler);
         yard.lay_tracks(rules, carts, sampler)?;
         Some(yard)
     }
 
     fn floor(&self) -> Vec<usize> {
         (0..self.grid.len()).filter(|&cell| self.is_floor[cell]).collect()
-    }
-
-    /// Makes some floor wall; what is left stays connected.
-    fn wall_off(&mut self, sampler: &mut Sampler) {
-        let mut inner = self.floor();
-        sampler.shuffle(&mut inner);
-        let walls = (inner.len() as f64 * WALLS).round() as usize;
-        for &cell in inner.iter().take(walls) {
-            if !self.grid.is_cut(cell, |next| self.is_floor[next]) {
-                self.is_floor[cell] = false;
-            }
-        }
     }
 
     /// The cells ahead of one, up to a wall.
