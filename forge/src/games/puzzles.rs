@@ -131,8 +131,8 @@ impl PuzzleGenerator<'_> {
     }
 }
 
-/// The actions of a win among strays, fewer than: the time of these games leaves about as many again.
-const MOST_ACTIONS: usize = 180;
+/// The actions of a win among strays, fewer than: the longest fuse leaves half as many again.
+const MOST_ACTIONS: usize = 160;
 /// The maximum number of floor plans to examine for a level.
 const FLOOR_PLANS: usize = 20_000;
 /// The same without a target, and the levels drawn until one takes as many actions as the tier.

@@ -68,32 +68,33 @@ impl PushRules {
     ];
 
     /// All rules with strays, no two of which are near to each other or to one of [`PushRules::ALL`].
-    pub const AMONG_STRAYS: [PushRules; 11] = [
+    pub const AMONG_STRAYS: [PushRules; 8] = [
         among_strays(Drain, Some(Mat), false, true),
         among_strays(Drain, Some(Pit), true, true),
         among_strays(Mat, Some(Mat), false, false),
         among_strays(Pit, Some(Mat), false, true),
         among_strays(Drain, Some(Drain), true, false),
         among_strays(Mat, None, false, true),
-        among_strays(Drain, Some(Pit), false, false),
-        among_strays(Drain, Some(Mat), true, false),
         among_strays(Drain, Some(Drain), false, true),
         among_strays(Pit, None, false, true),
-        among_strays(Drain, None, false, true),
     ];
 
     /// The characters of its levels.
-    pub const SYMBOLS: &str = ".wAcbousy";
+    pub const SYMBOLS: &str = ".wAcbousyznk";
 
     /// The ticks that a stray takes for a cell.
     pub(crate) const COOLDOWN: usize = 3;
-    /// The ticks of a game with strays.
-    pub(crate) const TICKS: usize = 300;
+    /// The ticks that the spark takes for a cell of fuse.
+    pub(crate) const BURN: usize = 25;
 
     /// The character of floor in levels of [`PushRules::game`].
     pub const FLOOR: char = '.';
     /// That of a stray.
     pub const STRAY: char = 'y';
+    /// Those of the spark, the fuse and the keg, which there are among strays.
+    pub(crate) const SPARK: char = 'z';
+    pub(crate) const FUSE: char = 'n';
+    pub(crate) const KEG: char = 'k';
     /// Those of walls, the avatar and sills.
     pub(crate) const WALL: char = 'w';
     pub(crate) const AVATAR: char = 'A';
@@ -201,16 +202,24 @@ impl PushRules {
             let _ = writeln!(mapping, "    {} > floor sill", PushRules::SILL);
             rules.insert_str(0, "    load sill > undoAll\n");
         }
-        let mut ticks = 1000;
         let mut loss = "";
         if self.has_strays {
             // Seen above what is pushed.
             let _ =
                 writeln!(sprites, "    stray > RandomNPC cooldown={} color=DARKGREEN", PushRules::COOLDOWN);
+            marks.push_str("    fuse > Immovable color=BROWN\n    keg > Immovable color=BLACK\n");
+            let _ = writeln!(
+                sprites,
+                "    spark > Missile orientation=RIGHT cooldown={} color=ORANGE",
+                PushRules::BURN
+            );
             let _ = writeln!(mapping, "    {} > floor stray", PushRules::STRAY);
+            let _ = writeln!(mapping, "    {} > spark", PushRules::SPARK);
+            let _ = writeln!(mapping, "    {} > fuse", PushRules::FUSE);
+            let _ = writeln!(mapping, "    {} > keg", PushRules::KEG);
             rules.push_str("    stray wall > stepBack\n    avatar stray > killSprite\n");
-            loss = "SpriteCounter stype=avatar limit=0 win=False\n    ";
-            ticks = PushRules::TICKS;
+            rules.push_str("    fuse spark > killSprite\n    keg spark > killSprite\n");
+            loss = "SpriteCounter stype=avatar limit=0 win=False\n    SpriteCounter stype=keg limit=0 win=False\n    ";
         }
         // What a thing pushed off its mat lands on is seen.
         let hidden = if self.ends.contains(&Some(Mat)) { "" } else { " hidden=True" };
@@ -222,7 +231,7 @@ impl PushRules {
             "BasicGame\n  SpriteSet\n    floor > Immovable{hidden}\n    wall > Immovable color=GRAY\n{marks}    \
              load > Passive\n{sprites}    avatar > MovingAvatar color=YELLOW\n  LevelMapping\n    {} > floor\n    {} > wall\n\
              {mapping}    {} > floor avatar\n  InteractionSet\n    avatar wall > stepBack\n    load avatar > bounceForward\n    \
-             load wall > undoAll\n{rules}  TerminationSet\n    {loss}{ending}\n    Timeout limit={ticks} win=False\n",
+             load wall > undoAll\n{rules}  TerminationSet\n    {loss}{ending}\n    Timeout limit=1000 win=False\n",
             PushRules::FLOOR,
             PushRules::WALL,
             PushRules::AVATAR,

@@ -14,14 +14,14 @@ engine::with_defaults! {
     /// The configuration of puzzles among strays.
     #[derive(Clone, Debug, PartialEq)]
     pub struct StrayConfig {
-        /// The least and the most columns; a board has at most 128 cells.
+        /// The least and the most columns.
         pub columns: (usize, usize) = (10, 11),
-        /// The least and the most rows.
-        pub rows: (usize, usize) = (10, 11),
+        /// The least and the most rows, with that of the fuse; without it, a board has at most 128 cells.
+        pub rows: (usize, usize) = (11, 12),
         /// The actions of a win that the strays keep out of, at least and fewer than.
         pub decisions: (usize, usize) = (50, 120),
         /// The least and the most strays: a level has the most with which it is fair.
-        pub strays: (usize, usize) = (3, 6),
+        pub strays: (usize, usize) = (3, 8),
         /// The share of plays, at least, that a careful player wins with a look before every action.
         pub fairness: f64 = 0.5,
         /// Commitments for which its share of wins is measured.
@@ -40,6 +40,8 @@ const SILLS: f64 = 0.05;
 const ACTIONS_EACH: usize = 15;
 /// The most things, by the number of inner cells for each.
 const ROOM: usize = 8;
+/// One action of so many is added to the time.
+const SPARE: usize = 2;
 /// The distance of strays from the avatar, at least.
 const AWAY: usize = 4;
 /// The plays of the careful player.
@@ -60,6 +62,8 @@ pub struct StrayLevel {
     calm: Level,
     /// The cells of the strays.
     cells: Vec<usize>,
+    /// The cells of the fuse, with the keg.
+    fuse: usize,
 }
 
 /// Levels of the rules of [`PushRules::AMONG_STRAYS`].
@@ -91,7 +95,9 @@ impl StrayLevels {
     pub fn level(&self, seed: Seed) -> Option<StrayLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
-        let grid = Grid { columns: side(self.config.columns), rows: side(self.config.rows) };
+        let (columns, rows) = (side(self.config.columns), side(self.config.rows));
+        // The fuse has a row of its own.
+        let grid = Grid { columns, rows: rows.saturating_sub(1) };
         if grid.columns.min(grid.rows) < LEAST_SIDE || grid.len() > super::floor_plan::MAX_CELLS {
             return None;
         }
@@ -106,9 +112,13 @@ impl StrayLevels {
         if !(self.config.decisions.0..self.config.decisions.1).contains(&ways.len()) {
             return None;
         }
+        let fuse = (ways.len() + ways.len() / SPARE).div_ceil(PushRules::BURN);
+        if fuse >= grid.columns {
+            return None;
+        }
         let solution: Vec<Action> = ways.into_iter().map(|way| ACTIONS[way]).collect();
         let calm = self.calm.level(&text(&floor_plan, &start)).ok()?;
-        let mut lookout = self.lookout(&calm, &solution, Vec::new())?;
+        let mut lookout = self.lookout(&calm, &solution, Vec::new(), fuse)?;
         let is_bare = |cell: &usize| char::from(calm.cells()[*cell]) == PushRules::FLOOR;
         let is_far = |cell: &usize| grid.manhattan(lookout.start(), *cell) >= AWAY;
         let mut cells: Vec<usize> = (0..grid.len()).filter(is_bare).filter(is_far).collect();
@@ -118,7 +128,7 @@ impl StrayLevels {
         cells.truncate(number);
         let rate = |&commit: &usize| lookout.rate(commit, MEASURED, &mut sampler);
         let chances = self.config.commitments.iter().map(rate).collect();
-        Some(StrayLevel { text: among(&calm, &cells), solution, chances, calm, cells })
+        Some(StrayLevel { text: among(&calm, &cells, fuse), solution, chances, calm, cells, fuse })
     }
 
     /// A board with things and targets.
@@ -170,18 +180,25 @@ impl StrayLevels {
         stray: SpriteType,
         seed: Seed,
     ) -> Option<Vec<Action>> {
-        let mut lookout = self.lookout(&made.calm, &made.solution, made.cells.clone())?;
+        let mut lookout = self.lookout(&made.calm, &made.solution, made.cells.clone(), made.fuse)?;
         lookout.win_game(game, level, stray, seed)
     }
 
-    fn lookout(&self, calm: &Level, solution: &[Action], cells: Vec<usize>) -> Option<Lookout<Trail>> {
+    fn lookout(
+        &self,
+        calm: &Level,
+        solution: &[Action],
+        cells: Vec<usize>,
+        fuse: usize,
+    ) -> Option<Lookout<Trail>> {
         let trail = Trail::of(&self.calm, calm, solution)?;
         let grid = Grid { columns: calm.columns(), rows: calm.rows() };
         let is_floor = calm.cells().iter().map(|&symbol| char::from(symbol) != PushRules::WALL).collect();
         Some(Lookout::new(
             Strays { grid, is_floor, cells, cooldown: PushRules::COOLDOWN },
             trail,
-            PushRules::TICKS - 1,
+            // The keg goes with the tick that ends the last cell of the fuse.
+            PushRules::BURN * fuse - 1,
         ))
     }
 }
@@ -268,13 +285,19 @@ fn text(floor_plan: &FloorPlan, start: &Position) -> String {
     rows((0..floor_plan.grid.len()).map(symbol).collect(), floor_plan.grid.columns)
 }
 
-/// A level with strays on floor.
-fn among(calm: &Level, strays: &[usize]) -> String {
+/// A level with strays on floor, and the row of the fuse above it.
+fn among(calm: &Level, strays: &[usize], fuse: usize) -> String {
+    let of_fuse = |column: usize| match column {
+        0 => PushRules::SPARK,
+        _ if column < fuse => PushRules::FUSE,
+        _ if column == fuse => PushRules::KEG,
+        _ => PushRules::WALL,
+    };
     let mut cells: Vec<char> = calm.cells().iter().map(|&symbol| char::from(symbol)).collect();
     for &stray in strays {
         cells[stray] = PushRules::STRAY;
     }
-    rows(cells, calm.columns())
+    rows((0..calm.columns()).map(of_fuse).chain(cells).collect(), calm.columns())
 }
 
 fn rows(cells: Vec<char>, columns: usize) -> String {
@@ -300,7 +323,7 @@ mod tests {
             let game = rules.game();
             let level = game.level(&made.text).unwrap();
             let stray = game.sprite_types().find(|stype| game.name(*stype) == "stray").unwrap();
-            let lookout = levels.lookout(&made.calm, &made.solution, made.cells.clone()).unwrap();
+            let lookout = levels.lookout(&made.calm, &made.solution, made.cells.clone(), made.fuse).unwrap();
             let dice = |play: &u64| seed.child("dice", *play);
             let wins = (0..PLAYS).filter_map(|play| lookout.play_game(&game, &level, stray, dice(&play)));
             let rate = wins.count() as f64 / PLAYS as f64;
@@ -310,7 +333,7 @@ mod tests {
 
     #[test]
     fn boards_without_room_have_no_level() {
-        for sides in [(0, 6), (12, 12)] {
+        for sides in [(0, 7), (12, 12)] {
             let config = StrayConfig { columns: sides, rows: sides, ..StrayConfig::default() };
             let levels = StrayLevels::new(PushRules::AMONG_STRAYS[0], config);
             assert_eq!(levels.level(Seed::from_text("small")), None, "{sides:?}");
