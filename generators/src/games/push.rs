@@ -1,5 +1,6 @@
 //! Rules of puzzles that are won by pushing alone: kinds of things, each with its own destination.
 
+use crate::levels::FuseSymbols;
 use engine::Game;
 use std::fmt::Write;
 
@@ -92,9 +93,8 @@ impl PushRules {
     /// That of a stray.
     pub const STRAY: char = 'y';
     /// Those of the spark, the fuse and the keg, which there are among strays.
-    pub(crate) const SPARK: char = 'z';
-    pub(crate) const FUSE: char = 'n';
-    pub(crate) const KEG: char = 'k';
+    pub(crate) const FUSE_SYMBOLS: FuseSymbols =
+        FuseSymbols { spark: 'z', fuse: 'n', keg: 'k', wall: PushRules::WALL };
     /// Those of walls, the avatar and sills.
     pub(crate) const WALL: char = 'w';
     pub(crate) const AVATAR: char = 'A';
@@ -214,9 +214,8 @@ impl PushRules {
                 PushRules::BURN
             );
             let _ = writeln!(mapping, "    {} > floor stray", PushRules::STRAY);
-            let _ = writeln!(mapping, "    {} > spark", PushRules::SPARK);
-            let _ = writeln!(mapping, "    {} > fuse", PushRules::FUSE);
-            let _ = writeln!(mapping, "    {} > keg", PushRules::KEG);
+            let FuseSymbols { spark, fuse, keg, .. } = PushRules::FUSE_SYMBOLS;
+            let _ = writeln!(mapping, "    {spark} > spark\n    {fuse} > fuse\n    {keg} > keg");
             rules.push_str("    stray wall > stepBack\n    avatar stray > killSprite\n");
             rules.push_str("    fuse spark > killSprite\n    keg spark > killSprite\n");
             loss = "SpriteCounter stype=avatar limit=0 win=False\n    SpriteCounter stype=keg limit=0 win=False\n    ";

@@ -1,5 +1,6 @@
 //! Rules of yards: parcels are carried to depots, one at a time, between carts that follow signs, before a fuse has burnt.
 
+use crate::levels::FuseSymbols;
 use engine::Game;
 use std::fmt::Write;
 
@@ -51,9 +52,8 @@ impl YardRules {
     pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
     pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
     /// Those of the spark, the fuse and the keg.
-    pub(crate) const SPARK: char = 's';
-    pub(crate) const FUSE: char = 'n';
-    pub(crate) const KEG: char = 'k';
+    pub(crate) const FUSE_SYMBOLS: FuseSymbols =
+        FuseSymbols { spark: 's', fuse: 'n', keg: 'k', wall: YardRules::WALL };
     /// The ticks that the spark takes for a cell of fuse.
     pub(crate) const BURN: usize = 14;
 
@@ -149,9 +149,9 @@ impl YardRules {
             YardRules::FLOOR,
             YardRules::WALL,
             YardRules::AVATAR,
-            YardRules::SPARK,
-            YardRules::FUSE,
-            YardRules::KEG,
+            YardRules::FUSE_SYMBOLS.spark,
+            YardRules::FUSE_SYMBOLS.fuse,
+            YardRules::FUSE_SYMBOLS.keg,
             burn = YardRules::BURN,
         )
     }

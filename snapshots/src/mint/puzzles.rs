@@ -95,14 +95,13 @@ impl Plan<'_> {
         };
         let mut themes: Vec<&str> = Rethemed::themes().collect();
         self.seed.child("themes", 0).sampler().shuffle(&mut themes);
-        // Locks take theirs from the other end, and yards and strays after them.
+        // Locks take theirs from the other end, and yards after them. Strays share those of locks, whose things are others.
         let number = number as usize;
         let from_end = |place: usize| themes.len() - 1 - place % themes.len();
         let theme = match kind {
             PuzzleKind::Pushing => number % themes.len(),
-            PuzzleKind::Locks => from_end(number),
+            PuzzleKind::Locks | PuzzleKind::Strays => from_end(number),
             PuzzleKind::Yards => from_end(LockRules::ALL.len() + number),
-            PuzzleKind::Strays => from_end(LockRules::ALL.len() + YardRules::ALL.len() + number),
         };
         let theme = themes[theme];
         let fictions = (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.child("fiction", draw)));

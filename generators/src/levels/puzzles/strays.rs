@@ -5,6 +5,7 @@ use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, KINDS, Rules};
 use super::trail::Trail;
 use crate::games::PushRules;
+use crate::levels::fuse;
 use crate::levels::grid::{Grid, WAYS};
 use crate::levels::lookout::{ACTIONS, Lookout, Strays};
 use crate::levels::palette::Palette;
@@ -285,19 +286,13 @@ fn text(floor_plan: &FloorPlan, start: &Position) -> String {
     rows((0..floor_plan.grid.len()).map(symbol).collect(), floor_plan.grid.columns)
 }
 
-/// A level with strays on floor, and the row of the fuse above it.
-fn among(calm: &Level, strays: &[usize], fuse: usize) -> String {
-    let of_fuse = |column: usize| match column {
-        0 => PushRules::SPARK,
-        _ if column < fuse => PushRules::FUSE,
-        _ if column == fuse => PushRules::KEG,
-        _ => PushRules::WALL,
-    };
+/// A level with strays on floor, and a fuse of this length above it.
+fn among(calm: &Level, strays: &[usize], length: usize) -> String {
     let mut cells: Vec<char> = calm.cells().iter().map(|&symbol| char::from(symbol)).collect();
     for &stray in strays {
         cells[stray] = PushRules::STRAY;
     }
-    rows((0..calm.columns()).map(of_fuse).chain(cells).collect(), calm.columns())
+    fuse::row(calm.columns(), length, &PushRules::FUSE_SYMBOLS) + &rows(cells, calm.columns())
 }
 
 fn rows(cells: Vec<char>, columns: usize) -> String {

@@ -4,6 +4,7 @@ mod timetable;
 mod yard;
 
 use crate::games::YardRules;
+use crate::levels::fuse;
 use crate::levels::grid::Grid;
 use crate::levels::lookout::{ACTIONS, Lookout, Strays};
 use engine::{Action, Sampler, Seed};
@@ -150,7 +151,8 @@ fn lookout<'a>(yard: &'a Yard, timetable: &'a Timetable, ticks: usize) -> Lookou
     Lookout::new(strays, Errands::new(yard, timetable), ticks.min(timetable.ticks()))
 }
 
-fn text(yard: &Yard, fuse: usize) -> String {
+/// A level with a fuse of this length.
+fn text(yard: &Yard, length: usize) -> String {
     let symbol = |cell: usize| {
         if let Some(cart) = yard.carts.iter().find(|cart| cart.start == cell) {
             return YardRules::CARTS[usize::from(cart.is_wagon)];
@@ -173,16 +175,10 @@ fn text(yard: &Yard, fuse: usize) -> String {
         }
     };
     let columns = yard.grid.columns;
-    let of_fuse = |column: usize| match column {
-        0 => YardRules::SPARK,
-        _ if column < fuse => YardRules::FUSE,
-        _ if column == fuse => YardRules::KEG,
-        _ => YardRules::WALL,
-    };
-    let first: String = (0..columns).map(of_fuse).collect();
+    let first = fuse::row(columns, length, &YardRules::FUSE_SYMBOLS);
     let row =
-        |row: usize| -> String { (0..columns).map(|column| symbol(yard.grid.at(column, row))).collect() };
-    std::iter::once(first).chain((0..yard.grid.rows).map(row)).map(|row| row + "\n").collect()
+        |row: usize| (0..columns).map(|column| symbol(yard.grid.at(column, row))).collect::<String>() + "\n";
+    std::iter::once(first).chain((0..yard.grid.rows).map(row)).collect()
 }
 
 #[cfg(test)]
