@@ -167,7 +167,7 @@ impl Moves for Errands<'_> {
         self.timetable.is_busy(tick, cell)
     }
 
-    /// Whatever the carts.
+    /// As if no cart were in the way.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (cell, load, taken) = self.unpack(state);
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
