@@ -73,10 +73,10 @@ impl PuzzleKind {
     /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
     pub(super) fn seconds(self) -> f64 {
         match self {
-            PuzzleKind::Pushing => 35.0,
-            PuzzleKind::Locks => 20.0,
-            PuzzleKind::Yards => 25.0,
-            PuzzleKind::Strays => 25.0,
+            PuzzleKind::Pushing => 24.0,
+            PuzzleKind::Locks => 14.0,
+            PuzzleKind::Yards => 17.0,
+            PuzzleKind::Strays => 4.0,
         }
     }
 }
