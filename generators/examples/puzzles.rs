@@ -24,7 +24,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let target = PuzzleTarget { pushes: pushes.parse()?, decisions: decisions.parse()? };
     let (levels, side): (u64, usize) = (levels.parse()?, side.parse()?);
-    for rules in PushRules::ALL.into_iter().chain(PushRules::AMONG_STRAYS) {
+    let all: Vec<PushRules> = PushRules::ALL.into_iter().chain(PushRules::AMONG_STRAYS).collect();
+    if let Some(unknown) = names.iter().find(|name| all.iter().all(|rules| rules.name() != **name)) {
+        let known: Vec<String> = all.iter().map(|rules| rules.name()).collect();
+        return Err(format!("no rules are called `{unknown}`; there are {}", known.join(", ")).into());
+    }
+    for rules in all {
         let name = rules.name();
         if !names.is_empty() && !names.contains(&name) {
             continue;
