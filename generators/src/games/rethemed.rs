@@ -374,7 +374,6 @@ fn title(analysis: &Analysis, theme: &Theme, hero: &str, old: &OldNames, sampler
         let title_word = kind.title_word(sampler);
         theme.title(&hero, title_word, sampler)
     });
-    // "The Avatar's Shift" tells nothing of the game.
     titles
         .find(|title| !old.mentions_old_name(title) && !title.contains("Avatar"))
         .unwrap_or_else(|| format!("The {hero}"))
