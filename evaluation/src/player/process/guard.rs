@@ -215,6 +215,7 @@ fn descendants() -> Vec<Pid> {
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
     use super::*;
+    use std::io::{BufRead, BufReader};
 
     #[test]
     fn parents_are_parsed_for_any_process_name() {
@@ -224,20 +225,19 @@ mod tests {
         assert_eq!(parent(b""), None);
     }
 
+    /// Other tests run beside this one in the same process, so descendants are told apart by their ids.
     #[test]
     fn children_are_found() {
-        let mut child = Command::new("sh").args(["-c", "sleep 600 & wait"]).spawn().unwrap();
-        // The shell may not have started its own child yet.
-        let found = (0..500).find_map(|_| {
-            thread::sleep(Duration::from_millis(10));
-            let all = descendants();
-            let grandchild = |pid: &&Pid| **pid != Pid::from_child(&child);
-            let own = all.contains(&Pid::from_child(&child));
-            all.iter().find(grandchild).filter(|_| own).copied()
-        });
+        let mut command = Command::new("sh");
+        command.args(["-c", "sleep 600 & echo $!; wait"]).stdout(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        let mut written = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut written).unwrap();
+        let grandchild = Pid::from_raw(written.trim().parse().unwrap()).unwrap();
+        let all = descendants();
         child.kill().unwrap();
         child.wait().unwrap();
-        let grandchild = found.expect("a child and its child");
         kill_process(grandchild, Signal::KILL).unwrap();
+        assert!(all.contains(&Pid::from_child(&child)) && all.contains(&grandchild), "{all:?}");
     }
 }
