@@ -2,6 +2,7 @@
 # A year of small months on one scale: mints them from one template, each the child of the one before, calibrates the first, links the
 # others, has players on all of them, and makes the timeline. One to two minutes of a core for each month.
 # Usage: scripts/year.sh DIR [MONTHS]     ARCADE=path of the binary
+# REAL_MODEL=base URL of the server of scripts/real-model adds that model, with EPISODES (2) a month, an hour of two cores each.
 # Run again after an interruption, it goes on with what is missing.
 set -eu
 arcade=${ARCADE:-arcade}
@@ -10,7 +11,8 @@ months=${2:-12}
 steps=300
 mkdir -p "$out/recipes" "$out/releases" "$out/scales" "$out/results"
 
-# The served player: its requests go the way that those to a language model go.
+# The served player: its requests go the way that those to a language model go. A file of an earlier run names another port.
+rm -f "$out/server.json"
 "$arcade" serve-player --player reflex > "$out/server.json" &
 server=$!
 trap 'kill $server' EXIT
@@ -77,6 +79,10 @@ END
     done
     evaluate "$month" reflex --player reflex --runs 2
     evaluate "$month" served --model openai:reflex --base-url "$url"
+    # The scale chooses its few levels, spread over games.
+    [ -z "${REAL_MODEL:-}" ] ||
+        evaluate "$month" real-model --model openai:smollm2-135m-instruct --base-url "$REAL_MODEL" --scale "$scale" \
+            --episodes "${EPISODES:-2}" --max-output-tokens 12 --temperature 0.7 --reasks 0 --concurrency 1 --keep-going
 done
 
 [ -d "$out/timeline" ] || "$arcade" timeline "$out"/results/*/* "$out"/scales/*/plays/* --scale "$scale" --out "$out/timeline"

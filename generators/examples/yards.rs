@@ -1,5 +1,5 @@
 //! Makes levels of yards to a target, writes each game with its levels to a folder of its own, and prints how often a careful player
-//! wins those with strays, by the number of actions between two looks.
+//! wins them, by the number of actions between two looks.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example yards -- OUT LEVELS LEAST MOST SIDE [RULES]...
@@ -23,6 +23,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let (levels, decisions): (u64, (usize, usize)) = (levels.parse()?, (least.parse()?, most.parse()?));
     let side: usize = side.parse()?;
+    let known = YardRules::ALL.map(YardRules::name);
+    if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
+        return Err(format!("unknown rules `{unknown}`; known: {}", known.join(", ")).into());
+    }
     for rules in YardRules::ALL {
         let name = rules.name();
         if !names.is_empty() && !names.contains(&name) {
@@ -31,10 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let folder = Path::new(out).join(&name);
         fs::create_dir_all(&folder)?;
         fs::write(folder.join("game.vgdl"), syntax::print(rules.game().description()))?;
-        let carts = if rules.has_strays() { 4 } else { 8 };
-        let exposure = if rules.has_strays() { 0.2 } else { 0.4 };
         let sizes = YardConfig { columns: (side, side), rows: (side, side), ..YardConfig::default() };
-        let config = YardConfig { decisions, carts, exposure, commitments: COMMITMENTS.to_vec(), ..sizes };
+        let config = YardConfig { decisions, commitments: COMMITMENTS.to_vec(), ..sizes };
         let mut made = 0;
         for number in 0..levels {
             let Some(level) = config.level(rules, Seed::from_text("yards").child(&name, number)) else {

@@ -203,13 +203,13 @@ mod tests {
         );
         assert_eq!(Recipe::from_toml(&locks).unwrap().games(), 2);
         let yards = locks.replace("[locks]", "[yards]");
-        check(&yards.replace("= 2", "= 5"), "`yards.games` is 5; it takes 1 to 4");
+        check(&yards.replace("= 2", "= 5"), "`yards.games` is 5; it takes 1 to 2");
         check(
             &yards.replace("games = 2", "games = 2\nrows = [14, 15]\ncolumns = [14, 14]"),
             "at most 196 cells",
         );
         let strays = locks.replace("[locks]", "[strays]");
-        check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; it takes 1 to 8");
+        check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; it takes 1 to 10");
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
         // Recipes that ask for neither keep their bytes.

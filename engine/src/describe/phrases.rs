@@ -50,6 +50,7 @@ phrases! {
     MovesAnyWay: "moves straight in a random direction, {pace}",
     MovesAhead: "moves straight ahead, {pace}",
     Wanders: "wanders at random, {pace}",
+    WandersAnew: "wanders, {pace}, each time up, left, down or right at random",
     Chases: "chases {target}{near}, {pace}",
     Flees: "flees from {target}{near}, {pace}",
     Near: " within {distance}",

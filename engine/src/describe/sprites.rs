@@ -101,6 +101,11 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
             }
             None => Phrase::MovesAhead.with(&[("pace", &pace)]),
         },
+        Motion::Wandering
+            if info.class == Some(SpriteClass::RandomNPC) && traits.cons == 0 && !traits.continuous =>
+        {
+            Phrase::WandersAnew.with(&[("pace", &pace)])
+        }
         Motion::Wandering => Phrase::Wanders.with(&[("pace", &pace)]),
         Motion::Chasing(target) => following(chase(info.class), target),
         Motion::Fleeing(target) => following(Phrase::Flees, target),

@@ -72,7 +72,7 @@ What the others do:
   The wasp chases you, gliding, a cell in about 2 ticks.
   The hive makes a wasp every 8 ticks, first in tick 1, with a chance of 50%, 4 in all, and then disappears.
   The stone moves down, gliding, a cell in about 4 ticks.
-  The slug wanders at random, a cell every 4 ticks.
+  The slug wanders, a cell every 4 ticks, each time up, left, down or right at random.
   The snail flees from you, a cell every 2 ticks.
   The net vanishes 4 ticks after it appears; only one exists at a time: no other is made until it is gone.
   The wall, gate, pond and cart only stand there.

@@ -164,7 +164,7 @@ impl PuzzleLevels {
                 return Ok(PuzzleGenerator::Locks(config, locks));
             }
             PuzzleRules::Yards(yards) => {
-                let (carts, exposure) = traffic(tier, yards.rules);
+                let (carts, exposure) = traffic(tier);
                 let sizes = YardConfig { columns, rows, ..YardConfig::default() };
                 let config = YardConfig { decisions: (decisions, next), carts, exposure, ..sizes };
                 return Ok(PuzzleGenerator::Yards(config, yards));
@@ -209,15 +209,14 @@ fn dead_ends(tier: Tier) -> f64 {
     }
 }
 
-/// The carts of a yard, and the share of ticks of the win at which it is deadly to stay. Strays take the place of carts.
-fn traffic(tier: Tier, rules: YardRules) -> (usize, f64) {
-    let (carts, exposure) = match tier {
-        Tier::One => (2, 0.0),
-        Tier::Two => (5, 0.1),
-        Tier::Three => (8, 0.35),
-        Tier::Four => (8, 0.4),
-    };
-    if rules.has_strays() { (carts / 2, exposure / 2.0) } else { (carts, exposure) }
+/// The carts of a yard, and the share of ticks of the win at which it is deadly to stay because of them.
+fn traffic(tier: Tier) -> (usize, f64) {
+    match tier {
+        Tier::One => (1, 0.0),
+        Tier::Two => (2, 0.05),
+        Tier::Three => (4, 0.175),
+        Tier::Four => (4, 0.2),
+    }
 }
 
 /// The target for a tier; `None` for those that need none. The generator counts the actions of a win with the fewest pushes;

@@ -80,25 +80,25 @@ impl LockRules {
             let _ = writeln!(sprites, "    {door} > Immovable color={}", ["ORANGE", "BLUE"][kind]);
             let _ = writeln!(mapping, "    {} > floor {key}", LockRules::KEYS[kind]);
             let _ = writeln!(mapping, "    {} > floor {door}", LockRules::DOORS[kind]);
-            let _ = writeln!(rules, "    {key} avatar > collectResource scoreChange=1");
+            let _ = writeln!(rules, "    {key} opener > collectResource scoreChange=1");
             let _ = writeln!(
                 rules,
-                "    {door} avatar > killIfOtherHasMore resource={key} limit=1 subtract=True scoreChange=1"
+                "    {door} opener > killIfOtherHasMore resource={key} limit=1 subtract=True scoreChange=1"
             );
-            let _ = writeln!(rules, "    avatar {door} > stepBack");
+            let _ = writeln!(rules, "    opener {door} > stepBack");
         }
         if self.has_planks {
             sprites.push_str("    pit > Immovable color=BLACK\n    plank > Immovable color=BROWN\n");
             let _ = writeln!(mapping, "    {} > floor plank", LockRules::PLANK);
-            rules.insert_str(0, "    avatar pit > stepBack\n    plank avatar > transformTo stype=pit\n");
+            rules.insert_str(0, "    opener pit > stepBack\n    plank opener > transformTo stype=pit\n");
         }
         let goal = if self.has_gems { "gem" } else { "exit" };
         let class = if self.has_gems { "Immovable color=PINK" } else { "Door color=GREEN" };
         format!(
             "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    wall > Immovable color=GRAY\n{sprites}    \
-             {goal} > {class}\n    avatar > MovingAvatar color=WHITE\n  LevelMapping\n    {} > floor\n    {} > wall\n{mapping}    \
-             {} > floor {goal}\n    {} > floor avatar\n  InteractionSet\n    avatar wall > stepBack\n{rules}    \
-             {goal} avatar > killSprite scoreChange=5\n  TerminationSet\n    SpriteCounter stype={goal} limit=0 win=True\n    \
+             {goal} > {class}\n    opener > MovingAvatar color=WHITE\n  LevelMapping\n    {} > floor\n    {} > wall\n{mapping}    \
+             {} > floor {goal}\n    {} > floor opener\n  InteractionSet\n    opener wall > stepBack\n{rules}    \
+             {goal} opener > killSprite scoreChange=5\n  TerminationSet\n    SpriteCounter stype={goal} limit=0 win=True\n    \
              Timeout limit=1000 win=False\n",
             LockRules::FLOOR,
             LockRules::WALL,

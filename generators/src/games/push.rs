@@ -69,7 +69,7 @@ impl PushRules {
     ];
 
     /// All rules with strays, no two of which are near to each other or to one of [`PushRules::ALL`].
-    pub const AMONG_STRAYS: [PushRules; 8] = [
+    pub const AMONG_STRAYS: [PushRules; 10] = [
         among_strays(Drain, Some(Mat), false, true),
         among_strays(Drain, Some(Pit), true, true),
         among_strays(Mat, Some(Mat), false, false),
@@ -78,6 +78,8 @@ impl PushRules {
         among_strays(Mat, None, false, true),
         among_strays(Drain, Some(Drain), false, true),
         among_strays(Pit, None, false, true),
+        among_strays(Pit, Some(Pit), false, false),
+        among_strays(Drain, None, false, false),
     ];
 
     /// The characters of its levels.
@@ -180,7 +182,7 @@ impl PushRules {
                 Pit => {
                     let _ = writeln!(mapping, "    {mark} > floor {target}");
                     let _ = writeln!(rules, "    {thing} {target} > killBoth scoreChange=1");
-                    let _ = writeln!(rules, "    avatar {target} > stepBack");
+                    let _ = writeln!(rules, "    pusher {target} > stepBack");
                 }
                 Mat => {
                     let _ = writeln!(mapping, "    {mark} > {target}");
@@ -218,11 +220,11 @@ impl PushRules {
             let _ = writeln!(mapping, "    {} > floor stray", PushRules::STRAY);
             let FuseSymbols { spark, fuse, keg, .. } = PushRules::FUSE_SYMBOLS;
             let _ = writeln!(mapping, "    {spark} > spark\n    {fuse} > fuse\n    {keg} > keg");
-            rules.push_str("    stray wall > stepBack\n    avatar stray > killSprite\n");
+            rules.push_str("    stray wall > stepBack\n    pusher stray > killSprite\n");
             rules.push_str(
-                "    fuse spark > killSprite\n    keg spark > killSprite\n    avatar load > stepBack\n",
+                "    fuse spark > killSprite\n    keg spark > killSprite\n    pusher load > stepBack\n",
             );
-            loss = "SpriteCounter stype=avatar limit=0 win=False\n    SpriteCounter stype=keg limit=0 win=False\n    ";
+            loss = "SpriteCounter stype=pusher limit=0 win=False\n    SpriteCounter stype=keg limit=0 win=False\n    ";
         }
         // What a thing pushed off its mat lands on is seen.
         let hidden = if self.ends.contains(&Some(Mat)) { "" } else { " hidden=True" };
@@ -232,8 +234,8 @@ impl PushRules {
         };
         format!(
             "BasicGame\n  SpriteSet\n    floor > Immovable{hidden}\n    wall > Immovable color=GRAY\n{marks}    \
-             load > Passive\n{sprites}    avatar > MovingAvatar color=YELLOW\n  LevelMapping\n    {} > floor\n    {} > wall\n\
-             {mapping}    {} > floor avatar\n  InteractionSet\n    avatar wall > stepBack\n    load avatar > bounceForward\n    \
+             load > Passive\n{sprites}    pusher > MovingAvatar color=YELLOW\n  LevelMapping\n    {} > floor\n    {} > wall\n\
+             {mapping}    {} > floor pusher\n  InteractionSet\n    pusher wall > stepBack\n    load pusher > bounceForward\n    \
              load wall > {stop}\n{rules}  TerminationSet\n    {loss}{ending}\n    Timeout limit=1000 win=False\n",
             PushRules::FLOOR,
             PushRules::WALL,
@@ -263,7 +265,7 @@ mod tests {
             let places = |game: &Game, state: &State, above: i32| {
                 let named = game
                     .sprite_types()
-                    .filter(|&stype| PushRules::is_pushed(game.name(stype)) || game.name(stype) == "avatar");
+                    .filter(|&stype| PushRules::is_pushed(game.name(stype)) || game.name(stype) == "pusher");
                 let of_type = |stype| {
                     let mut cells: Vec<_> = state
                         .places(stype)

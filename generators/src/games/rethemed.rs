@@ -395,10 +395,13 @@ fn summary(analysis: &Analysis, theme: &Theme, hero: &str) -> String {
     let dangerous = |stype| casting::is_dangerous(analysis, stype);
     let must_go = |stype| analysis.aims().remove.contains(&stype);
     let prey = |stype, role| role == Use::Prey || (role == Use::Enemy && must_go(stype));
+    // Of things that are pushed, those that have to go; what lies where it belongs does not.
+    let pushed = |is_aim: bool| types(&|stype, role| role == Use::Pushable && (!is_aim || must_go(stype)));
+    let aims = pushed(true);
     let tasks = [
         ("gather", many(types(&|_, role| role == Use::Collectable)), ""),
         ("fetch", single(types(&|_, role| role == Use::Key)), ""),
-        ("push", many(types(&|_, role| role == Use::Pushable)), ""),
+        ("push", many(if aims.is_empty() { pushed(false) } else { aims }), ""),
         ("catch", many(types(&|stype, role| prey(stype, role) && caught(stype))), ""),
         ("make an end of", many(types(&|stype, role| prey(stype, role) && !caught(stype))), ""),
         ("get past", single(types(&|_, role| role == Use::Gate)), ""),

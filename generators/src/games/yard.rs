@@ -13,12 +13,10 @@ pub struct YardRules {
     has_points: bool,
     /// There are wagons: carts that take two ticks for a cell.
     has_wagons: bool,
-    /// There are strays, which wander at random.
-    has_strays: bool,
 }
 
-const fn rules(kinds: usize, has_points: bool, has_wagons: bool, has_strays: bool) -> YardRules {
-    YardRules { kinds, has_points, has_wagons, has_strays }
+const fn rules(kinds: usize, has_points: bool, has_wagons: bool) -> YardRules {
+    YardRules { kinds, has_points, has_wagons }
 }
 
 impl YardRules {
@@ -26,12 +24,7 @@ impl YardRules {
     pub const KINDS: usize = 2;
 
     /// All rules, no two of which are near to each other.
-    pub const ALL: [YardRules; 4] = [
-        rules(1, true, false, false),
-        rules(1, false, false, true),
-        rules(2, false, true, false),
-        rules(2, true, false, true),
-    ];
+    pub const ALL: [YardRules; 2] = [rules(1, false, false), rules(2, true, true)];
 
     /// The characters of its levels.
     pub const SYMBOLS: &str = ".wAuldrvhcgypqoxsnk";
@@ -75,17 +68,11 @@ impl YardRules {
         self.has_wagons
     }
 
-    /// Returns `true` if there are strays, so that chance plays a part.
-    pub fn has_strays(self) -> bool {
-        self.has_strays
-    }
-
     /// A name, such as `yards-2-points`.
     pub fn name(self) -> String {
         let mut name = format!("yards-{}", self.kinds);
         name.push_str(if self.has_points { "-points" } else { "" });
         name.push_str(if self.has_wagons { "-wagons" } else { "" });
-        name.push_str(if self.has_strays { "-strays" } else { "" });
         name
     }
 
@@ -125,12 +112,9 @@ impl YardRules {
             carts.push_str("      wagon > cooldown=2 color=BLUE\n");
             let _ = writeln!(mapping, "    {} > floor signRight wagon", YardRules::CARTS[1]);
         }
-        if self.has_strays {
-            let _ =
-                writeln!(sprites, "    stray > RandomNPC cooldown={} color=DARKGREEN", YardRules::COOLDOWN);
-            let _ = writeln!(mapping, "    {} > floor stray", YardRules::STRAY);
-            rules.push_str("    stray wall > stepBack\n    worker stray > killSprite\n");
-        }
+        let _ = writeln!(sprites, "    stray > RandomNPC cooldown={} color=DARKGREEN", YardRules::COOLDOWN);
+        let _ = writeln!(mapping, "    {} > floor stray", YardRules::STRAY);
+        rules.push_str("    stray wall > stepBack\n    worker stray > killSprite\n");
         let mut signs = String::new();
         for (way, symbol) in ["Up", "Left", "Down", "Right"].into_iter().zip(YardRules::SIGNS) {
             let _ = writeln!(signs, "      sign{way} > orientation={}", way.to_uppercase());
@@ -166,7 +150,7 @@ mod tests {
         for rules in YardRules::ALL {
             let game = rules.game();
             assert!(game.warnings().is_empty(), "{}: {:?}", rules.name(), game.warnings());
-            assert_eq!(engine::Analysis::of(&game).is_stochastic(), rules.has_strays(), "{}", rules.name());
+            assert!(engine::Analysis::of(&game).is_stochastic(), "{}", rules.name());
         }
     }
 }

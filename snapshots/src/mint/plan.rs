@@ -259,7 +259,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The candidates for puzzles.
-    fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
+    pub(super) fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
         let all = |kind: PuzzleKind| {
             let asked = kind.part(self.recipe).map_or(0, |part| candidates(part.games, part.candidates));
             (0..asked.min(kind.rules() as u32)).map(move |number| Job::Puzzle(kind, number))

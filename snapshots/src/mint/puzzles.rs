@@ -1,6 +1,6 @@
 //! Puzzles of a recipe: their kinds, and how a game of one is made.
 
-use super::plan::{Plan, apportion};
+use super::plan::{Job, Plan, apportion};
 use crate::recipe::Recipe;
 use crate::tiers::PuzzlePart;
 use engine::{Game, Seed, syntax};
@@ -95,15 +95,8 @@ impl Plan<'_> {
         };
         let mut themes: Vec<&str> = Rethemed::themes().collect();
         self.seed.child("themes", 0).sampler().shuffle(&mut themes);
-        // Locks take theirs from the other end, and yards after them. Strays share those of locks, whose things are others.
-        let number = number as usize;
-        let from_end = |place: usize| themes.len() - 1 - place % themes.len();
-        let theme = match kind {
-            PuzzleKind::Pushing => number % themes.len(),
-            PuzzleKind::Locks | PuzzleKind::Strays => from_end(number),
-            PuzzleKind::Yards => from_end(LockRules::ALL.len() + number),
-        };
-        let theme = themes[theme];
+        let place = self.puzzles().position(|job| job == Job::Puzzle(kind, number));
+        let theme = themes[place.expect("the job is one of them") % themes.len()];
         let fictions = (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.child("fiction", draw)));
         let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
         let Some(retold) = retold else {

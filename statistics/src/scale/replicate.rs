@@ -81,8 +81,9 @@ mod tests {
 
     fn calibrated(anchors: usize) -> (Calibration, Vec<GamePlays>) {
         let spreads = Spreads { game: 1.6, level: 1.6, family: 1.5, ..Spreads::default() };
+        let families = vec![1; 4];
         let plan =
-            Plan { games: 30, levels: 3, families: vec![1; 4], runs: 3, anchors, anchor_runs: 3, spreads };
+            Plan { games: 30, levels: 3, families, runs: 3, anchors, anchor_runs: 3, replicates: 0, spreads };
         let mut simulator = Simulator::new(plan, 3);
         let plays = simulator.month(0.0, 0.0).plays;
         (Calibration::new(&simulator.examinees, &plays).unwrap().0, plays)

@@ -23,6 +23,8 @@ pub struct Plan {
     pub anchors: usize,
     /// Plays of each reader on each level.
     pub anchor_runs: u32,
+    /// The replicates of the bootstrap that takes the bias from the spreads.
+    pub replicates: u64,
     /// The true spreads.
     pub spreads: Spreads,
 }
@@ -126,15 +128,13 @@ impl Simulator {
         SimulatedMonth { plays, difficulties, ease }
     }
 
-    /// Draws the plays of a player on `episodes` levels of a month, one on each, spread over the games first. `month` is its
-    /// calibration.
+    /// Draws the plays of a player on levels of a month, one on each, spread over the games first. `month` is its calibration.
     pub fn person(
         &mut self,
         truth: &SimulatedMonth,
         month: &Month,
         dimension: Dimension,
-        (ability, mismatch): (f64, f64),
-        episodes: usize,
+        AbilityCase { ability, mismatch, episodes }: AbilityCase,
     ) -> Vec<PlayedGame> {
         let side = side(dimension);
         let of_game = |this: &mut Simulator, game: usize| {
@@ -156,6 +156,17 @@ impl Simulator {
     fn wins(&mut self, logit: f64, of: u32) -> f64 {
         self.draws.successes(logistic(logit), u64::from(of)) as f64
     }
+}
+
+/// A player of a simulation, and how much it plays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AbilityCase {
+    /// Its true ability.
+    pub ability: f64,
+    /// The standard deviation of its matches with games.
+    pub mismatch: f64,
+    /// Its episodes.
+    pub episodes: usize,
 }
 
 /// The errors of the link of a month: found minus true, and the errors stated.
@@ -184,12 +195,52 @@ pub struct AbilityTrial {
     pub is_covered: bool,
 }
 
+/// Two months, of which the first is calibrated and the second added.
+struct Linked {
+    simulator: Simulator,
+    first: SimulatedMonth,
+    second: SimulatedMonth,
+    calibration: Calibration,
+    /// The second.
+    month: Month,
+}
+
+impl Linked {
+    /// The second month is `shift` harder and has drifted; `None` if a month cannot be calibrated.
+    fn new(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Linked> {
+        let mut simulator = Simulator::new(plan.clone(), seed);
+        let (first, second) = (simulator.month(0.0, 0.0), simulator.month(shift, drift));
+        let (mut calibration, _) = Calibration::new(&simulator.examinees, &first.plays)?;
+        if plan.replicates > 0 {
+            let replicate = |number| calibration.replicate(&first.plays, number);
+            let replicates: Vec<Spreads> = (0..plan.replicates).filter_map(replicate).collect();
+            let spreads = calibration.corrected(&replicates);
+            (calibration, _) = Calibration::with_spreads(&simulator.examinees, &first.plays, spreads)?;
+        }
+        let month = calibration.add(&second.plays)?;
+        Some(Linked { simulator, first, second, calibration, month })
+    }
+
+    /// Draws the plays of a player on the second month.
+    fn person(&mut self, dimension: Dimension, case: AbilityCase) -> Vec<PlayedGame> {
+        self.simulator.person(&self.second, &self.month, dimension, case)
+    }
+
+    /// The ability that is found in plays on the second month.
+    fn trial(&self, games: &[PlayedGame], dimension: Dimension, ability: f64) -> Option<AbilityTrial> {
+        let truth = ability - self.first.mean(dimension);
+        let found = super::ability(games, MismatchPrior::default(), self.month.link[side(dimension)])?;
+        Some(AbilityTrial {
+            off: found.value - truth,
+            error: found.error,
+            is_covered: found.interval.low <= truth && truth <= found.interval.high,
+        })
+    }
+}
+
 /// Calibrates a first month, and adds a second that is `shift` harder and has drifted; `None` if a month cannot be calibrated.
 pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
-    let mut simulator = Simulator::new(plan.clone(), seed);
-    let (first, second) = (simulator.month(0.0, 0.0), simulator.month(shift, drift));
-    let (calibration, _) = Calibration::new(&simulator.examinees, &first.plays)?;
-    let month = calibration.add(&second.plays)?;
+    let Linked { first, second, calibration, month, .. } = Linked::new(plan, shift, drift, seed)?;
     let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);
     let off = |found: super::Estimated, truth: f64| (found.value - truth, found.error);
     Some(LinkTrial {
@@ -201,30 +252,20 @@ pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Link
     })
 }
 
-/// Calibrates two months, and has `persons` players of an ability and a mismatch play on the second.
+/// Calibrates two months, and has `persons` players of each case play on the second; returns their trials, by case.
 pub fn ability_trials(
     plan: &Plan,
     dimension: Dimension,
-    (ability, mismatch): (f64, f64),
-    episodes: usize,
+    cases: &[AbilityCase],
     persons: usize,
     seed: u64,
-) -> Option<Vec<AbilityTrial>> {
-    let mut simulator = Simulator::new(plan.clone(), seed);
-    let (first, second) = (simulator.month(0.0, 0.0), simulator.month(0.0, 0.0));
-    let (calibration, _) = Calibration::new(&simulator.examinees, &first.plays)?;
-    let month = calibration.add(&second.plays)?;
-    let truth = ability - first.mean(dimension);
-    let trials = (0..persons).map(|_| {
-        let games = simulator.person(&second, &month, dimension, (ability, mismatch), episodes);
-        let found = super::ability(&games, MismatchPrior::default(), month.link[side(dimension)])?;
-        Some(AbilityTrial {
-            off: found.value - truth,
-            error: found.error,
-            is_covered: found.interval.low <= truth && truth <= found.interval.high,
-        })
-    });
-    trials.collect()
+) -> Option<Vec<Vec<AbilityTrial>>> {
+    let mut months = Linked::new(plan, 0.0, 0.0, seed)?;
+    let mut trial = |case: AbilityCase| {
+        let games = months.person(dimension, case);
+        months.trial(&games, dimension, case.ability)
+    };
+    cases.iter().map(|case| (0..persons).map(|_| trial(*case)).collect()).collect()
 }
 
 /// The ability of a player by two designs, from one set of outcomes.
@@ -236,33 +277,21 @@ pub struct AdaptiveTrial {
     pub adaptive: Vec<AbilityTrial>,
 }
 
-/// Calibrates two months, and has players of an ability and a mismatch play on the second: `episodes` spread over games, and
-/// `counts`, in rising order, chosen adaptively.
+/// Calibrates two months, and has players of each ability and mismatch play on the second: `episodes` spread over games, and
+/// `counts`, in rising order, chosen adaptively. Returns their trials, by case.
 pub fn adaptive_trials(
     plan: &Plan,
-    (ability, mismatch): (f64, f64),
+    cases: &[(f64, f64)],
     (episodes, counts): (usize, &[usize]),
     persons: usize,
     seed: u64,
-) -> Option<Vec<AdaptiveTrial>> {
-    let mut simulator = Simulator::new(plan.clone(), seed);
-    let (first, second) = (simulator.month(0.0, 0.0), simulator.month(0.0, 0.0));
-    let (calibration, _) = Calibration::new(&simulator.examinees, &first.plays)?;
-    let month = calibration.add(&second.plays)?;
-    let truth = ability - first.mean(Dimension::Planner);
-    let link = month.link[0];
-    let trial = |games: &[PlayedGame]| {
-        let found = super::ability(games, MismatchPrior::default(), link)?;
-        Some(AbilityTrial {
-            off: found.value - truth,
-            error: found.error,
-            is_covered: found.interval.low <= truth && truth <= found.interval.high,
-        })
-    };
+) -> Option<Vec<Vec<AdaptiveTrial>>> {
+    let mut months = Linked::new(plan, 0.0, 0.0, seed)?;
     let all = plan.games * plan.levels;
-    let trials = (0..persons).map(|_| {
+    let mut one = |(ability, mismatch): (f64, f64)| {
         // All levels are played; a design sees the plays that it chooses.
-        let played = simulator.person(&second, &month, Dimension::Planner, (ability, mismatch), all);
+        let played = months.person(Dimension::Planner, AbilityCase { ability, mismatch, episodes: all });
+        let trial = |games: &[PlayedGame]| months.trial(games, Dimension::Planner, ability);
         let mut spread = played.clone();
         for (game, of) in spread.iter_mut().enumerate() {
             of.levels.truncate(episodes / plan.games + usize::from(game < episodes % plan.games));
@@ -282,8 +311,8 @@ pub fn adaptive_trials(
             adaptive.push(trial(&chosen)?);
         }
         Some(AdaptiveTrial { spread: trial(&spread)?, adaptive })
-    });
-    trials.collect()
+    };
+    cases.iter().map(|case| (0..persons).map(|_| one(*case)).collect()).collect()
 }
 
 #[cfg(test)]
@@ -292,7 +321,8 @@ mod tests {
 
     fn plan(families: usize, anchors: usize) -> Plan {
         let spreads = Spreads { game: 1.6, level: 1.6, family: 1.5, ..Spreads::default() };
-        Plan { games: 24, levels: 3, families: vec![1; families], runs: 4, anchors, anchor_runs: 2, spreads }
+        let families = vec![1; families];
+        Plan { games: 24, levels: 3, families, runs: 4, anchors, anchor_runs: 2, replicates: 0, spreads }
     }
 
     /// Links of small months err as they say, and those to the planners themselves least.
@@ -319,7 +349,8 @@ mod tests {
 
     #[test]
     fn abilities_are_covered() {
-        let trials = ability_trials(&plan(5, 0), Dimension::Planner, (0.3, 1.0), 60, 40, 3).unwrap();
+        let case = AbilityCase { ability: 0.3, mismatch: 1.0, episodes: 60 };
+        let trials = ability_trials(&plan(5, 0), Dimension::Planner, &[case], 40, 3).unwrap().remove(0);
         let covered = trials.iter().filter(|trial| trial.is_covered).count();
         assert!(covered >= 33, "{covered} of 40");
         assert!(trials.iter().all(|trial| (0.2..0.8).contains(&trial.error)), "{trials:?}");
@@ -328,7 +359,7 @@ mod tests {
     /// Off target, 65 % of the episodes are enough if they are chosen adaptively.
     #[test]
     fn adaptive_choices_save_episodes() {
-        let trials = adaptive_trials(&plan(5, 0), (-3.0, 1.0), (40, &[26]), 24, 3).unwrap();
+        let trials = adaptive_trials(&plan(5, 0), &[(-3.0, 1.0)], (40, &[26]), 24, 3).unwrap().remove(0);
         let sum = |of: fn(&AdaptiveTrial) -> f64| trials.iter().map(of).sum::<f64>();
         let (spread, adaptive) = (sum(|trial| trial.spread.error), sum(|trial| trial.adaptive[0].error));
         assert!(adaptive <= spread, "{adaptive}, {spread}");

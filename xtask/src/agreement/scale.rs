@@ -1,7 +1,7 @@
 //! A simulated calibration with what is found, for `scripts/scale.py`.
 
 use serde_json::{Value, json};
-use statistics::scale::simulated::{Plan, Simulator};
+use statistics::scale::simulated::{AbilityCase, Plan, Simulator};
 use statistics::scale::{
     Calibration, Dimension, Estimated, GamePlays, MismatchPrior, Month, PlayedGame, Spreads, ability,
 };
@@ -16,6 +16,7 @@ pub(super) fn calibration(seed: u64) -> anyhow::Result<Value> {
         runs: 3,
         anchors: 2,
         anchor_runs: 3,
+        replicates: 0,
         spreads,
     };
     let mut simulator = Simulator::new(plan, seed);
@@ -23,7 +24,8 @@ pub(super) fn calibration(seed: u64) -> anyhow::Result<Value> {
     let failed = || anyhow::anyhow!("the simulated months cannot be calibrated; use another seed");
     let (found, base) = Calibration::new(&simulator.examinees, &first.plays).ok_or_else(failed)?;
     let month = found.add(&second.plays).ok_or_else(failed)?;
-    let games = simulator.person(&second, &month, Dimension::Reader, (0.5, 1.0), 30);
+    let player = AbilityCase { ability: 0.5, mismatch: 1.0, episodes: 30 };
+    let games = simulator.person(&second, &month, Dimension::Reader, player);
     let player = ability(&games, MismatchPrior::default(), 0.0).ok_or_else(failed)?;
     let examinees = simulator.examinees.iter().map(|one| {
         let family = (one.dimension == Dimension::Planner).then_some(one.family);

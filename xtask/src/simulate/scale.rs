@@ -4,16 +4,27 @@ use super::{Args, share};
 use rayon::prelude::*;
 use report::{Table, TableCell};
 use statistics::scale::simulated::{
-    AbilityTrial, AdaptiveTrial, LinkTrial, Plan, ability_trials, adaptive_trials, link_trial,
+    AbilityCase, AbilityTrial, AdaptiveTrial, LinkTrial, Plan, ability_trials, adaptive_trials, link_trial,
 };
 use statistics::scale::{Dimension, Spreads};
 
-/// The players of one calibration.
+/// The players of each case on one pair of months.
 const PERSONS: usize = 40;
+/// The replicates of the bootstrap that takes the bias from the spreads. `arcade calibrate` has 40.
+const REPLICATES: u64 = 4;
 
 fn plan(families: Vec<usize>, runs: u32) -> Plan {
     let spreads = Spreads { game: 1.6, level: 1.6, family: 1.5, planner: 0.5, ..Spreads::default() };
-    Plan { games: 120, levels: 5, families, runs, anchors: 0, anchor_runs: 0, spreads }
+    Plan {
+        games: 120,
+        levels: 5,
+        families,
+        runs,
+        anchors: 0,
+        anchor_runs: 0,
+        replicates: REPLICATES,
+        spreads,
+    }
 }
 
 /// Returns all trials that could be calibrated; each has a seed of its own.
@@ -73,13 +84,8 @@ pub(super) fn ability(args: &Args) -> Table {
     let alone = plan(vec![1; 8], 2);
     let anchored = Plan { anchors: 3, anchor_runs: 1, ..alone.clone() };
     let mut cases = Vec::new();
-    for (name, plan, dimension) in
-        [("planners'", &alone, Dimension::Planner), ("readers', 3 anchors", &anchored, Dimension::Reader)]
-    {
-        for (mismatch, ability) in [(1.0, 0.0), (1.0, -2.0), (2.0, 0.0), (2.0, -2.0)] {
-            cases
-                .extend([100, 200, 600].map(|episodes| (name, plan, dimension, ability, mismatch, episodes)));
-        }
+    for (mismatch, ability) in [(1.0, 0.0), (1.0, -2.0), (2.0, 0.0), (2.0, -2.0)] {
+        cases.extend([100, 200, 600].map(|episodes| AbilityCase { ability, mismatch, episodes }));
     }
     let note = format!(
         "{} players each, {PERSONS} on each of {count} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
@@ -88,19 +94,22 @@ pub(super) fn ability(args: &Args) -> Table {
     );
     let columns = ["difficulty", "mismatch SD", "ability", "episodes", "error", "stated", "coverage"];
     let mut table = Table::new("ability", "Errors of abilities", &note, &columns);
-    for (case, (name, plan, dimension, ability, mismatch, episodes)) in cases.into_iter().enumerate() {
-        // The same months for all players of a dimension.
-        let case = case / 12;
-        let found: Vec<Vec<AbilityTrial>> = trials(args, count, case, |seed| {
-            ability_trials(plan, dimension, (ability, mismatch), episodes, PERSONS, seed)
-        });
-        let found: Vec<AbilityTrial> = found.into_iter().flatten().collect();
-        let pairs: Vec<(f64, f64)> = found.iter().map(|trial| (trial.off, trial.error)).collect();
-        let [off, stated, _] = errors(&pairs);
-        let covered = found.iter().filter(|trial| trial.is_covered).count() as f64 / found.len() as f64;
-        let place = [TableCell::text(name), TableCell::number(mismatch, 0), TableCell::number(ability, 0)];
-        let episodes = TableCell::Count(episodes as u64);
-        table.rows.push(place.into_iter().chain([episodes, off, stated, share(covered)]).collect());
+    let dimensions =
+        [("planners'", alone, Dimension::Planner), ("readers', 3 anchors", anchored, Dimension::Reader)];
+    for (number, (name, plan, dimension)) in dimensions.into_iter().enumerate() {
+        // The same months for all players.
+        let found: Vec<Vec<Vec<AbilityTrial>>> =
+            trials(args, count, number, |seed| ability_trials(&plan, dimension, &cases, PERSONS, seed));
+        for (at, case) in cases.iter().enumerate() {
+            let found: Vec<AbilityTrial> = found.iter().flat_map(|of| &of[at]).copied().collect();
+            let pairs: Vec<(f64, f64)> = found.iter().map(|trial| (trial.off, trial.error)).collect();
+            let [off, stated, _] = errors(&pairs);
+            let covered = found.iter().filter(|trial| trial.is_covered).count() as f64 / found.len() as f64;
+            let place = [TableCell::number(case.mismatch, 0), TableCell::number(case.ability, 0)];
+            let episodes = TableCell::Count(case.episodes as u64);
+            let row = [TableCell::text(name)].into_iter().chain(place);
+            table.rows.push(row.chain([episodes, off, stated, share(covered)]).collect());
+        }
     }
     table
 }
@@ -141,7 +150,7 @@ pub(super) fn adaptive(args: &Args) -> Table {
     let counts: Vec<usize> = (6..=20).map(|tens| tens * 10).collect();
     let mut cases = Vec::new();
     for mismatch in [1.0, 2.0] {
-        cases.extend([-4.0, -3.0, -2.0, 0.0, 2.0, 3.0].map(|ability| (mismatch, ability)));
+        cases.extend([-4.0, -3.0, -2.0, 0.0, 2.0, 3.0].map(|ability| (ability, mismatch)));
     }
     let note = format!(
         "{} players each, {PERSONS} on each of {months} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
@@ -162,20 +171,20 @@ pub(super) fn adaptive(args: &Args) -> Table {
         "coverage",
     ];
     let mut table = Table::new("adaptive", "Episodes of an adaptive choice at equal error", &note, &columns);
-    for (mismatch, ability) in cases {
-        // The same months for all players.
-        let found: Vec<Vec<AdaptiveTrial>> = trials(args, months, 0, |seed| {
-            adaptive_trials(&plan, (ability, mismatch), (EPISODES, &counts), PERSONS, seed)
-        });
-        let found: Vec<AdaptiveTrial> = found.into_iter().flatten().collect();
+    // The same months for all players.
+    let all: Vec<Vec<Vec<AdaptiveTrial>>> =
+        trials(args, months, 0, |seed| adaptive_trials(&plan, &cases, (EPISODES, &counts), PERSONS, seed));
+    for (at, (ability, mismatch)) in cases.iter().copied().enumerate() {
+        let found: Vec<&AdaptiveTrial> = all.iter().flat_map(|of| &of[at]).collect();
         let cells = |of: &dyn Fn(&AdaptiveTrial) -> AbilityTrial| {
-            let all: Vec<AbilityTrial> = found.iter().map(of).collect();
+            let all: Vec<AbilityTrial> = found.iter().map(|trial| of(trial)).collect();
             let [off, stated, _] = errors(&all.iter().map(|one| (one.off, one.error)).collect::<Vec<_>>());
             let covered = all.iter().filter(|one| one.is_covered).count();
             [off, stated, share(covered as f64 / all.len() as f64)]
         };
-        let stated =
-            |of: &dyn Fn(&AdaptiveTrial) -> f64| found.iter().map(of).sum::<f64>() / found.len() as f64;
+        let stated = |of: &dyn Fn(&AdaptiveTrial) -> f64| {
+            found.iter().map(|trial| of(trial)).sum::<f64>() / found.len() as f64
+        };
         let bar = stated(&|trial| trial.spread.error);
         let enough = (0..counts.len()).find(|&at| stated(&|trial| trial.adaptive[at].error) <= bar);
         let mut row = vec![TableCell::number(mismatch, 0), TableCell::number(ability, 0)];
