@@ -22,9 +22,9 @@ engine::with_defaults! {
         /// The actions of a win that the strays keep out of, at least and fewer than.
         pub decisions: (usize, usize) = (50, 120),
         /// The least and the most strays: a level has the most with which it is fair.
-        pub strays: (usize, usize) = (3, 8),
+        pub strays: (usize, usize) = (3, 10),
         /// The share of plays, at least, that a careful player wins with a look before every action.
-        pub fairness: f64 = 0.5,
+        pub fairness: f64 = 0.4,
         /// Commitments for which its share of wins is measured.
         pub commitments: Vec<usize> = Vec::new(),
         /// Boards to draw for a level, at most.

@@ -24,11 +24,11 @@ engine::with_defaults! {
         /// The number of carts on a board of the usual size.
         pub carts: usize = 4,
         /// The least and the most strays: a level has the most with which it is fair.
-        pub strays: (usize, usize) = (4, 8),
+        pub strays: (usize, usize) = (4, 10),
         /// The share of ticks of the win at which it is deadly to stay for ten ticks, at least.
         pub exposure: f64 = 0.2,
         /// The share of plays, at least, that a careful player wins with a look before every action.
-        pub fairness: f64 = 0.5,
+        pub fairness: f64 = 0.4,
         /// Commitments for which its share of wins is measured.
         pub commitments: Vec<usize> = Vec::new(),
         /// Yards to draw for a level, at most.
