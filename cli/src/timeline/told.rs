@@ -77,7 +77,8 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
             many(count as u64, "month")
         ),
         (count, false) => format!(
-            "Anchors see a drift in {flagged}, of the {} that they could compare with the first; without any, one in twenty would be flagged.",
+            "Anchors see a drift in {flagged}, of the {} that they could compare with the first; without any, one in \
+             twenty would be flagged, but not by itself: all are compared with the same first month.",
             many(count as u64, "month")
         ),
     });

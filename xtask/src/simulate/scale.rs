@@ -89,7 +89,7 @@ pub(super) fn ability(args: &Args) -> Table {
     }
     let note = format!(
         "{} players each, {PERSONS} on each of {count} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
-         plays of each on a level; an episode on each level, spread over games. Errors in logits.",
+         plays of each on a level and {REPLICATES} replicates; an episode on each level, spread over games. Errors in logits.",
         count * PERSONS as u64
     );
     let columns = ["difficulty", "mismatch SD", "ability", "episodes", "error", "stated", "coverage"];
@@ -154,8 +154,8 @@ pub(super) fn adaptive(args: &Args) -> Table {
     }
     let note = format!(
         "{} players each, {PERSONS} on each of {months} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
-         plays of each on a level; one episode on a level. Spread: {EPISODES} episodes, over games first. Adaptive: the fewest (in \
-         tens) whose stated error is at most that. Errors in logits.",
+         plays of each on a level and {REPLICATES} replicates; one episode on a level. Spread: {EPISODES} episodes, over games \
+         first. Adaptive: the fewest (in tens) whose stated error is at most that. Errors in logits.",
         months * PERSONS as u64
     );
     let columns = [
