@@ -2,7 +2,8 @@
 # A year of small months on one scale: mints them from one template, each the child of the one before, calibrates the first, links the
 # others, has players on all of them, and makes the timeline. One to two minutes of a core for each month.
 # Usage: scripts/year.sh DIR [MONTHS]     ARCADE=path of the binary
-# REAL_MODEL=base URL of the server of scripts/real-model adds that model, with EPISODES (2) a month, an hour of two cores each.
+# REAL_MODEL=base URL of the server of scripts/real-model adds that model, with EPISODES (2) a month, up to
+# ten minutes of two cores each.
 # Run again after an interruption, it goes on with what is missing.
 set -eu
 arcade=${ARCADE:-arcade}
