@@ -153,12 +153,12 @@ impl<'a> Density<'a> {
             for (logs, sd) in logs.iter_mut().zip(&mismatches) {
                 let kernel = kernel((sd * sd + game.common * game.common).sqrt());
                 let half = kernel.len() / 2;
-                for (at, log) in logs.iter_mut().enumerate() {
-                    let first = at + (reach - SIDE) as usize - half;
-                    let window = &likelihoods[first..first + kernel.len()];
-                    let mean: f64 = window.iter().zip(&kernel).map(|(value, weight)| value * weight).sum();
-                    *log += libm::log(mean);
+                let mut means = vec![0.0; logs.len()];
+                for (first, weight) in ((reach - SIDE) as usize - half..).zip(&kernel) {
+                    let moved = means.iter_mut().zip(&likelihoods[first..]);
+                    moved.for_each(|(mean, value)| *mean += value * weight);
                 }
+                logs.iter_mut().zip(&means).for_each(|(log, mean)| *log += libm::log(*mean));
             }
         }
         let most = logs.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -257,11 +257,13 @@ pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {
         let spreads = Spreads::from_parameters(parameters);
-        let Some(found) = model.posterior(&spreads, near.as_ref()) else { return f64::NAN };
-        let value = found.marginal + Spreads::log_prior(parameters);
+        let found = model.posterior(&spreads, near.as_ref())?;
+        let (prior, mut slope) = Spreads::log_prior(parameters);
+        slope.iter_mut().zip(model.slope(&spreads, &found)).for_each(|(slope, of)| *slope += of);
+        let value = found.marginal + prior;
         near = Some(found.modes);
-        value
+        Some((value, slope))
     };
     let found = maximise(&start.parameters(model.has_readers()), &mut density);
-    found.iter().all(|value| value.is_finite()).then(|| Spreads::from_parameters(&found))
+    found.map(|found| Spreads::from_parameters(&found))
 }

@@ -1,10 +1,8 @@
-//! The maximum of a smooth function of a few parameters: the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno with
-//! central differences (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
+//! The maximum of a smooth function of a few parameters: the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno
+//! (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
 
 use nalgebra::{DMatrix, DVector};
 
-/// The distance of central differences.
-const STEP: f64 = 1e-3;
 /// The maximum number of steps; 10 to 20 are usual.
 const STEPS: usize = 60;
 /// The longest move of a parameter in one step.
@@ -12,13 +10,20 @@ const LONGEST: f64 = 1.0;
 /// The gain of a step below which the search ends.
 const GAIN: f64 = 1e-7;
 
-/// Returns the place of a maximum near `start`. `value` may return NaN where it is not defined. Cost: for each step two calls for
-/// each parameter, and a few for the length of the step.
-pub(super) fn maximise(start: &[f64], value: &mut impl FnMut(&[f64]) -> f64) -> Vec<f64> {
+/// Returns the place of a maximum near `start`. `function` returns its value with the derivatives, or `None` where it is not
+/// defined; then so does the search, if that is at the start. Cost: one call for most steps, few for some.
+pub(super) fn maximise(
+    start: &[f64],
+    function: &mut impl FnMut(&[f64]) -> Option<(f64, Vec<f64>)>,
+) -> Option<Vec<f64>> {
     let n = start.len();
+    let mut value = |at: &DVector<f64>| {
+        let (height, slope) = function(at.as_slice())?;
+        let is_finite = height.is_finite() && slope.iter().all(|one| one.is_finite());
+        is_finite.then(|| (height, DVector::from_vec(slope)))
+    };
     let mut at = DVector::from_column_slice(start);
-    let mut height = value(at.as_slice());
-    let mut slope = gradient(&at, value);
+    let (mut height, mut slope) = value(&at)?;
     // The inverse of the negative matrix of second derivatives.
     let mut inverse = DMatrix::identity(n, n) * 0.01;
     let mut is_fresh = true;
@@ -32,16 +37,17 @@ pub(super) fn maximise(start: &[f64], value: &mut impl FnMut(&[f64]) -> f64) -> 
         let mut length = 1.0;
         let found = loop {
             let next = &at + &direction * length;
-            let there = value(next.as_slice());
-            if there >= height + 1e-4 * length * rise {
-                break Some((next, there));
+            if let Some((there, new_slope)) = value(&next)
+                && there >= height + 1e-4 * length * rise
+            {
+                break Some((next, there, new_slope));
             }
             length *= 0.5;
             if length < 1e-6 {
                 break None;
             }
         };
-        let Some((next, there)) = found else {
+        let Some((next, there, new_slope)) = found else {
             if is_fresh {
                 break;
             }
@@ -49,7 +55,6 @@ pub(super) fn maximise(start: &[f64], value: &mut impl FnMut(&[f64]) -> f64) -> 
             is_fresh = true;
             continue;
         };
-        let new_slope = gradient(&next, value);
         let (moved, fell) = (&next - &at, &slope - &new_slope);
         let curvature = moved.dot(&fell);
         if curvature > 1e-12 {
@@ -67,19 +72,7 @@ pub(super) fn maximise(start: &[f64], value: &mut impl FnMut(&[f64]) -> f64) -> 
             break;
         }
     }
-    at.as_slice().to_vec()
-}
-
-fn gradient(at: &DVector<f64>, value: &mut impl FnMut(&[f64]) -> f64) -> DVector<f64> {
-    let mut near = at.clone();
-    DVector::from_fn(at.len(), |which, _| {
-        near[which] = at[which] + STEP;
-        let above = value(near.as_slice());
-        near[which] = at[which] - STEP;
-        let below = value(near.as_slice());
-        near[which] = at[which];
-        (above - below) / (2.0 * STEP)
-    })
+    Some(at.as_slice().to_vec())
 }
 
 #[cfg(test)]
@@ -91,14 +84,19 @@ mod tests {
         // Rosenbrock's valley, upside down.
         let mut ridge = |x: &[f64]| {
             let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
-            -(a * a + 20.0 * b * b)
+            Some((-(a * a + 20.0 * b * b), vec![2.0 * a + 80.0 * b * x[0], -40.0 * b]))
         };
-        let found = maximise(&[-1.0, 2.0], &mut ridge);
+        let found = maximise(&[-1.0, 2.0], &mut ridge).unwrap();
         assert!((found[0] - 1.0).abs() < 1e-2 && (found[1] - 1.0).abs() < 2e-2, "{found:?}");
     }
 
     #[test]
     fn a_flat_function_has_its_maximum_anywhere() {
-        assert_eq!(maximise(&[0.5], &mut |_: &[f64]| 1.0), [0.5]);
+        assert_eq!(maximise(&[0.5], &mut |_: &[f64]| Some((1.0, vec![0.0]))), Some(vec![0.5]));
+    }
+
+    #[test]
+    fn an_undefined_start_has_no_maximum() {
+        assert_eq!(maximise(&[0.5], &mut |_: &[f64]| None), None);
     }
 }

@@ -412,5 +412,5 @@ mod tests {
         );
     }
 
-    const GOLDEN: u64 = 0x3fd0_2f2a_5c4c_49ec;
+    const GOLDEN: u64 = 0x3fd0_2f2a_4aa5_3d18;
 }

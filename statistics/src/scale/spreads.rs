@@ -44,6 +44,8 @@ impl Default for Spreads {
 
 /// The number of parameters of a model without readers.
 pub(super) const PLANNERS_ONLY: usize = 4;
+/// The number of parameters of a model with readers.
+pub(super) const WITH_READERS: usize = 9;
 /// The mean and the standard deviation of the prior of a logarithm of a standard deviation: within 0.14 and 7 logits.
 const LOG_PRIOR: (f64, f64) = (0.0, 1.0);
 /// The same of a slope.
@@ -78,14 +80,15 @@ impl Spreads {
         }
     }
 
-    /// Returns the logarithm of the density of the prior, up to a constant.
-    pub(super) fn log_prior(parameters: &[f64]) -> f64 {
+    /// Returns the logarithm of the density of the prior, up to a constant, and its derivatives.
+    pub(super) fn log_prior(parameters: &[f64]) -> (f64, Vec<f64>) {
         let each = parameters.iter().enumerate().map(|(at, value)| {
             let (mean, sd) = if at == 4 || at == 5 { SLOPE_PRIOR } else { LOG_PRIOR };
             let z = (value - mean) / sd;
-            -0.5 * z * z
+            (-0.5 * z * z, -z / sd)
         });
-        each.sum()
+        let (logs, slopes): (Vec<f64>, Vec<f64>) = each.unzip();
+        (logs.iter().sum(), slopes)
     }
 
     /// Returns the variances of the difficulty of a level for planners and for readers, and their covariance.

@@ -5,6 +5,8 @@
 //! Effects of games are in standard deviations: their prior is standard normal, and the spreads are in the loadings. So nothing
 //! breaks down where a spread goes to zero.
 
+mod slope;
+
 use super::ability::nodes;
 use super::plays::{Dimension, Examinee, GamePlays};
 use super::spreads::Spreads;
@@ -137,15 +139,15 @@ impl<'a> Model<'a> {
             shared: DVector::zeros(self.shared()),
             games: self.layouts.iter().map(|layout| DVector::zeros(layout.size)).collect(),
         });
+        let mut height = self.height(&rows, &modes, None);
         for _ in 0..STEPS {
             let step = self.curvature(&rows, &modes, None)?.step();
-            let (next, longest) = self.raised(&rows, modes, None, step)?;
-            modes = next;
+            let longest;
+            (modes, height, longest) = self.raised(&rows, (modes, height), None, step)?;
             if longest < FOUND {
                 break;
             }
         }
-        let height = self.height(&rows, &modes, None);
         let curvature = self.curvature(&rows, &modes, None)?;
         Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
     }
@@ -161,8 +163,9 @@ impl<'a> Model<'a> {
         let mut variances = start.curvature.variances(&rows);
         for step in 1..=EXPECTED_STEPS {
             let curvature = self.curvature(&rows, &modes, Some(&variances))?;
-            let (next, longest) = self.raised(&rows, modes, Some(&variances), curvature.step())?;
-            modes = next;
+            let height = self.height(&rows, &modes, Some(&variances));
+            let longest;
+            (modes, _, longest) = self.raised(&rows, (modes, height), Some(&variances), curvature.step())?;
             let found = curvature.variances(&rows);
             let pairs = || variances.iter().flatten().zip(found.iter().flatten());
             let apart = pairs().map(|(old, new)| (new - old).abs() / (1.0 + new)).fold(0.0, f64::max);
@@ -178,15 +181,15 @@ impl<'a> Model<'a> {
         None
     }
 
-    /// Returns the modes after a step that raises the height, and how long it was at most; half of it is taken until it does.
+    /// Returns the modes after a step that raises the height, their height, and the length of the step at most; half of it is
+    /// taken until it does.
     fn raised(
         &self,
         rows: &[Vec<Row>],
-        modes: Modes,
+        (modes, height): (Modes, f64),
         variances: Option<&[Vec<f64>]>,
         (shared, games): (DVector<f64>, Vec<DVector<f64>>),
-    ) -> Option<(Modes, f64)> {
-        let height = self.height(rows, &modes, variances);
+    ) -> Option<(Modes, f64, f64)> {
         let longest = games.iter().map(|step| step.amax()).fold(shared.amax(), f64::max);
         let mut length = if longest > LONGEST { LONGEST / longest } else { 1.0 };
         while length > 1e-8 {
@@ -195,8 +198,9 @@ impl<'a> Model<'a> {
                 games: modes.games.iter().zip(&games).map(|(at, step)| at + step * length).collect(),
             };
             // Near the mode the sum of thousands of terms is no more exact than this.
-            if self.height(rows, &next, variances) >= height - 1e-10 * height.abs() {
-                return Some((next, longest * length));
+            let there = self.height(rows, &next, variances);
+            if there >= height - 1e-10 * height.abs() {
+                return Some((next, there, longest * length));
             }
             length *= 0.5;
         }
@@ -208,7 +212,8 @@ impl<'a> Model<'a> {
         let row = |plays: &super::Plays| {
             let (shared, offset) = self.shared_terms(spreads, plays.examinee);
             let own = self.terms(spreads, game, plays.examinee, plays.level);
-            Row { examinee: plays.examinee, won: plays.won, of: plays.of, offset, shared, own }
+            let super::Plays { examinee, level, won, of } = *plays;
+            Row { examinee, level, won, of, offset, shared, own }
         };
         plays.map(row).collect()
     }
@@ -277,11 +282,12 @@ impl<'a> Model<'a> {
                 }
             }
             let within = Cholesky::new(within)?;
-            let gain = within.solve(&cross);
-            let alone = within.solve(&slope);
-            schur -= cross.tr_mul(&gain);
-            gradient -= cross.tr_mul(&alone);
-            games.push(GameCurvature { within, gain, alone });
+            // Half a solution, with the triangle alone, is all that the Schur complement needs.
+            let cross = within.l_dirty().solve_lower_triangular(&cross)?;
+            let slope = within.l_dirty().solve_lower_triangular(&slope)?;
+            schur -= cross.tr_mul(&cross);
+            gradient -= cross.tr_mul(&slope);
+            games.push(GameCurvature { within, cross, slope });
         }
         Some(Curvature { schur: Cholesky::new(schur)?, gradient, games })
     }
@@ -323,6 +329,7 @@ impl Layout {
 /// The plays of an examinee on a level, with the terms of its linear predictor.
 struct Row {
     examinee: usize,
+    level: usize,
     won: f64,
     of: f64,
     offset: f64,
@@ -373,17 +380,31 @@ struct Curvature {
 struct GameCurvature {
     /// Among the effects of the game.
     within: Cholesky<f64, Dyn>,
-    /// By how much they fall when a shared parameter grows by one.
-    gain: DMatrix<f64>,
-    /// Newton's step with the shared parameters kept.
-    alone: DVector<f64>,
+    /// With the shared parameters, by column, and the gradient: both divided by the triangle of `within`.
+    cross: DMatrix<f64>,
+    slope: DVector<f64>,
+}
+
+impl GameCurvature {
+    /// Returns the effects of the game that have these quotients by the triangle of `within`.
+    fn divided(&self, mut half: DVector<f64>) -> DVector<f64> {
+        self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut half);
+        half
+    }
+
+    /// Returns by how much the effects of the game fall when a shared parameter grows by one.
+    fn gain(&self) -> DMatrix<f64> {
+        let mut gain = self.cross.clone();
+        self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut gain);
+        gain
+    }
 }
 
 impl Curvature {
     /// Returns Newton's step.
     fn step(&self) -> (DVector<f64>, Vec<DVector<f64>>) {
         let shared = self.schur.solve(&self.gradient);
-        let games = self.games.iter().map(|game| &game.alone - &game.gain * &shared).collect();
+        let games = self.games.iter().map(|game| game.divided(&game.slope - &game.cross * &shared)).collect();
         (shared, games)
     }
 
@@ -423,6 +444,8 @@ pub(super) struct Posterior {
     /// The logarithm of the likelihood with all effects integrated out, up to a constant.
     pub(super) marginal: f64,
     curvature: Curvature,
+    /// By how much the effects of each game fall when a shared parameter grows by one.
+    gains: Vec<DMatrix<f64>>,
     /// The covariance of the shared parameters.
     pub(super) covariance: DMatrix<f64>,
     /// The expected weight of each row with its terms, by game; empty at a mode.
@@ -447,7 +470,8 @@ impl Posterior {
         let games = rows.iter().zip(&modes.games).zip(variances.unwrap_or_default());
         let weights = games.map(of_game).collect();
         let covariance = curvature.schur.inverse();
-        Posterior { modes, marginal, curvature, covariance, weights }
+        let gains = curvature.games.iter().map(GameCurvature::gain).collect();
+        Posterior { modes, marginal, curvature, gains, covariance, weights }
     }
 
     pub(super) fn value(&self, functional: &Functional) -> f64 {
@@ -458,8 +482,8 @@ impl Posterior {
     /// Returns how a functional moves with the shared parameters, the effects of games following.
     fn slope(&self, functional: &Functional) -> DVector<f64> {
         let mut slope = functional.shared.clone();
-        for (game, terms) in self.curvature.games.iter().zip(&functional.games) {
-            slope -= game.gain.tr_mul(terms);
+        for (gain, terms) in self.gains.iter().zip(&functional.games) {
+            slope -= gain.tr_mul(terms);
         }
         slope
     }
@@ -484,10 +508,9 @@ impl Posterior {
     pub(super) fn sensitivity(&self, functional: &Functional, examinees: usize) -> Vec<f64> {
         let shared = &self.covariance * self.slope(functional);
         let mut moves = vec![0.0; examinees];
-        for (game, (terms, rows)) in
-            self.curvature.games.iter().zip(functional.games.iter().zip(&self.weights))
-        {
-            let own = game.within.solve(terms) - &game.gain * &shared;
+        let games = self.curvature.games.iter().zip(&self.gains);
+        for ((game, gain), (terms, rows)) in games.zip(functional.games.iter().zip(&self.weights)) {
+            let own = game.within.solve(terms) - gain * &shared;
             for (examinee, weight, shared_terms, own_terms) in rows {
                 let by_shared: f64 = shared_terms.iter().map(|&(at, factor)| factor * shared[at]).sum();
                 let by_own: f64 = own_terms.iter().map(|&(at, factor)| factor * own[at]).sum();
