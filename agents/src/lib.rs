@@ -28,6 +28,7 @@ mod registry;
 mod rhea;
 pub mod search;
 mod sequences;
+mod systematic;
 pub mod touch_everything;
 mod width;
 
@@ -47,5 +48,6 @@ pub use random::Random;
 pub use random_search::{RandomSearch, RandomSearchConfig};
 pub use registry::{PLANNERS, PlannerSpec, Player, UnknownPlanner, planner};
 pub use rhea::{Rhea, RheaConfig};
+pub use systematic::Systematic;
 pub use touch_everything::TouchEverything;
 pub use width::{Width, WidthConfig};

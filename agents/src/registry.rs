@@ -3,7 +3,7 @@
 use crate::{
     Budget, DoNothing, GuidedMcts, GuidedMctsConfig, Heuristic, Mcts, MctsConfig, NearestGoal, Olets,
     OletsConfig, OneStep, OneStepConfig, Planner, Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig,
-    Width, WidthConfig,
+    Systematic, Width, WidthConfig,
 };
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
@@ -59,6 +59,7 @@ planners! {
     "width" Width(Width) |seed| Width::new(WidthConfig::default(), seed);
     "guided-mcts" GuidedMcts(GuidedMcts) |seed| GuidedMcts::new(GuidedMctsConfig::default(), seed);
     "olets" Olets(Olets) |seed| Olets::new(OletsConfig::default(), seed);
+    "systematic" Systematic(Systematic) Systematic::new;
 }
 
 /// A planner as users name it: `mcts`, or `olets:500` with the forward-model calls of a decision.
