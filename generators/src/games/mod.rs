@@ -3,6 +3,7 @@
 //! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game has names by the use of its types
 //! (`casting.rs`) from a theme (`theme.rs`, `themes/`); a masked one has names that say nothing.
 
+mod blurb;
 mod casting;
 pub(crate) mod english;
 mod kind;
