@@ -238,12 +238,14 @@ impl PlayedGame {
     pub(super) fn likelihoods(&self, reach: i32) -> Vec<f64> {
         let mut all = vec![1.0; 2 * reach as usize + 1];
         for level in self.levels.iter().filter(|level| level.of > 0.0) {
+            let is_single = level.of == 1.0 && (level.won == 0.0 || level.won == 1.0);
+            let likelihood = |logit: f64| match is_single {
+                true => logistic(if level.won > 0.0 { logit } else { -logit }),
+                false => libm::exp(level.won * logit - level.of * softplus(logit)),
+            };
             for (at, node) in all.iter_mut().zip(-reach..) {
                 let centre = f64::from(node) * STEP - level.difficulty;
-                let each = nodes().map(|(z, weight)| {
-                    let logit = centre + level.own * z;
-                    weight * libm::exp(level.won * logit - level.of * softplus(logit))
-                });
+                let each = nodes().map(|(z, weight)| weight * likelihood(centre + level.own * z));
                 *at *= each.sum::<f64>();
             }
         }
