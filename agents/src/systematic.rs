@@ -6,15 +6,15 @@ use engine::analysis::Analysis;
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
 
-/// The longest plan in a game of chance, and one of random keys, in ticks.
+/// The length of a plan in a game of chance, and of the first one without a win elsewhere, in ticks.
 const AHEAD: usize = 10;
 
 /// A player that searches for a win to its end with [`best_first`], and plays what it finds without another look. Without a win
-/// within the budget it plays towards the states from which the fewest sprites must still go or come, and if it is in one, random
-/// keys.
+/// within the budget it plays towards the states from which the fewest sprites must still go or come, and then random keys.
 ///
-/// Without chance a plan that wins is right, whatever its length. A game of chance it searches as if one imagined future were the
-/// only one, with a tenth of the budget, and it looks again after ten ticks.
+/// Without chance a plan that wins is right, whatever its length; after one that does not it looks again, the first time in ten
+/// ticks, then each time in twice as many. A game of chance it searches as if one imagined future were the only one, with a tenth of
+/// the budget, and it looks again after ten ticks.
 ///
 /// Cost: the budget for each new plan, or a tenth of it; no calls in between.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -22,6 +22,8 @@ pub struct Systematic {
     streams: Streams,
     /// The rest of the plan, the last action first.
     plan: Vec<Action>,
+    /// The ticks until another look, after the next search in vain.
+    pause: usize,
     #[serde(skip)]
     analysis: Option<Analysis>,
 }
@@ -29,7 +31,7 @@ pub struct Systematic {
 impl Systematic {
     /// Creates a player with its own random streams for choices and imagined outcomes.
     pub fn new(seed: Seed) -> Systematic {
-        Systematic { streams: Streams::new(seed), plan: Vec::new(), analysis: None }
+        Systematic { streams: Streams::new(seed), plan: Vec::new(), pause: AHEAD, analysis: None }
     }
 }
 
@@ -46,18 +48,19 @@ impl Planner for Systematic {
         decision.fork_with_random_future(&mut start, state);
         // The pushes that a level needs follow from the level, which a player does not see.
         let searched = best_first(&analysis, &Pushes::default(), &start, SearchLimits::calls(calls));
-        self.plan = match searched.answer {
-            Answer::Won { actions, .. } => actions,
-            Answer::Impossible | Answer::OutOfCalls | Answer::OutOfMemory => searched.nearest,
+        let (mut plan, least) = match searched.answer {
+            Answer::Won { actions, .. } => (actions, 0),
+            Answer::Impossible | Answer::OutOfCalls | Answer::OutOfMemory => (searched.nearest, self.pause),
         };
         if !is_certain {
-            self.plan.truncate(AHEAD);
+            plan.truncate(AHEAD);
+        } else if least > 0 {
+            self.pause *= 2;
         }
-        if self.plan.is_empty() {
-            let keys = game.actions(state);
-            self.plan = (0..AHEAD).map(|_| *decision.choices.choose(keys)).collect();
-        }
-        self.plan.reverse();
+        let (keys, rest) = (game.actions(state), least.saturating_sub(plan.len()));
+        plan.extend((0..rest).map(|_| *decision.choices.choose(keys)));
+        plan.reverse();
+        self.plan = plan;
         self.analysis = Some(analysis);
         (self.plan.pop().unwrap_or(Action::Nil), searched.calls)
     }
