@@ -42,7 +42,7 @@ mod words;
 pub use ablation::RulesMatter;
 pub use board::Board;
 pub use criteria::{Criteria, CriteriaError, GAME_CRITERIA, LEVEL_CRITERIA};
-pub use demand::{Commitment, DeadEnds, Deception, Demand, TIERS, Tier, TierBounds};
+pub use demand::{Commitment, DeadEnds, Deception, Demand, TIERS, Tier, TierBounds, shorter_win};
 pub use early_death::NoEarlyDeath;
 pub use evidence::{Evidence, Line};
 pub use game_measures::{GameKind, PlayMeasures};

@@ -31,17 +31,23 @@ pub const MARKS_FILE: &str = "MARKS.json";
 pub const MARKS_FORMAT: u32 = 1;
 
 /// Upper bounds of what a recipe can ask for: players, episodes of each on a level with a commitment, actions of an
-/// episode, forward-model calls of a decision.
+/// episode, forward-model calls of a decision and of a plan.
 const MOST_PLAYERS: usize = 16;
 const MOST_PLAYS: u64 = 20;
 const MOST_STEPS: u64 = 2000;
 const MOST_CALLS: u64 = 2000;
+const MOST_PLAN_CALLS: u64 = 100_000;
 
 /// The share of the maximum number of actions that an episode takes on average, and the cost of a forward-model call
 /// and of a prompt with its answer, in seconds.
 const PLAYED: f64 = 0.5;
 const CALL: f64 = 1e-6;
 const PROMPT: f64 = 3e-3;
+
+/// The planner that searches for whole plans, and the share of its calls that an action costs: with chance a plan of ten ticks has a
+/// tenth of the calls, without few plans are searched in an episode.
+const PLANNING: &str = "systematic";
+const PLANNED: f64 = 0.01;
 
 /// The player without rules, which reads no prompts.
 const TOUCHING: &str = "touch-everything";
@@ -93,8 +99,9 @@ impl MarksPart {
         for player in &self.players {
             let Ok(spec) = player.parse::<PlannerSpec>() else { continue };
             let calls = spec.budget().map_or(0, |Budget(calls)| calls);
-            if calls > MOST_CALLS || calls == 0 && self.looks_ahead(player) {
-                let help = "takes planners with 1 to 2000 calls of a decision";
+            let most = if spec.name() == PLANNING { MOST_PLAN_CALLS } else { MOST_CALLS };
+            if calls > most || calls == 0 && self.looks_ahead(player) {
+                let help = format!("takes planners with 1 to {most} calls of a decision");
                 return wrong("marks.players", format!("names `{player}`; it {help}, such as `olets:200`"));
             }
         }
@@ -109,7 +116,8 @@ impl MarksPart {
             Ok(_) if !self.looks_ahead(player) => 0.0,
             Ok(spec) => {
                 let commits = if is_certain { 1 } else { self.commits.len() };
-                CALL * spec.budget().map_or(0, |Budget(calls)| calls) as f64 * commits as f64
+                let share = if spec.name() == PLANNING { PLANNED } else { 1.0 };
+                CALL * share * spec.budget().map_or(0, |Budget(calls)| calls) as f64 * commits as f64
             }
             Err(_) if player == TOUCHING => 0.0,
             Err(_) => PROMPT * self.commits.iter().map(looks).sum::<f64>(),

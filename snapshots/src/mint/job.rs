@@ -5,10 +5,10 @@ use crate::memory::{SecondWin, Sibling};
 use crate::witness::{descendant, way_of_search};
 use engine::{Analysis, Episode, Seed};
 use forge::Tally;
-use forge::card::Card;
+use forge::card::{Card, LevelCard};
 use forge::games::{FoundLevel, MadeGame, Step};
 use serde::{Deserialize, Serialize};
-use validators::{Case, Criteria, Demand, Difficulty};
+use validators::{Case, Criteria, Demand, Difficulty, shorter_win};
 
 /// The games of a job; none if nothing passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,12 +64,13 @@ impl FrozenGame {
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         let difficulties = ladders.map(|ladder| ladder.difficulty).collect();
         climb_again(&mut made, descendant(root, &start).child("published", 0), criteria);
-        if measured {
-            measure(&mut made, descendant(root, &start).child("demand", 0));
-        }
+        let shorter = if measured { measure(&mut made, root, &start) } else { Vec::new() };
         let won = made.levels.iter().zip(&made.witnesses);
-        let paths = won.map(|(found, witness)| path(root, &start, found, made.levels.len(), witness));
-        let paths = paths.map(Option::unwrap_or_default).collect();
+        let paths = won.enumerate().map(|(number, (found, witness))| {
+            let known = shorter.get(number).cloned().flatten();
+            known.or_else(|| path(root, &start, found, made.levels.len(), witness)).unwrap_or_default()
+        });
+        let paths = paths.collect();
         let MadeGame { text, card, levels, witnesses, .. } = made;
         let levels = levels.iter().map(|found| found.level.to_string()).collect();
         let (marks, sibling, seconds) = (Vec::new(), None, Vec::new());
@@ -77,18 +78,33 @@ impl FrozenGame {
     }
 }
 
-/// Measures what the levels of a game demand, where that is not known.
-fn measure(made: &mut MadeGame, seed: Seed) {
+/// Measures what the levels of a game demand, where that is not known. Where chance plays a part, a shorter win that is found takes
+/// the place of the witness; returns the steps from the root seed to each of those, by level.
+fn measure(made: &mut MadeGame, root: Seed, start: &[Step]) -> Vec<Option<Vec<Step>>> {
     let analysis = Analysis::of(&made.game);
-    let won = made.levels.iter().zip(&made.witnesses);
-    for (number, (card, (found, witness))) in made.card.levels.iter_mut().zip(won).enumerate() {
-        if card.demand.is_none() {
+    let won = made.levels.iter().zip(&mut made.witnesses);
+    let of_level =
+        |(number, (card, (found, witness))): (usize, (&mut LevelCard, (&FoundLevel, &mut Episode)))| {
+            if card.demand.is_some() {
+                return None;
+            }
+            let mut way: Vec<Step> = start.to_vec();
+            way.extend([("demand".to_owned(), 0), ("level".to_owned(), number as u64)]);
+            let seed = descendant(root, &way);
+            let shorter = shorter_win(&analysis, &found.level, witness, seed.child("shorter win", 0));
+            let way = shorter.map(|(play, shorter)| {
+                card.witness_ticks = shorter.actions.len();
+                card.witness_score = shorter.score;
+                *witness = shorter;
+                way.extend([("shorter win".to_owned(), 0), ("play".to_owned(), play)]);
+                way
+            });
             let shortest = card.optimal_ticks == Some(witness.actions.len());
-            let seed = seed.child("level", number as u64);
             card.demand = Demand::of(&analysis, &found.level, witness, shortest, seed);
             card.tier = card.demand.as_ref().map(Demand::tier);
-        }
-    }
+            way
+        };
+    made.card.levels.iter_mut().zip(won).enumerate().map(of_level).collect()
 }
 
 /// Replaces the ladders of a game's card by fresh ones.

@@ -16,7 +16,7 @@ use generators::levels::{Examples, LevelConfig};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
-use validators::{Criteria, Demand, Difficulty, GATES, Judgement, Panel, Report, Tier};
+use validators::{Criteria, Demand, Difficulty, GATES, Judgement, Panel, Report, Tier, shorter_win};
 
 /// A level to judge.
 #[derive(Deserialize)]
@@ -159,6 +159,11 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
             let Some((win, is_shortest)) = known_win(&compiled, &made, seed, lines) else {
                 lines.send(&json!({ "stage": "none", "text": "no win was found" }))?;
                 continue;
+            };
+            let win = match wanted {
+                Some(_) => shorter_win(&compiled.analysis, &made.level, &win, seed.child("shorter win", 0))
+                    .map_or(win, |(_, shorter)| shorter),
+                None => win,
             };
             let measured = wanted.and_then(|_| {
                 Demand::of(&compiled.analysis, &made.level, &win, is_shortest, seed.child("tier", 0))

@@ -4,11 +4,13 @@ mod commitment;
 mod dead_ends;
 mod deception;
 mod route;
+mod shorter;
 mod tier;
 
 pub use commitment::Commitment;
 pub use dead_ends::DeadEnds;
 pub use deception::Deception;
+pub use shorter::shorter_win;
 pub use tier::{TIERS, Tier, TierBounds};
 
 use crate::measures::pushes_of;
