@@ -82,7 +82,7 @@ pub(super) fn link(args: &Args) -> Table {
 pub(super) fn ability(args: &Args) -> Table {
     let count = args.trials.unwrap_or(50);
     let alone = plan(vec![1; 8], 2);
-    let anchored = Plan { anchors: 3, anchor_runs: 1, ..alone.clone() };
+    let anchored = |runs| Plan { anchors: 3, anchor_runs: runs, ..alone.clone() };
     let mut cases = Vec::new();
     for (mismatch, ability) in [(1.0, 0.0), (1.0, -2.0), (2.0, 0.0), (2.0, -2.0)] {
         cases.extend([100, 200, 600].map(|episodes| AbilityCase { ability, mismatch, episodes }));
@@ -94,8 +94,11 @@ pub(super) fn ability(args: &Args) -> Table {
     );
     let columns = ["difficulty", "mismatch SD", "ability", "episodes", "error", "stated", "coverage"];
     let mut table = Table::new("ability", "Errors of abilities", &note, &columns);
-    let dimensions =
-        [("planners'", alone, Dimension::Planner), ("readers', 3 anchors", anchored, Dimension::Reader)];
+    let dimensions = [
+        ("planners'", alone.clone(), Dimension::Planner),
+        ("readers', 3 anchors once", anchored(1), Dimension::Reader),
+        ("readers', 3 anchors twice", anchored(2), Dimension::Reader),
+    ];
     for (number, (name, plan, dimension)) in dimensions.into_iter().enumerate() {
         // The same months for all players.
         let found: Vec<Vec<Vec<AbilityTrial>>> =
@@ -145,6 +148,7 @@ pub(super) fn drift(args: &Args) -> Table {
 /// The episodes that an adaptive choice needs for the error of a spread design.
 pub(super) fn adaptive(args: &Args) -> Table {
     const EPISODES: usize = 200;
+    const PERSONS: usize = 20;
     let months = args.trials.unwrap_or(20);
     let plan = plan(vec![1; 8], 2);
     let counts: Vec<usize> = (6..=20).map(|tens| tens * 10).collect();
