@@ -6,14 +6,14 @@ use engine::analysis::Analysis;
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
 
-/// The length of a plan in a game of chance, and of the first one without a win elsewhere, in ticks.
+/// The length of a plan in a stochastic game, and of the first one without a win elsewhere, in ticks.
 const AHEAD: usize = 10;
 
 /// A player that searches for a win to its end with [`best_first`], and plays what it finds without another look. Without a win
 /// within the budget it plays towards the states from which the fewest sprites must still go or come, and then random keys.
 ///
 /// Without chance a plan that wins is right, whatever its length; after one that does not it looks again, the first time in ten
-/// ticks, then each time in twice as many. A game of chance it searches as if one imagined future were the only one, with a tenth of
+/// ticks, then each time in twice as many. A stochastic game it searches as if one imagined future were the only one, with a tenth of
 /// the budget, and it looks again after ten ticks.
 ///
 /// Cost: the budget for each new plan, or a tenth of it; no calls in between.

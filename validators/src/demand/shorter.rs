@@ -1,4 +1,4 @@
-//! Shorter wins of games of chance.
+//! Shorter wins of stochastic games.
 
 use agents::{Budget, Limits, PlannerSpec, play};
 use engine::{Analysis, Episode, Level, Outcome, Seed};
@@ -12,7 +12,7 @@ const DECISION: Budget = Budget(2000);
 /// The ticks of a win from which on a shorter one may change the tier of its level.
 const LEAST: usize = 20;
 
-/// Looks for a win with fewer ticks than one that is known, in a game of chance, where no search proves which is the shortest: the
+/// Looks for a win with fewer ticks than one that is known, in a stochastic game, where no search proves which is the shortest: the
 /// first win found may be far from it. Returns it with the number of its play, whose seed is `seed.child("play", number)`; `None`
 /// where none is shorter, without chance, and for wins of fewer than 20 ticks.
 ///
