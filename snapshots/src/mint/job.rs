@@ -5,7 +5,7 @@ use crate::memory::{SecondWin, Sibling};
 use crate::witness::{descendant, way_of_search};
 use engine::{Analysis, Episode, Seed};
 use forge::Tally;
-use forge::card::{Card, LevelCard};
+use forge::card::Card;
 use forge::games::{FoundLevel, MadeGame, Step};
 use serde::{Deserialize, Serialize};
 use validators::{Case, Criteria, Demand, Difficulty, shorter_win};
@@ -82,29 +82,28 @@ impl FrozenGame {
 /// the place of the witness; returns the steps from the root seed to each of those, by level.
 fn measure(made: &mut MadeGame, root: Seed, start: &[Step]) -> Vec<Option<Vec<Step>>> {
     let analysis = Analysis::of(&made.game);
+    let mut paths = vec![None; made.levels.len()];
     let won = made.levels.iter().zip(&mut made.witnesses);
-    let of_level =
-        |(number, (card, (found, witness))): (usize, (&mut LevelCard, (&FoundLevel, &mut Episode)))| {
-            if card.demand.is_some() {
-                return None;
-            }
-            let mut way: Vec<Step> = start.to_vec();
-            way.extend([("demand".to_owned(), 0), ("level".to_owned(), number as u64)]);
-            let seed = descendant(root, &way);
-            let shorter = shorter_win(&analysis, &found.level, witness, seed.child("shorter win", 0));
-            let way = shorter.map(|(play, shorter)| {
-                card.witness_ticks = shorter.actions.len();
-                card.witness_score = shorter.score;
-                *witness = shorter;
-                way.extend([("shorter win".to_owned(), 0), ("play".to_owned(), play)]);
-                way
-            });
-            let shortest = card.optimal_ticks == Some(witness.actions.len());
-            card.demand = Demand::of(&analysis, &found.level, witness, shortest, seed);
-            card.tier = card.demand.as_ref().map(Demand::tier);
-            way
-        };
-    made.card.levels.iter_mut().zip(won).enumerate().map(of_level).collect()
+    for (number, (card, (found, witness))) in made.card.levels.iter_mut().zip(won).enumerate() {
+        if card.demand.is_some() {
+            continue;
+        }
+        let mut path = start.to_vec();
+        path.extend([("demand".to_owned(), 0), ("level".to_owned(), number as u64)]);
+        let seed = descendant(root, &path);
+        let shorter = shorter_win(&analysis, &found.level, witness, seed.child("shorter win", 0));
+        if let Some((play, shorter)) = shorter {
+            card.witness_ticks = shorter.actions.len();
+            card.witness_score = shorter.score;
+            *witness = shorter;
+            path.extend([("shorter win".to_owned(), 0), ("play".to_owned(), play)]);
+            paths[number] = Some(path);
+        }
+        let shortest = card.optimal_ticks == Some(witness.actions.len());
+        card.demand = Demand::of(&analysis, &found.level, witness, shortest, seed);
+        card.tier = card.demand.as_ref().map(Demand::tier);
+    }
+    paths
 }
 
 /// Replaces the ladders of a game's card by fresh ones.

@@ -331,6 +331,26 @@ mod tests {
             assert_eq!(games.len(), 1, "{job:?}");
             check(plan.seed, &games[0]);
         }
+        // Where tiers are measured, shorter wins of stochastic levels take the place of witnesses.
+        let moths = FETCH
+            .replace("avatar > MovingAvatar", "moth > RandomNPC color=GRAY\n        avatar > MovingAvatar")
+            .replace("A > floor avatar", "m > floor moth\n        A > floor avatar")
+            .replace(
+                "avatar wall > stepBack",
+                "avatar wall > stepBack\n        moth wall > stepBack\n        avatar moth > killSprite",
+            )
+            .replace("Timeout", "SpriteCounter stype=avatar win=False\n        Timeout")
+            .replace("limit=50", "limit=200");
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'm'\n[corpus]\ngames = 1\nlevels = 4\n[tiers]\n1 = 1.0\n[criteria]\n\
+            ask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\ndecision = 20\nmcts_plays = 1\n";
+        let tiers = Recipe::from_toml(text).unwrap();
+        let corpus = self::corpus(&[("moths", &moths)]);
+        let plan = Plan::new(&tiers, None, &corpus).unwrap();
+        let games = plan.make(plan.jobs()[0]).unwrap().games;
+        check(plan.seed, &games[0]);
+        let is_shorter =
+            |path: &Vec<forge::games::Step>| path.iter().any(|(purpose, _)| purpose == "shorter win");
+        assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
         for method in [Method::Search, Method::Evolutionary] {
             let order = GameOrder::new(method, 1);
             let order = GameOrder {
