@@ -5,7 +5,10 @@
 //! Effects of games are in standard deviations: their prior is standard normal, and the spreads are in the loadings. So nothing
 //! breaks down where a spread goes to zero.
 
+mod functional;
 mod slope;
+
+pub(super) use functional::Functional;
 
 use super::ability::nodes;
 use super::plays::{Dimension, Examinee, GamePlays};
@@ -431,13 +434,6 @@ impl Curvature {
     }
 }
 
-/// A linear function of all effects, with a constant.
-pub(super) struct Functional {
-    pub(super) constant: f64,
-    pub(super) shared: DVector<f64>,
-    pub(super) games: Vec<DVector<f64>>,
-}
-
 /// The normal distribution around the mode.
 pub(super) struct Posterior {
     pub(super) modes: Modes,
@@ -533,90 +529,5 @@ impl Model<'_> {
             variances += row.of * chance * (1.0 - chance);
         }
         squares / variances
-    }
-
-    /// Returns a functional that is zero everywhere.
-    fn nothing(&self) -> Functional {
-        Functional {
-            constant: 0.0,
-            shared: DVector::zeros(self.shared()),
-            games: self.layouts.iter().map(|layout| DVector::zeros(layout.size)).collect(),
-        }
-    }
-
-    /// Returns a shared parameter.
-    pub(super) fn shared_functional(&self, at: usize) -> Functional {
-        let mut found = self.nothing();
-        found.shared[at] = 1.0;
-        found
-    }
-
-    /// Returns the difficulties of the levels of a game.
-    pub(super) fn game_functionals(
-        &self,
-        spreads: &Spreads,
-        game: usize,
-        dimension: Dimension,
-    ) -> Vec<Functional> {
-        let of_level = |level: usize| {
-            let mut found = self.nothing();
-            self.add_level(&mut found, spreads, (game, level), dimension, 1.0);
-            found
-        };
-        (0..self.layouts[game].levels).map(of_level).collect()
-    }
-
-    fn add_level(
-        &self,
-        to: &mut Functional,
-        spreads: &Spreads,
-        (game, level): (usize, usize),
-        dimension: Dimension,
-        share: f64,
-    ) {
-        for (at, factor) in self.shift_terms(spreads, dimension) {
-            to.shared[at] += share * factor;
-        }
-        for (at, factor) in self.difficulty_terms(spreads, game, level, dimension) {
-            to.games[game][at] += share * factor;
-        }
-    }
-
-    /// Returns the levels, by game.
-    fn levels(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let layouts = self.layouts.iter().enumerate();
-        layouts.flat_map(|(game, layout)| (0..layout.levels).map(move |level| (game, level)))
-    }
-
-    /// Returns the mean difficulty of all levels.
-    pub(super) fn mean_functional(&self, spreads: &Spreads, dimension: Dimension) -> Functional {
-        let mut found = self.nothing();
-        let share = 1.0 / self.levels().count() as f64;
-        for level in self.levels() {
-            self.add_level(&mut found, spreads, level, dimension, share);
-        }
-        found
-    }
-
-    /// Returns the mean logit of the planners on all levels: the ease of the levels for exactly these.
-    pub(super) fn planners_functional(&self, spreads: &Spreads) -> Functional {
-        let mut found = self.nothing();
-        let planners: Vec<usize> = (0..self.examinees.len())
-            .filter(|&at| self.examinees[at].dimension == Dimension::Planner)
-            .collect();
-        let share = 1.0 / (self.levels().count() * planners.len()) as f64;
-        for (game, level) in self.levels() {
-            for &planner in &planners {
-                let (shared, offset) = self.shared_terms(spreads, planner);
-                found.constant += share * offset;
-                for (at, factor) in shared {
-                    found.shared[at] += share * factor;
-                }
-                for (at, factor) in self.terms(spreads, game, planner, level) {
-                    found.games[game][at] += share * factor;
-                }
-            }
-        }
-        found
     }
 }
