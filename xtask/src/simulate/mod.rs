@@ -11,7 +11,7 @@ use statistics::{Design, Spread};
 /// Simulates evaluations under the model of `arcade evaluate --dry-run`, and prints tables in Markdown.
 ///
 /// The same seed gives the same tables. At the default size the first three take about a minute on two cores, those of the scale
-/// (link, ability, drift, adaptive) half an hour to an hour each.
+/// (link, ability, drift, adaptive) 15 to 25 minutes of a core each.
 ///
 /// Example: cargo xtask simulate coverage --trials 1000
 #[derive(clap::Args)]

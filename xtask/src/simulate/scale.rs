@@ -148,7 +148,7 @@ pub(super) fn drift(args: &Args) -> Table {
 /// The episodes that an adaptive choice needs for the error of a spread design.
 pub(super) fn adaptive(args: &Args) -> Table {
     const EPISODES: usize = 200;
-    const PERSONS: usize = 20;
+    const PLAYERS: usize = 20;
     let months = args.trials.unwrap_or(20);
     let plan = plan(vec![1; 8], 2);
     let counts: Vec<usize> = (6..=20).map(|tens| tens * 10).collect();
@@ -157,10 +157,10 @@ pub(super) fn adaptive(args: &Args) -> Table {
         cases.extend([-4.0, -3.0, -2.0, 0.0, 2.0, 3.0].map(|ability| (ability, mismatch)));
     }
     let note = format!(
-        "{} players each, {PERSONS} on each of {months} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
+        "{} players each, {PLAYERS} on each of {months} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
          plays of each on a level and {REPLICATES} replicates; one episode on a level. Spread: {EPISODES} episodes, over games \
          first. Adaptive: the fewest (in tens) whose stated error is at most that. Errors in logits.",
-        months * PERSONS as u64
+        months * PLAYERS as u64
     );
     let columns = [
         "mismatch SD",
@@ -177,7 +177,7 @@ pub(super) fn adaptive(args: &Args) -> Table {
     let mut table = Table::new("adaptive", "Episodes of an adaptive choice at equal error", &note, &columns);
     // The same months for all players.
     let all: Vec<Vec<Vec<AdaptiveTrial>>> =
-        trials(args, months, 0, |seed| adaptive_trials(&plan, &cases, (EPISODES, &counts), PERSONS, seed));
+        trials(args, months, 0, |seed| adaptive_trials(&plan, &cases, (EPISODES, &counts), PLAYERS, seed));
     for (at, (ability, mismatch)) in cases.iter().copied().enumerate() {
         let found: Vec<&AdaptiveTrial> = all.iter().flat_map(|of| &of[at]).collect();
         let cells = |of: &dyn Fn(&AdaptiveTrial) -> AbilityTrial| {
