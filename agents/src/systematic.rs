@@ -16,7 +16,7 @@ const AHEAD: usize = 10;
 /// ticks, then each time in twice as many. A stochastic game it searches as if one imagined future were the only one, with a tenth of
 /// the budget, and it looks again after ten ticks.
 ///
-/// Cost: the budget for each new plan, or a tenth of it; no calls in between.
+/// Cost: the budget for each new plan, or a tenth of it, and a gibibyte at most; no calls in between.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Systematic {
     streams: Streams,
