@@ -301,6 +301,20 @@ mod tests {
         assert!((found.interval.high / found.error - Z95).abs() < 0.1, "{found:?}");
     }
 
+    /// Plays of a level whose difficulty is known say the same together and one by one.
+    #[test]
+    fn plays_may_be_counted_together() {
+        let level = |won: f64, of: f64| PlayedLevel { difficulty: 0.5, own: 0.0, won, of };
+        let found = |levels: Vec<PlayedLevel>| {
+            let games = vec![PlayedGame { common: 0.1, levels }; 20];
+            ability(&games, MismatchPrior::default(), 0.0).unwrap()
+        };
+        let together = found(vec![level(1.0, 3.0)]);
+        let apart = found(vec![level(1.0, 1.0), level(0.0, 1.0), level(0.0, 1.0)]);
+        assert!((together.value - apart.value).abs() < 1e-9, "{together:?} {apart:?}");
+        assert!((together.error - apart.error).abs() < 1e-9, "{together:?} {apart:?}");
+    }
+
     #[test]
     fn the_link_widens() {
         let sure = ability(&games(30, 1.0, 2.0), MismatchPrior::default(), 0.0).unwrap();
