@@ -8,6 +8,7 @@ use generators::Variation;
 use generators::games::{GeneratedGame, Kind};
 use generators::kernels::{KernelGenome, KernelVariation, Turns};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 use validators::novelty::GameForm;
 
 /// Draws of numbers for each form of a kernel, with and without its variants, and draws of grafts for a kernel.
@@ -41,13 +42,27 @@ pub(super) struct RuleSet {
 
 /// Sets of rules in the order of their turns: each kernel has one before any has a second.
 ///
-/// The same place has the same set, however many places there are.
+/// The same place has the same set, however many places there are. Only the first set of each kernel is drawn at once, and the others when
+/// they are asked for: most releases are small.
 #[derive(Clone, Debug)]
 pub struct RuleSets {
-    /// Without grafts.
-    plain: Vec<RuleSet>,
-    /// With grafts.
-    grafted: Vec<RuleSet>,
+    draws: Draws,
+    /// The kernels in the order of their turns, each with all of its sets, under no names yet.
+    kernels: Vec<(&'static str, OnceLock<Parts>)>,
+    /// The first sets without grafts.
+    opening: Vec<RuleSet>,
+    all: OnceLock<Parts>,
+}
+
+/// Sets without grafts, and sets with them.
+type Parts = (Vec<RuleSet>, Vec<RuleSet>);
+
+/// The way to the sets of a kernel.
+#[derive(Clone, Debug)]
+struct Draws {
+    seed: Seed,
+    with_grafts: bool,
+    known: Vec<GameForm>,
 }
 
 /// The rules of a game and its title; `None` if they do not compile.
@@ -78,64 +93,112 @@ impl OfKernel<'_> {
     }
 }
 
-impl RuleSets {
-    /// Draws the sets of these kinds that are not near to a `known` game; those with grafts if they are asked for. Cost: about a
-    /// millisecond for each that is considered, some 900 without grafts and up to 4,000 more with, and for each of the names that are tried.
-    pub fn draw(kinds: &[Kind], with_grafts: bool, known: &[GameForm], seed: Seed) -> RuleSets {
-        let of_kernel = |kernel: &str| {
-            let seed = seed.child("kernel", 0).child(kernel, 0);
-            let mut of_kernel = OfKernel { known, sets: Vec::new() };
-            let mut all = KernelGenome::all_of(kernel);
-            seed.child("order", 0).sampler().shuffle(&mut all);
-            for draw in 0..DRAWS.0 {
-                let seed = seed.child("numbers", draw);
-                all.iter().for_each(|genome| of_kernel.welcome(genome.redrawn(seed)));
-            }
-            let own = of_kernel.sets.len();
-            for draw in (0..DRAWS.1).filter(|_| with_grafts) {
-                if of_kernel.sets.len() >= own + GRAFTED {
-                    break;
+impl Draws {
+    /// The seed of a kernel, and a game of each of its forms in the order in which they become sets.
+    fn of_kernel(&self, kernel: &str) -> (Seed, Vec<KernelGenome>) {
+        let seed = self.seed.child("kernel", 0).child(kernel, 0);
+        let mut all = KernelGenome::all_of(kernel);
+        seed.child("order", 0).sampler().shuffle(&mut all);
+        (seed, all)
+    }
+
+    /// Takes in sets without grafts until there are so many.
+    fn fill(&self, sets: &mut OfKernel<'_>, (seed, all): &(Seed, Vec<KernelGenome>), most: usize) {
+        for draw in 0..DRAWS.0 {
+            let seed = seed.child("numbers", draw);
+            for genome in all {
+                if sets.sets.len() == most {
+                    return;
                 }
-                let seed = seed.child("graft", draw);
-                let host = all[seed.child("host", 0).sampler().below(all.len())].redrawn(seed);
-                host.grafted(seed).into_iter().for_each(|genome| of_kernel.welcome(genome));
+                sets.welcome(genome.redrawn(seed));
             }
-            let grafted = of_kernel.sets.split_off(own);
-            (of_kernel.sets, grafted)
-        };
-        let turns = Turns::draw(kinds, seed);
-        let (plain, grafted) = turns.kernels().map(|(kernel, _)| of_kernel(kernel)).unzip();
-        let sets = RuleSets { plain: in_turn(plain), grafted: in_turn(grafted) };
-        sets.named(seed.child("names", 0))
+        }
+    }
+
+    /// The first set of a kernel, without grafts; `None` if it has no other than known games.
+    fn first(&self, kernel: &str) -> Option<RuleSet> {
+        let mut first = OfKernel { known: &self.known, sets: Vec::new() };
+        self.fill(&mut first, &self.of_kernel(kernel), 1);
+        first.sets.pop()
+    }
+
+    /// All sets of a kernel.
+    fn all(&self, kernel: &str) -> Parts {
+        let of_kernel = self.of_kernel(kernel);
+        let mut sets = OfKernel { known: &self.known, sets: Vec::new() };
+        self.fill(&mut sets, &of_kernel, usize::MAX);
+        let (own, (seed, all)) = (sets.sets.len(), of_kernel);
+        for draw in (0..DRAWS.1).filter(|_| self.with_grafts) {
+            if sets.sets.len() >= own + GRAFTED {
+                break;
+            }
+            let seed = seed.child("graft", draw);
+            let host = all[seed.child("host", 0).sampler().below(all.len())].redrawn(seed);
+            host.grafted(seed).into_iter().for_each(|genome| sets.welcome(genome));
+        }
+        let grafted = sets.sets.split_off(own);
+        (sets.sets, grafted)
     }
 
     /// The same sets under names of their own: no two share a title or most of a cast, and scenes take turns. Sets that there are no names
     /// left for go.
-    fn named(mut self, seed: Seed) -> RuleSets {
+    fn named(&self, (plain, grafted): Parts) -> Parts {
         let mut given = Given::default();
-        for (at, sets) in (0..).zip([&mut self.plain, &mut self.grafted]) {
-            let seed = seed.child("sets", at);
-            let unnamed = (0..).zip(std::mem::take(sets));
-            sets.extend(unnamed.filter_map(|(number, set)| given.named(set, seed.child("set", number))));
-        }
-        self
+        let mut named = |at: u64, sets: Vec<RuleSet>| -> Vec<RuleSet> {
+            let seed = self.seed.child("names", 0).child("sets", at);
+            let unnamed = (0..).zip(sets);
+            unnamed.filter_map(|(number, set)| given.named(set, seed.child("set", number))).collect()
+        };
+        (named(0, plain), named(1, grafted))
+    }
+}
+
+impl RuleSets {
+    /// Draws the sets of these kinds that are not near to a `known` game; those with grafts if they are asked for. Cost: about a
+    /// millisecond for each that is considered, and for each of the names that are tried: some 100 for the first sets of all kernels; some
+    /// 900 without grafts, and up to 4,000 more with, for the others, once a method or a place asks for them.
+    pub fn draw(kinds: &[Kind], with_grafts: bool, known: &[GameForm], seed: Seed) -> RuleSets {
+        let draws = Draws { seed, with_grafts, known: known.to_vec() };
+        let turns = Turns::draw(kinds, seed);
+        let kernels: Vec<_> = turns.kernels().map(|(kernel, _)| (kernel, OnceLock::new())).collect();
+        let first = kernels.iter().filter_map(|(kernel, _)| draws.first(kernel)).collect();
+        let (opening, _) = draws.named((first, Vec::new()));
+        RuleSets { draws, kernels, opening, all: OnceLock::new() }
+    }
+
+    /// All sets, of which the opening is the beginning.
+    fn all(&self) -> &Parts {
+        self.all.get_or_init(|| {
+            let (plain, grafted) =
+                self.kernels.iter().map(|of_kernel| self.of_kernel(of_kernel).clone()).unzip();
+            self.draws.named((in_turn(plain), in_turn(grafted)))
+        })
+    }
+
+    /// All sets of one of the kernels.
+    fn of_kernel<'a>(&self, (kernel, sets): &'a (&'static str, OnceLock<Parts>)) -> &'a Parts {
+        sets.get_or_init(|| self.draws.all(kernel))
     }
 
     /// The sets that a method draws on: of those with grafts, searches and archives take a quarter each, and constructive games the others
     /// after all without.
     fn of_method(&self, method: Method) -> Vec<&RuleSet> {
-        let quarter = |first: usize| self.grafted.iter().skip(first).step_by(4);
+        let (plain, grafted) = self.all();
+        let quarter = |first: usize| grafted.iter().skip(first).step_by(4);
         match method {
-            Method::Search if !self.grafted.is_empty() => quarter(0).collect(),
-            Method::Evolutionary if !self.grafted.is_empty() => quarter(1).collect(),
-            _ => self.plain.iter().chain(quarter(2)).chain(quarter(3)).collect(),
+            Method::Search if !grafted.is_empty() => quarter(0).collect(),
+            Method::Evolutionary if !grafted.is_empty() => quarter(1).collect(),
+            _ => plain.iter().chain(quarter(2)).chain(quarter(3)).collect(),
         }
     }
 
     /// The set of a place among the games of a method, at a turn of it; `None` if there is none left.
     pub(super) fn of_place(&self, method: Method, place: u32, turn: u32) -> Option<&RuleSet> {
-        let sets = self.of_method(method);
         let (place, turn) = (place as usize, turn as usize);
+        if let (Method::Constructive, 0, Some(set)) = (method, turn, self.opening.get(place)) {
+            return Some(set);
+        }
+        let sets = self.of_method(method);
         let at = match turn % (1 + SPARE) {
             0 if turn == 0 || place < SMALL => place,
             spare if place < SMALL => sets.len().checked_sub(1 + place + SMALL * (spare - 1))?,
@@ -159,9 +222,11 @@ impl RuleSets {
 
     /// Tests whether a game is of the kernel of a set, and near to no other set of it.
     fn is_of(&self, genome: &KernelGenome, own: &RuleSet) -> bool {
-        let others = self.plain.iter().chain(&self.grafted);
-        let mut rivals =
-            others.filter(|other| other.genome.kernel() == genome.kernel() && other.form != own.form);
+        let kernel = self.kernels.iter().find(|(kernel, _)| *kernel == genome.kernel());
+        let parts = kernel.into_iter().map(|of_kernel| self.of_kernel(of_kernel));
+        let mut rivals = parts
+            .flat_map(|(plain, grafted)| plain.iter().chain(grafted))
+            .filter(|other| other.form != own.form);
         genome.kernel() == own.genome.kernel()
             && form_of(genome).is_some_and(|form| rivals.all(|other| !form.is_near(&other.form)))
     }
@@ -265,16 +330,15 @@ impl Variation for SetVariation<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::LazyLock;
 
-    fn sets() -> RuleSets {
-        let kinds = [Kind::Lure, Kind::Demolition];
-        RuleSets::draw(&kinds, true, &[], Seed::from_text("sets"))
-    }
+    static SETS: LazyLock<RuleSets> =
+        LazyLock::new(|| RuleSets::draw(&[Kind::Lure, Kind::Demolition], true, &[], Seed::from_text("sets")));
 
     #[test]
     fn no_two_sets_are_near_and_kernels_take_turns() {
-        let sets = sets();
-        let all: Vec<&RuleSet> = sets.plain.iter().chain(&sets.grafted).collect();
+        let (plain, grafted) = SETS.all();
+        let all: Vec<&RuleSet> = plain.iter().chain(grafted).collect();
         for (at, one) in all.iter().enumerate() {
             for other in &all[at + 1..] {
                 let kernels = (one.genome.kernel(), other.genome.kernel());
@@ -282,17 +346,25 @@ mod tests {
             }
         }
         let kernels: BTreeSet<&str> = all.iter().map(|set| set.genome.kernel()).collect();
-        let first: BTreeSet<&str> =
-            sets.plain.iter().take(kernels.len()).map(|set| set.genome.kernel()).collect();
+        let first: BTreeSet<&str> = plain.iter().take(kernels.len()).map(|set| set.genome.kernel()).collect();
         assert_eq!(first, kernels);
-        assert!(sets.grafted.len() > kernels.len());
+        assert!(grafted.len() > kernels.len());
+    }
+
+    #[test]
+    fn all_sets_begin_with_the_opening() {
+        let key = |set: &RuleSet| (set.genome.key(), set.genome.scene());
+        let opening: Vec<_> = SETS.opening.iter().map(key).collect();
+        assert!(opening.len() > 2);
+        assert_eq!(SETS.all().0[..opening.len()].iter().map(key).collect::<Vec<_>>(), opening);
     }
 
     #[test]
     fn games_of_a_set_stay_with_it() {
-        let sets = sets();
-        for set in sets.plain.iter().chain(&sets.grafted) {
-            for draw in 0..4 {
+        let sets = &*SETS;
+        let (plain, grafted) = sets.all();
+        for set in plain.iter().chain(grafted) {
+            for draw in 0..2 {
                 let genome = sets.draw_of(set, Seed::from_text("draw").child("draw", draw));
                 assert!(sets.is_of(&genome, set), "{}", set.genome.kernel());
                 assert_eq!(genome.scene(), set.genome.scene());
@@ -300,7 +372,7 @@ mod tests {
         }
         let own = sets.of_archive(0);
         let variation = KernelVariation::new(&[Kind::Lure, Kind::Demolition]);
-        let variation = SetVariation { variation, own: Some((&sets, own.clone())) };
+        let variation = SetVariation { variation, own: Some((sets, own.clone())) };
         let mut sampler = Seed::from_text("changes").sampler();
         let mut genome = variation.create(Seed::from_text("first")).unwrap();
         for _ in 0..20 {
@@ -337,9 +409,10 @@ mod tests {
     fn known_games_are_kept_apart_from() {
         let seed = Seed::from_text("sets");
         let all = RuleSets::draw(&[Kind::Lure], false, &[], seed);
-        let known: Vec<GameForm> = all.plain.iter().take(2).map(|set| set.form.clone()).collect();
+        let known: Vec<GameForm> = all.all().0.iter().take(2).map(|set| set.form.clone()).collect();
         let left = RuleSets::draw(&[Kind::Lure], false, &known, seed);
-        assert!(!left.plain.is_empty() && left.plain.len() < all.plain.len());
-        assert!(left.plain.iter().all(|set| known.iter().all(|known| !set.form.is_near(known))));
+        let (left, all) = (&left.all().0, &all.all().0);
+        assert!(!left.is_empty() && left.len() < all.len());
+        assert!(left.iter().all(|set| known.iter().all(|known| !set.form.is_near(known))));
     }
 }
