@@ -34,7 +34,7 @@ pub(crate) struct Args {
 }
 
 /// The number of ticks that are counted.
-const TICKS: u64 = 2000;
+const TICKS: u64 = 1000;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let count =

@@ -308,7 +308,7 @@ const NOT_REPLAYED_OR_ENDED: &[&str] = &["is recorded as", "the log records", "t
 fn altered_logs_are_refused() {
     let rows = Rows::new();
     let (mut refused, mut same) = (0, 0);
-    for number in 0..if sweeping() { 1000 } else { 48 } {
+    for number in 0..if sweeping() { 1000 } else { 30 } {
         let mut chance = chance("altered rows", number);
         let mut altered = rows.honest.clone();
         let expect = alter(&mut altered, number, &mut chance);

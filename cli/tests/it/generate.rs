@@ -79,6 +79,8 @@ fn impossible_requests_end_without_a_level() {
         "levels",
         "--game",
         "hailglass",
+        "--method",
+        "constructive",
         "--count",
         "1",
         "--size",

@@ -65,10 +65,12 @@ fn renaming_agrees_with_the_engine() {
     }
 }
 
-/// The words of a sound game are among the completions at their places, and every word but an arrow is explained.
+/// The words of a sound game are among the completions at their places, and every word but an arrow is explained. A third of the games;
+/// all of them in a sweep (`cargo xtask sweep`).
 #[test]
 fn every_word_of_the_corpus_is_offered_and_explained() {
-    for (name, source, level) in corpus() {
+    let step = if std::env::var_os("ARCADE_SWEEP").is_some() { 1 } else { 3 };
+    for (name, source, level) in corpus().into_iter().step_by(step) {
         let mut in_mapping = false;
         let mut seen = BTreeSet::new();
         for (at, word) in words(&source) {

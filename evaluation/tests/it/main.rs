@@ -14,3 +14,8 @@ mod served;
 mod server;
 mod tracks;
 mod walk;
+
+/// Tests whether all cases are asked for (`cargo xtask sweep`).
+fn sweeping() -> bool {
+    std::env::var_os("ARCADE_SWEEP").is_some()
+}
