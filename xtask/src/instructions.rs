@@ -6,6 +6,7 @@ use anyhow::{Context, bail};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
@@ -31,6 +32,9 @@ pub(crate) struct Args {
     /// Write the file instead
     #[arg(long)]
     bless: bool,
+    /// Count every one in so many games only
+    #[arg(long, value_name = "NUMBER", default_value = "1", conflicts_with = "bless")]
+    every: NonZeroUsize,
 }
 
 /// The number of ticks that are counted.
@@ -40,7 +44,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let count =
         |subject: Subject| Ok(per_tick(&args.games, &subject.name)?.map(|count| (subject.name, count)));
     let counts: anyhow::Result<Option<BTreeMap<String, u64>>> =
-        subjects(&args.games, &[])?.into_par_iter().map(count).collect();
+        subjects(&args.games, &[])?.into_par_iter().step_by(args.every.get()).map(count).collect();
     let Some(counts) = counts? else {
         println!("SKIPPED: valgrind is not installed, no instructions are counted");
         return Ok(());
@@ -61,7 +65,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return Ok(());
     }
     let mut slower = false;
-    for line in text.lines().skip(2) {
+    for line in text.lines().skip(2).step_by(args.every.get()) {
         let (name, expected) =
             line.split_once(',').with_context(|| format!("{path}: `{line}` is not a row"))?;
         let expected: u64 =

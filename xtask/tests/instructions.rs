@@ -1,11 +1,11 @@
-//! The instructions of a tick, of every corpus game: has a step become slower?
+//! The instructions of a tick, of games of the corpus: has a step become slower?
 
 use std::path::Path;
 use std::process::Command;
 
 /// `CARGO_INCREMENTAL=0 BLESS=1 cargo test --workspace --test instructions` records the counts anew; the diff is to be read like code.
 ///
-/// Skipped, with a message, without valgrind and in incremental builds, whose code is cut into other units: `.ci/run` builds without.
+/// A third of the games; all of them in a sweep (`cargo xtask sweep`). Skipped, with a message, without valgrind and in incremental builds, whose code is cut into other units: `.ci/run` builds without.
 #[test]
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn no_tick_costs_more_instructions_than_recorded() {
@@ -13,10 +13,12 @@ fn no_tick_costs_more_instructions_than_recorded() {
         eprintln!("SKIPPED: instructions are counted in builds with CARGO_INCREMENTAL=0");
         return;
     }
+    let is_set = |name| std::env::var_os(name).is_some();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
         .arg("instructions")
-        .args(std::env::var_os("BLESS").map(|_| "--bless"))
+        .args(if is_set("BLESS") { &["--bless"][..] } else { &[] })
+        .args(if is_set("BLESS") || is_set("ARCADE_SWEEP") { &[][..] } else { &["--every", "3"] })
         .current_dir(root)
         .output()
         .expect("the binary starts");

@@ -24,7 +24,7 @@ fn draw(name: &str, game: &Game, level: &Level) {
         let is_row = |line: &str| line.chars().count() == columns as usize && line.chars().all(is_symbol);
         assert!(text.lines().all(is_row), "{name}");
         render::text(&looks, &symbols, &state);
-        match render::picture(&looks, &state, &Style { cell: 8, caption: true, legend: true }) {
+        match render::picture(&looks, &state, &Style { cell: 6, caption: true, legend: true }) {
             Ok(picture) => {
                 assert!(render::svg(&picture).ends_with("</svg>\n"), "{name}");
                 render::png(&picture).unwrap_or_else(|error| panic!("{name}: {error}"));
