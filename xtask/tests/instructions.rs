@@ -5,7 +5,8 @@ use std::process::Command;
 
 /// `CARGO_INCREMENTAL=0 BLESS=1 cargo test --workspace --test instructions` records the counts anew; the diff is to be read like code.
 ///
-/// A third of the games; all of them in a sweep (`cargo xtask sweep`). Skipped, with a message, without valgrind and in incremental builds, whose code is cut into other units: `.ci/run` builds without.
+/// A third of the games; all of them in a sweep (`cargo xtask sweep`). Skipped, with a message, without valgrind and in incremental
+/// builds, whose code is cut into other units: `.ci/run` builds without.
 #[test]
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn no_tick_costs_more_instructions_than_recorded() {
