@@ -22,7 +22,9 @@ fn same_bytes(method: &str, kind: &str) {
     let (count, kinds) =
         if sweeping() { (2, &["--kind", kind, "--kind", "shooter"][..]) } else { (1, &["--kind", kind][..]) };
     let count_text = count.to_string();
-    let more = ["--method", method, "--count", &count_text, "--levels", "2", "--seed", "f"];
+    // As many levels as games.
+    let levels = count_text.as_str();
+    let more = ["--method", method, "--count", &count_text, "--levels", levels, "--seed", "f"];
     let more = [&more[..], kinds].concat();
     let told = generate(home.path(), "one", &[&more[..], &["--jobs", "1", "--report", "report"]].concat(), 0);
     let report = files(&home.path().join("report"));
@@ -37,10 +39,10 @@ fn same_bytes(method: &str, kind: &str) {
     assert_eq!(made.keys().filter(|name| name.ends_with("game.vgdl")).count(), count);
     for game in games {
         let folder = format!("one/{}", game["id"].as_str().unwrap());
-        assert_eq!(game["levels"].as_array().unwrap().len(), 2);
+        assert_eq!(game["levels"].as_array().unwrap().len(), count);
         // A win replays on its level.
-        let witness = format!("{folder}/witness/lvl1.json");
-        let picture = ["render", &folder, "1", "--episode", &witness, "-o", "-"];
+        let witness = format!("{folder}/witness/lvl0.json");
+        let picture = ["render", &folder, "0", "--episode", &witness, "-o", "-"];
         assert!(text(&run(home.path(), &picture, 0).stdout).contains("won"));
     }
 }
@@ -63,7 +65,7 @@ fn searched_games_are_the_same_on_any_number_of_threads() {
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
-    let more = ["--kind", "survival", "--count", "1", "--levels", "2", "--seed", "f"];
+    let more = ["--kind", "survival", "--count", "1", "--levels", "1", "--seed", "f"];
     let told = generate(home.path(), "whole", &more, 0);
     let args = [&["generate", "games", "--jobs", "1", "--out", "new"], &more[..]].concat();
     let mut command = arcade(home.path());

@@ -20,4 +20,4 @@ pub use ending::{Ending, EndingKind, GoalDistance};
 pub use episode::{EpisodeMetrics, EpisodeStatus};
 pub use meaningful::{Effect, WINDOW, meaningful};
 pub use movement::Movement;
-pub use replay::{Replayed, replay};
+pub use replay::{Replayed, replay, replay_course};

@@ -21,9 +21,9 @@ pub struct Replayed {
     pub actions: Vec<Action>,
     /// The change of the score in each step.
     pub rewards: Vec<f64>,
-    /// The flags of the meaningful steps.
+    /// The flags of the meaningful steps; none after [`replay_course`].
     pub meaningful: Vec<bool>,
-    /// The flags of the meaningful steps by the reference's code: one fewer.
+    /// The flags of the meaningful steps by the reference's code: one fewer; none after [`replay_course`].
     pub meaningful_as_code: Vec<bool>,
     /// The avatar's column and row before the first step and after each.
     pub cells: Vec<Option<(i32, i32)>>,
@@ -46,6 +46,20 @@ pub struct Replayed {
 /// # Errors
 /// The log is of another game, level or version of the suite, or contradicts itself or the game: the message names the line.
 pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
+    replay_measured(subject, log, true)
+}
+
+/// Replays the episode of a log with the same comparisons as [`replay`], without measuring which steps were meaningful.
+///
+/// Cost per step: one forward-model call and O(sprites log sprites).
+///
+/// # Errors
+/// The same as those of [`replay`].
+pub fn replay_course(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
+    replay_measured(subject, log, false)
+}
+
+fn replay_measured(subject: &Subject, log: &[Event], has_effects: bool) -> Result<Replayed, EvaluationError> {
     let Some(start @ Event::Start { max_steps, commit, .. }) = log.first() else {
         return Err(EvaluationError::Malformed(format!(
             "line 1 is not the start of an episode of {}; {NEXT_STEP}",
@@ -90,8 +104,10 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                     return Err(malformed("there is a step after the end of the episode".to_owned()));
                 }
                 let is_decision = plan.step(event, &subject.game, &state).map_err(malformed)?;
-                texts.push(code.text(&subject.game.observe(&state)));
-                let idle = (*action != Action::Nil).then(|| {
+                if has_effects {
+                    texts.push(code.text(&subject.game.observe(&state)));
+                }
+                let idle = (has_effects && *action != Action::Nil).then(|| {
                     let mut idle = state.clone();
                     subject.game.step(&mut idle, Action::Nil);
                     (Seen::of(&subject.game, &idle), idle.outcome())
@@ -103,8 +119,10 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                 }
                 seen = Seen::of(&subject.game, &state);
                 let reward = state.score() - replayed.score;
-                effects.push(effect(&seen, state.outcome(), idle, reward));
-                places.push(seen.place());
+                if has_effects {
+                    effects.push(effect(&seen, state.outcome(), idle, reward));
+                    places.push(seen.place());
+                }
                 replayed.actions.push(*action);
                 replayed.rewards.push(reward);
                 replayed.cells.push(cell(&subject.game, &state));

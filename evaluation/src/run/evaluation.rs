@@ -2,7 +2,7 @@
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_STEP, decisions};
-use crate::metrics::replay;
+use crate::metrics::replay_course;
 use crate::player::{Contestant, Halt};
 use crate::run::episode::{PlayResult, Task};
 use crate::run::series::{Series, play_series, series_of};
@@ -258,7 +258,7 @@ impl Evaluation {
             if !matches!(log.last(), Some(Event::End { .. })) {
                 return Ok(());
             }
-            self.checked(task, &log, || replay(task.subject, &log)).map(drop)
+            self.checked(task, &log, || replay_course(task.subject, &log)).map(drop)
         })
     }
 

@@ -28,7 +28,7 @@ pub struct PersonPlays {
 
 /// Reads results folders, whose persons are told apart as in reports. Aborted episodes do not count, nor do those with another track,
 /// commitment or limit of steps than a scale of `max_steps`: the difficulty of its levels is not that for them. Cost: that of
-/// [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon pool.
+/// [`replay_course`](crate::metrics::replay_course) for each episode, on the threads of the current rayon pool.
 ///
 /// # Errors
 /// A folder or log cannot be read, a replay differs from its log, or two folders hold different episodes of one person, level, run

@@ -42,7 +42,8 @@ impl Study {
             let tasks = evaluation.tasks();
             evaluation.check_logs(&tasks)?;
             // Nothing is kept of episodes that were not started.
-            let measured = tasks.par_iter().filter_map(|task| measured(&evaluation, task).transpose());
+            let measure = |task| measured(&evaluation, task, EpisodeMetrics::of).transpose();
+            let measured = tasks.par_iter().filter_map(measure);
             let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
             measured.iter_mut().for_each(|episode| episode.folder = Some(place));
             let open = tasks.len() - measured.len();
@@ -270,7 +271,8 @@ impl Names {
 /// share an id.
 pub(crate) type Persons = (Vec<(Player, Vec<EpisodeMetrics>)>, Vec<Settings>);
 
-/// Reads the persons of results folders, told apart as in a study. Episodes for practice are left out.
+/// Reads the persons of results folders, told apart as in a study. Episodes for practice are left out; the metrics of the others are
+/// those of [`EpisodeMetrics::of_course`].
 ///
 /// # Errors
 /// A folder or log cannot be read, or a replay differs from its log.
@@ -280,7 +282,8 @@ pub(crate) fn persons(folders: &[PathBuf]) -> Result<Persons, EvaluationError> {
         let evaluation = Evaluation::open(folder)?;
         let tasks = evaluation.tasks();
         evaluation.check_logs(&tasks)?;
-        let measured = tasks.par_iter().filter_map(|task| measured(&evaluation, task).transpose());
+        let measure = |task| measured(&evaluation, task, EpisodeMetrics::of_course).transpose();
+        let measured = tasks.par_iter().filter_map(measure);
         let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
         measured.retain(|episode| !episode.is_practice());
         measured.iter_mut().for_each(|episode| episode.folder = Some(place));
@@ -298,10 +301,14 @@ pub(crate) fn persons(folders: &[PathBuf]) -> Result<Persons, EvaluationError> {
 }
 
 /// Returns the metrics of an episode, or `None` if it was not started.
-fn measured(evaluation: &Evaluation, task: &Task<'_>) -> Result<Option<EpisodeMetrics>, EvaluationError> {
+fn measured(
+    evaluation: &Evaluation,
+    task: &Task<'_>,
+    measure: fn(&Subject, &[Event]) -> Result<EpisodeMetrics, EvaluationError>,
+) -> Result<Option<EpisodeMetrics>, EvaluationError> {
     let log = evaluation.events(task)?;
     if log.is_empty() {
         return Ok(None);
     }
-    evaluation.checked(task, &log, || EpisodeMetrics::of(task.subject, &log)).map(Some)
+    evaluation.checked(task, &log, || measure(task.subject, &log)).map(Some)
 }

@@ -3,7 +3,7 @@
 use crate::walk::game;
 use engine::{Action, Seed};
 use evaluation::log::decisions;
-use evaluation::metrics::replay;
+use evaluation::metrics::{Replayed, replay, replay_course};
 use evaluation::player::Choice;
 use evaluation::prompt::{PromptSettings, PromptStyle, Prompter, Rules};
 use evaluation::run::{Task, play};
@@ -106,6 +106,10 @@ fn check(commit: &str, max_steps: u64, plans: &str, actions: &str, looks: &[(u64
     assert_eq!(*agent.looks.lock().unwrap(), looks);
     let replayed = replay(&subject, journal.events()).expect("the log is sound");
     assert_eq!(format!("{:?}", replayed.outcome), end);
+    let course = replay_course(&subject, journal.events()).expect("the log is sound");
+    assert!(course.meaningful.is_empty() && course.meaningful_as_code.is_empty());
+    let (meaningful, meaningful_as_code) = (replayed.meaningful.clone(), replayed.meaningful_as_code.clone());
+    assert_eq!(Replayed { meaningful, meaningful_as_code, ..course }, replayed);
 }
 
 #[test]

@@ -182,37 +182,42 @@ fn interrupted_episodes_are_resumed() {
     let lines: Vec<&str> = lines.split_inclusive('\n').collect();
     let events = |home: &Path| read(&log(home)).unwrap().iter().map(without_times).collect::<Vec<_>>();
     let replies = lines.iter().enumerate().filter(|(_, line)| line.contains("\"event\":\"reply\""));
-    for (answered, (at, _)) in replies.enumerate() {
-        // The answer is logged (and its file still there), or was written and not read, or was not written.
-        for (kept, is_written) in [(at + 1, true), (at, true), (at, false)] {
-            let home = tempfile::tempdir().unwrap();
-            let home = home.path();
-            for name in ["results/games/corridor", "results/episodes", "box/corridor-lvl1-run0"] {
-                fs::create_dir_all(home.join(name)).unwrap();
-            }
-            for name in ["evaluation.json", "games/corridor/game.vgdl", "games/corridor/lvl1.txt"] {
-                let name = format!("results/{name}");
-                fs::copy(whole.path().join(&name), home.join(&name)).unwrap();
-            }
-            fs::copy(whole.path().join("box/mailbox.json"), home.join("box/mailbox.json")).unwrap();
-            fs::write(log(home), lines[..kept].concat()).unwrap();
-            let (step, attempt) = turns[answered];
-            if is_written {
-                let name = format!("box/corridor-lvl1-run0/{step:04}-{attempt}.answer.txt");
-                fs::write(home.join(name), format!("{}\n", words[answered])).unwrap();
-            }
-            let asked = answered + usize::from(is_written);
-            thread::scope(|scope| {
-                let playing = scope.spawn(|| play(home, true));
-                for (&(step, attempt), words) in turns.iter().zip(words).skip(asked) {
-                    answer(home, &prompt(home, step, attempt), words);
-                }
-                let (tally, told) = playing.join().unwrap();
-                assert_eq!((tally.ended, told), (1, Vec::new()));
-            });
-            assert_eq!(events(home), events(whole.path()));
+    let check = |answered: usize, kept: usize, is_written: bool| {
+        let home = tempfile::tempdir().unwrap();
+        let home = home.path();
+        for name in ["results/games/corridor", "results/episodes", "box/corridor-lvl1-run0"] {
+            fs::create_dir_all(home.join(name)).unwrap();
         }
-    }
+        for name in ["evaluation.json", "games/corridor/game.vgdl", "games/corridor/lvl1.txt"] {
+            let name = format!("results/{name}");
+            fs::copy(whole.path().join(&name), home.join(&name)).unwrap();
+        }
+        fs::copy(whole.path().join("box/mailbox.json"), home.join("box/mailbox.json")).unwrap();
+        fs::write(log(home), lines[..kept].concat()).unwrap();
+        let (step, attempt) = turns[answered];
+        if is_written {
+            let name = format!("box/corridor-lvl1-run0/{step:04}-{attempt}.answer.txt");
+            fs::write(home.join(name), format!("{}\n", words[answered])).unwrap();
+        }
+        let asked = answered + usize::from(is_written);
+        thread::scope(|scope| {
+            let playing = scope.spawn(|| play(home, true));
+            for (&(step, attempt), words) in turns.iter().zip(words).skip(asked) {
+                answer(home, &prompt(home, step, attempt), words);
+            }
+            let (tally, told) = playing.join().unwrap();
+            assert_eq!((tally.ended, told), (1, Vec::new()));
+        });
+        assert_eq!(events(home), events(whole.path()));
+    };
+    thread::scope(|scope| {
+        for (answered, (at, _)) in replies.enumerate() {
+            // The answer is logged (and its file still there), or was written and not read, or was not written.
+            for (kept, is_written) in [(at + 1, true), (at, true), (at, false)] {
+                scope.spawn(move || check(answered, kept, is_written));
+            }
+        }
+    });
 }
 
 /// A mailbox that cannot be written breaks the episode off, and --resume plays it to its end.

@@ -109,16 +109,22 @@ fn persistent_failures_are_infrastructure_failures_and_free() {
 #[test]
 fn hanging_servers_time_out() {
     let server = Server::scripted(vec![Response::Hang, Response::completion("up"), Response::Hang]);
-    let (connection, _) = connect(&server, |options| {
-        options.timeout = Duration::from_secs(2);
-        options.tries = NonZeroU32::new(2).unwrap();
-    });
+    let connect = |seconds| {
+        let (connection, _) = connect(&server, |options| {
+            options.timeout = Duration::from_secs(seconds);
+            options.tries = NonZeroU32::new(2).unwrap();
+        });
+        connection
+    };
+    let connection = connect(2);
     let reply = connection.model.chat(&request("Now?")).unwrap();
     assert_eq!((reply.text.as_str(), reply.failures[0].status), ("up", None));
     assert!(reply.failures[0].message.contains("within 2s"), "{}", reply.failures[0].message);
+    assert_eq!(connection.caps.spent().requests, 1);
+    let connection = connect(1);
     let error = connection.model.chat(&request("And now?")).unwrap_err();
     assert_eq!((error.kind, error.failures.len()), (ChatErrorKind::Infrastructure, 2));
-    assert_eq!(connection.caps.spent().requests, 1);
+    assert_eq!(connection.caps.spent().requests, 0);
 }
 
 #[test]

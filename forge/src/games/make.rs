@@ -312,15 +312,16 @@ mod tests {
     #[track_caller]
     fn check(method: Method) {
         let order = GameOrder { method, kinds: vec![Kind::KeyAndDoor], ..order() };
-        let order = GameOrder { effort: GameEffort { attempts: 8, looks: 12, ..order.effort }, ..order };
+        let order = GameOrder { effort: GameEffort { attempts: 4, looks: 6, ..order.effort }, ..order };
         let made_by = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let set = pool.install(|| make_games(&order, &[], "", Seed::from_text("threads"), &())).unwrap();
+            let set =
+                pool.install(|| make_games(&order, &[], "", Seed::from_text("two threads"), &())).unwrap();
             let game = |made: &MadeGame| (made.text.clone(), made.witnesses.clone(), made.path.clone());
             (set.games.iter().map(game).collect::<Vec<_>>(), set.looks, set.tally)
         };
         let one = made_by(1);
-        assert!(one.0.len() == 1 && one.1 >= 12, "{} games of {} looks", one.0.len(), one.1);
+        assert!(one.0.len() == 1 && one.1 >= 6, "{} games of {} looks", one.0.len(), one.1);
         assert_eq!(one, made_by(3));
     }
 

@@ -383,8 +383,7 @@ mod tests {
 
     #[test]
     fn places_have_sets_of_their_own() {
-        let kinds = [Kind::Lure, Kind::Demolition, Kind::Resource, Kind::Survival, Kind::KeyAndDoor];
-        let sets = RuleSets::draw(&kinds, true, &[], Seed::from_text("sets"));
+        let sets = RuleSets::draw(Kind::ALL, false, &[], Seed::from_text("sets"));
         let all = sets.of_method(Method::Constructive);
         let at = |place: usize, turn| {
             let set = sets.of_place(Method::Constructive, place as u32, turn)?;

@@ -35,7 +35,7 @@ BasicGame
         SpriteCounter stype=diver win=False
 ";
 /// The number of runs, each from a seed of its own.
-const RUNS: u64 = 2;
+const RUNS: u64 = 1;
 /// The number of batches in a run.
 const BATCHES: usize = 75;
 /// The number of levels in a batch.

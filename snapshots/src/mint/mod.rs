@@ -320,7 +320,7 @@ mod tests {
                 assert_eq!(path.iter().fold(root, step), witness.seed, "{path:?}");
             }
         };
-        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 2\nleast_interactions = 3\n\
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\nkinds = ['key-and-door']\nleast_interactions = 3\n\
             least_mechanics = 1\ncandidates = 1.0\n[corpus]\ngames = 1\nlevels = 2\n[criteria]\n\
             ask = ['not-idle', 'not-random', 'winnable']\nbudget = 100000\ndecision = 50\nmcts_plays = 1\n";
         let recipe = Recipe::from_toml(text).unwrap();
@@ -359,7 +359,7 @@ mod tests {
                 least_interactions: 3,
                 least_mechanics: 1,
                 criteria: recipe.criteria.clone(),
-                effort: GameEffort { looks: 12, ..order.effort },
+                effort: GameEffort { looks: 6, ..order.effort },
                 ..order
             };
             let made = make_games(&order, &[], "", plan.seed, &()).unwrap().games;
