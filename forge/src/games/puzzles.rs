@@ -287,7 +287,8 @@ mod tests {
         }
     }
 
-    /// Under another theme a level of locks or of a yard is the same, and the actions that win it win it still.
+    /// Under another theme a level of locks or of a yard is the same, and the actions that win it win it still. Every second set of rules
+    /// outside of `cargo xtask sweep`.
     #[test]
     fn puzzles_are_won_under_every_theme() {
         let seed = Seed::from_text("puzzles");
@@ -303,7 +304,8 @@ mod tests {
             let retold = Rethemed::of_compounds(&rules.game(), seed).unwrap();
             (rules.name(), PuzzleRules::strays(rules, &retold), retold)
         });
-        for (name, rules, retold) in locks.into_iter().chain(yards).chain(strays) {
+        let step = if std::env::var_os("ARCADE_SWEEP").is_some() { 1 } else { 2 };
+        for (name, rules, retold) in locks.into_iter().chain(yards).chain(strays).step_by(step) {
             let game = Game::from_source(&engine::syntax::print(&retold.description)).unwrap();
             let config = LevelConfig { columns: (9, 9), rows: (9, 9), ..LevelConfig::default() };
             let puzzles = PuzzleLevels { config, tiers: vec![Tier::Two], rules, things: 3 };
