@@ -38,8 +38,6 @@ const SECOND_JUDGES: &str = "second judges";
 const FURTHER_JUDGES: &str = "further judges";
 /// The reason for turning down a game of which a type of another kernel is no part that matters.
 const IDLE_GRAFT: &str = "idle graft";
-/// The number of further judges, each with dice of its own, who put a game through the gates.
-const FURTHER: u64 = 3;
 /// The reason for turning down a game that is too much like another.
 pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
@@ -159,7 +157,7 @@ impl<'a> GameGate<'a> {
             return None;
         }
         let mut spent = Tally::default();
-        let dice = (seed.child("further judges", 0), FURTHER);
+        let dice = (seed.child("further judges", 0), self.order.effort.judges);
         let holds = levels.hold_again(game, &found, dice, &mut spent);
         tally.judge(FURTHER_JUDGES, holds, spent.calls);
         if !holds {

@@ -59,6 +59,8 @@ pub struct GameEffort {
     pub looks: u32,
     /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
     pub batch: usize,
+    /// Further judges, each with dice of its own, who put a game through the gates before it is accepted.
+    pub judges: u64,
 }
 
 impl GameOrder {
@@ -78,7 +80,7 @@ impl GameOrder {
             least_interactions: 7,
             least_mechanics: 3,
             criteria: GameOrder::criteria_by_default(),
-            effort: GameEffort { attempts, patience, looks: 24, batch: 4 },
+            effort: GameEffort { attempts, patience, looks: 24, batch: 4, judges: 10 },
         }
     }
 
