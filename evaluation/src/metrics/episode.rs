@@ -100,8 +100,8 @@ impl EpisodeMetrics {
         Ok(EpisodeMetrics::measured(subject, log, replay(subject, log)?))
     }
 
-    /// Computes the metrics that do not depend on which steps were meaningful, at less than half the cost of [`EpisodeMetrics::of`]:
-    /// `meaningful`, `meaningful_as_code` and the rates of `movement` are `None`.
+    /// Computes the metrics that do not depend on which steps were meaningful, at the cost of [`replay_course`]: `meaningful`,
+    /// `meaningful_as_code` and the rates of `movement` are `None`.
     ///
     /// # Errors
     /// The same as those of [`replay`].
