@@ -67,7 +67,7 @@ const ISLAND: u32 = 4;
 
 /// The further judges of a game ([`GameEffort::judges`]): fewer than `arcade generate games` has. The candidates of a month are few more
 /// than its games.
-const FURTHER_JUDGES: u64 = 3;
+const JUDGES: u64 = 3;
 
 /// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
 /// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
@@ -382,7 +382,7 @@ impl<'a> Plan<'a> {
             least_interactions: part.least_interactions,
             least_mechanics: part.least_mechanics,
             criteria: criteria.clone(),
-            effort: GameEffort { attempts: attempts.max(1), judges: FURTHER_JUDGES, ..order.effort },
+            effort: GameEffort { attempts: attempts.max(1), judges: JUDGES, ..order.effort },
             ..order
         }
     }

@@ -7,7 +7,7 @@ use render::{Looks, RenderError, Style, Symbols};
 use std::collections::BTreeSet;
 use std::fs;
 use tests::hostile::Case;
-use tests::sweep::cases;
+use tests::sweep::VARIABLE;
 use tests::workspace_root;
 
 /// Draws the first tick, in a sweep also the start; a picture with too many pixels may be refused.
@@ -17,7 +17,7 @@ fn draw(name: &str, game: &Game, level: &Level) {
     let symbols = Symbols::of(&analysis, &looks);
     let mut state = game.start(level, Seed::from_text("drawn"));
     for (tick, action) in [Action::Use, Action::Down].into_iter().enumerate() {
-        if tick == 0 && cases(10) == 1 {
+        if tick == 0 && std::env::var_os(VARIABLE).is_none() {
             game.step(&mut state, action);
             continue;
         }

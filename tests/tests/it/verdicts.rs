@@ -8,6 +8,7 @@ use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::slice::from_ref;
+use tests::sweep::VARIABLE;
 use validators::{Criteria, Finding, Judgement, LEVEL_CRITERIA, Panel, Report, Verdict};
 
 /// `expect.toml`.
@@ -171,7 +172,7 @@ fn levels_of_the_corpus_meet_the_criteria_of_levels() {
         ..Criteria::default()
     })
     .unwrap();
-    let step = if std::env::var_os(tests::sweep::VARIABLE).is_some() { 1 } else { 2 };
+    let step = if std::env::var_os(VARIABLE).is_some() { 1 } else { 2 };
     for (name, number) in CORPUS.iter().step_by(step) {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
         let game = Game::from_source(&fs::read_to_string(folder.join("game.vgdl")).unwrap()).unwrap();

@@ -101,8 +101,7 @@ fn folders() {
         let named = names.iter().any(|name| said.contains(name.as_str()));
         assert!(named, "mutation {number}, {kind} of {names:?}, was not named: {said}");
     }
-    let each = mutations / KINDS.len() as u64;
-    assert!(counts.values().all(|count| u64::from(*count) >= each), "{counts:?}");
+    assert!(counts.values().all(|count| *count >= 10), "{counts:?}");
     assert!(release.manifest.items.len() == 6);
 }
 
