@@ -21,6 +21,8 @@ mod episode;
 mod flat;
 mod game;
 mod geometry;
+#[doc(hidden)]
+pub mod inspect;
 mod keywords;
 mod level;
 pub mod limits;

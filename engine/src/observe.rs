@@ -346,37 +346,3 @@ impl State {
         self.world.avatar_id()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Event;
-    use crate::{Action, Game, Seed};
-
-    const GAME: &str = "BasicGame\n    SpriteSet\n        den > SpawnPoint stype=log cooldown=4 total=2\n        \
-        log > Immovable\n        ember > Flicker limit=5\n        hen > MovingAvatar\n    LevelMapping\n        d > den\n        \
-        e > ember\n        A > hen\n    InteractionSet\n        hen log > stepBack\n    TerminationSet\n        \
-        Timeout limit=90\n";
-
-    #[test]
-    fn countdowns_foretell_what_happens() {
-        let game = Game::from_source(GAME).unwrap();
-        let mut state = game.start(&game.level("A d e").unwrap(), Seed::from_text("countdown"));
-        let count = |state: &crate::State, name: &str| state.alive(game.sprite_type(name).unwrap());
-        let (mut made, mut ended) = (0, 0);
-        for _ in 0..20 {
-            let (logs, embers) = (count(&state, "log"), count(&state, "ember"));
-            let foretold = game.countdowns(&state);
-            let now = |event| {
-                foretold.iter().filter(|known| known.event == event && known.ticks == Some(1)).count()
-            };
-            game.step(&mut state, Action::Nil);
-            assert_eq!(count(&state, "log") - logs, now(Event::Makes), "{foretold:?}");
-            assert_eq!(embers - count(&state, "ember"), now(Event::Ends), "{foretold:?}");
-            made += now(Event::Makes);
-            ended += now(Event::Ends);
-            let left = game.countdowns(&state).iter().find_map(|known| known.left);
-            assert_eq!(left.unwrap_or(0), 2 - made as i32);
-        }
-        assert_eq!((made, ended), (2, 1));
-    }
-}

@@ -347,6 +347,3 @@ fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool])
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

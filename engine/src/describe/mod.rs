@@ -108,6 +108,3 @@ impl fmt::Display for Guide {
 pub fn describe(game: &Game) -> String {
     Guide::of(game).to_string()
 }
-
-#[cfg(test)]
-mod tests;

@@ -127,4 +127,9 @@ impl Schedule {
     pub(crate) fn skipped_of(&self, stype: SpriteType) -> u16 {
         self.skipped.get(stype.index()).copied().unwrap_or(0)
     }
+
+    /// The slots of the sprites in flight.
+    pub(crate) fn flying(&self) -> impl Iterator<Item = Slot> {
+        self.flights.iter().map(|flight| flight.slot)
+    }
 }

@@ -293,27 +293,44 @@ fn class_of(motion: FlightMotion, hash_classes: &mut Vec<HashClass>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Game;
+    use crate::geometry::Direction;
+    use crate::rules::SpriteType;
+    use crate::world::NONE;
     use std::collections::BTreeSet;
-    use std::sync::LazyLock;
-
-    static GAME: LazyLock<Game> = LazyLock::new(|| {
-        let source = "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n  LevelMapping\n  InteractionSet\n  \
-                      TerminationSet\n    Timeout limit=9 win=False\n";
-        Game::from_source(source).unwrap()
-    });
 
     /// The hash contribution of a sprite with that id, which is at (x, y) and moves by (dx, dy) every three ticks, most
     /// recently in tick 5.
     fn contribution(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Contribution {
-        let model = &GAME.0.models.of_type[0];
-        let mut sprite = model.prototype;
-        (sprite.id, sprite.moved_at, sprite.flags) = (id, 5, 0);
-        (sprite.rect, sprite.last_corner) = (Rect { x, y, w: 10, h: 10 }, (x - dx, y - dy));
-        if (dx, dy) != (0, 0) {
-            sprite.period = 3;
-        }
-        Contribution::fresh(&sprite, 0, &SideTables { overrides: &[model.overrides], resized: &[] })
+        let sprite = Sprite {
+            rect: Rect { x, y, w: 10, h: 10 },
+            last_corner: (x - dx, y - dy),
+            id,
+            moved_at: 5,
+            time_to_live: 0,
+            count: 0,
+            flags: 0,
+            stype: SpriteType(0),
+            overrides: 0,
+            activity: 0,
+            period: if (dx, dy) == (0, 0) { 0 } else { 3 },
+            next: NONE,
+            previous: NONE,
+            cell_next: NONE,
+            cell_previous: NONE,
+            column: 0,
+            row: 0,
+        };
+        let overrides = Overrides {
+            orientation: Direction::NONE,
+            speed: 1.0,
+            health: 0,
+            max_health: 0,
+            start: 0,
+            spawns: SpriteType(0),
+            extra: NONE,
+            holder: NONE,
+        };
+        Contribution::fresh(&sprite, 0, &SideTables { overrides: &[overrides], resized: &[] })
     }
 
     fn of(contributions: &[Contribution]) -> (Sum, Vec<HashClass>) {

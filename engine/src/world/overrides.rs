@@ -83,6 +83,11 @@ impl World {
         &self.overrides[usize::from(sprite.overrides)]
     }
 
+    /// The number of overrides: one for each type, and those that sprites own.
+    pub(crate) fn overrides_count(&self) -> usize {
+        self.overrides.len()
+    }
+
     #[inline(always)]
     pub(crate) fn overrides(&self, slot: Slot) -> &Overrides {
         self.overrides_of(self.sprite(slot))
@@ -176,32 +181,5 @@ impl World {
         let sprite = self.sprite(slot);
         let own = self.extra_of(sprite).map(|extra| extra.gravity);
         own.unwrap_or(rules.types[sprite.stype.index()].traits.gravity)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::{Action, Game, Seed};
-
-    const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    arrow > Missile orientation=LEFT speed=1\n    wall > Immovable\n    \
-                        grave > Immovable\n    car > CarAvatar\n  LevelMapping\n    a > arrow\n    w > wall\n    g > grave\n    A > car\n  \
-                        InteractionSet\n    arrow wall > reverseDirection\n    arrow wall > stepBack\n    arrow grave > killSprite\n    \
-                        car EOS > stepBack\n  TerminationSet\n    Timeout limit=50 win=True\n";
-
-    #[test]
-    fn sprites_own_overrides_from_the_first_change_until_release() {
-        let game = Game::from_source(GAME).unwrap();
-        let mut state = game.start(&game.level("wa g\nga w\nA   \n").unwrap(), Seed::from_text("arrows"));
-        let types = game.sprite_types().count();
-        let mut overrides = Vec::new();
-        for _ in 0..5 {
-            overrides.push(state.world.overrides.len() - types);
-            game.step(&mut state, Action::Nil);
-            state.recount(&game).unwrap();
-            assert_eq!(state.state_hash(), state.state_hash_from_scratch());
-        }
-        // First the car's, then that of the arrow that turns back at the wall, until it is killed. The other arrow is
-        // killed at once.
-        assert_eq!(overrides, [0, 1, 2, 2, 1]);
     }
 }

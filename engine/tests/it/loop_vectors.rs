@@ -78,7 +78,7 @@ fn counters_take_lists() {
         counters("no_counters=1", "a avatar > halfSpeed counter=1,1 counterElse=5,5 countElse=False"),
         [2]
     );
-    assert_eq!(counters("", rules), []);
+    assert_eq!(counters("", rules), [] as [i32; 0]);
     assert_eq!(setup(sprites, rules).header("no_counters=2").problems(&PAIR), ["wrong-type"]);
     // A text that is not a number costs a message at every execution, for each counter that it applies to.
     let board = |rule: &str| setup(sprites, rule).header("no_counters=2").place(&PAIR).play("..").messages();

@@ -97,6 +97,11 @@ pub enum Cause {
 }
 
 impl Reach {
+    /// The columns and rows of the board; cells are numbered by rows.
+    pub fn size(&self) -> (usize, usize) {
+        (self.board.columns as usize, self.board.rows as usize)
+    }
+
     /// The cells in which a sprite of the type can be between two ticks, in order.
     pub fn cells(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.rest[stype.index()])
@@ -277,6 +282,3 @@ impl Analysis {
         Reach { board, rest, touch, avatars, impossible_goals, can_win, can_lose, coarse }
     }
 }
-
-#[cfg(test)]
-mod tests;

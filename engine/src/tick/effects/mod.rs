@@ -5,8 +5,6 @@ mod kill;
 mod motion;
 mod resource;
 mod spawn;
-#[cfg(test)]
-mod tests;
 mod transform;
 mod walls;
 

@@ -1,4 +1,7 @@
-use super::*;
+//! Guides to games.
+
+use engine::describe::{self, Guide};
+use engine::{Analysis, Game};
 
 /// A game in which most kinds of sentences occur.
 const ORCHARD: &str = "
@@ -104,7 +107,7 @@ What the level's characters stand for:
   w  wall
 ";
     let game = Game::from_source(ORCHARD).unwrap();
-    assert_eq!(describe(&game), expected);
+    assert_eq!(describe::describe(&game), expected);
     assert_eq!(
         Guide::of(&game).kind,
         [
@@ -213,7 +216,7 @@ fn levels_with_goals_out_of_reach() {
         let game = Game::from_source(ORCHARD).unwrap_or_else(|problems| panic!("{problems}"));
         let level = game.level(text).unwrap_or_else(|problems| panic!("{problems}"));
         let analysis = Analysis::of(&game);
-        assert_eq!(super::level(&analysis, &level, &analysis.reach(&level)), expected, "{text}");
+        assert_eq!(describe::level(&analysis, &level, &analysis.reach(&level)), expected, "{text}");
     };
     let lost = "You lose when you are gone, but here nothing can ever end the picker in column 2, row 2.";
     check("wwwwwww\nwApppgw\nwwwwwww\n", &["You can get to 5 of its 21 cells, at most.", lost]);

@@ -1,10 +1,14 @@
+//! Analyses of small games, of six public ones, and of every game at hand.
+
 mod goals;
 mod hostile;
 mod outlook;
+mod reach;
+mod scenery;
 mod taxonomy;
 
-use super::*;
-use crate::state::State;
+use engine::analysis::*;
+use engine::{Analysis, Direction, Game, SpriteType, State};
 use std::path::{Path, PathBuf};
 
 pub(super) fn game(sprites: &str, mapping: &str, interactions: &str, terminations: &str) -> Game {
@@ -92,10 +96,10 @@ fn goals_have_a_sign() {
     assert_eq!((aims.avatar_must_live, aims.deadline, aims.survive), (true, Some(300), None));
     assert!(aims.protect.is_empty() && aims.create.is_empty() && aims.prevent.is_empty());
     let level = analysis.game().level("A.x\n").unwrap();
-    let state = analysis.game().start(&level, crate::Seed::from_text("goals"));
+    let state = analysis.game().start(&level, engine::Seed::from_text("goals"));
     assert_eq!(analysis.goal_met(&state), None);
     let level = analysis.game().level("A..\n").unwrap();
-    let state = analysis.game().start(&level, crate::Seed::from_text("goals"));
+    let state = analysis.game().start(&level, engine::Seed::from_text("goals"));
     assert_eq!(analysis.goal_met(&state).map(|goal| (goal.win, goal.line)), Some((true, 1)));
 }
 
@@ -222,7 +226,9 @@ fn harm_has_many_ways() {
 fn the_same_game_gives_the_same_analysis() {
     let (one, two) = (vault(), vault());
     let text = |analysis: &Analysis| {
-        format!("{:?} {:?} {:?} {:?}", analysis.roles, analysis.locks, analysis.requirements, analysis.facts)
+        let types = analysis.game().sprite_types();
+        let by_type: Vec<_> = types.map(|stype| (analysis.role(stype), analysis.facts(stype))).collect();
+        format!("{by_type:?} {:?} {:?}", analysis.locks(), analysis.requirements())
     };
     assert_eq!(text(&one), text(&two));
 }
@@ -283,6 +289,6 @@ fn every_game_at_hand() {
         for stype in game.sprite_types().filter(|&stype| analysis.facts(stype).possible) {
             assert!(analysis.facts(stype).concrete, "{} {}", folder.display(), game.name(stype));
         }
-        assert!(!crate::describe(&game).is_empty());
+        assert!(!engine::describe(&game).is_empty());
     }
 }

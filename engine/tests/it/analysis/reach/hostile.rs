@@ -1,7 +1,7 @@
 //! Rules and levels at the limits: their reach is computed fast, with a coarse answer if necessary.
 
 use super::*;
-use crate::limits::{MAX_CELLS, MAX_SIDE};
+use engine::limits::{MAX_CELLS, MAX_SIDE};
 use std::fmt::Write;
 
 /// The largest level, filled with one character except at the start.

@@ -114,7 +114,7 @@ fn time_is_real_if_anything_happens_by_itself() {
 #[test]
 fn names_do_not_count() {
     let analysis = vault();
-    let mut text = crate::syntax::print(analysis.game().description());
+    let mut text = engine::syntax::print(analysis.game().description());
     for (number, name) in
         ["thief", "plain", "ghost", "coin", "cloak", "gate", "crown", "spike", "guard", "post", "fence"]
             .iter()

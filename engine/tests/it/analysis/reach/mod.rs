@@ -1,22 +1,24 @@
+//! Cells in reach: pictures of boards.
+
 mod chains;
 mod goals;
 mod hostile;
 
-use super::*;
-use crate::analysis::tests::{game, named};
+use super::{game, named, vault};
+use engine::analysis::*;
+use engine::{Analysis, SpriteType};
 
 /// Returns the cells in which a type can be: `#` between two ticks, `+` only within one.
 fn picture(analysis: &Analysis, reach: &Reach, name: &str) -> String {
     let stype = named(analysis, name);
-    let cells = (reach.board.columns * reach.board.rows) as usize;
+    let (columns, rows) = reach.size();
     let mark = |cell: usize| match (reach.can_be(stype, cell), reach.can_touch(stype, cell)) {
         (true, _) => '#',
         (false, true) => '+',
         (false, false) => '.',
     };
-    let marks: Vec<char> = (0..cells).map(mark).collect();
-    let rows: Vec<String> =
-        marks.chunks(reach.board.columns as usize).map(|row| row.iter().collect()).collect();
+    let marks: Vec<char> = (0..columns * rows).map(mark).collect();
+    let rows: Vec<String> = marks.chunks(columns).map(|row| row.iter().collect()).collect();
     rows.join("\n")
 }
 
@@ -215,7 +217,7 @@ fn portals_and_disguises() {
     check(sprites, rules, "h p w  x w  ", &[("hero", "####+####+..")]);
     check(sprites, rules, "h p w    w  ", &[("hero", "####+.......")]);
     // As a ghost, the avatar passes the fence.
-    let analysis = crate::analysis::tests::vault();
+    let analysis = vault();
     let reach = reach(&analysis, "wwwwwwww\nwA.kf.xw\nwwwwwwww");
     assert_eq!(picture(&analysis, &reach, "plain"), ".+++....\n+###+...\n.+++....");
     assert_eq!(picture(&analysis, &reach, "ghost"), ".++++++.\n+######+\n.++++++.");

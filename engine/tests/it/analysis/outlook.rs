@@ -4,7 +4,7 @@ use super::*;
 
 fn state(analysis: &Analysis, level: &str) -> State {
     let game = analysis.game();
-    game.start(&game.level(level).unwrap(), crate::Seed::from_text("outlook"))
+    game.start(&game.level(level).unwrap(), engine::Seed::from_text("outlook"))
 }
 
 /// A fair: a bird flies at random and hatches from an egg that only a nest lays, and an invisible trap kills.
@@ -44,7 +44,7 @@ fn chance_from_here() {
     let game = analysis.game();
     let mut after = state(&analysis, "A  t\n");
     assert!(analysis.is_deterministic_from(&after));
-    game.step(&mut after, crate::Action::Right);
+    game.step(&mut after, engine::Action::Right);
     assert!(analysis.is_deterministic_from(&after));
 }
 

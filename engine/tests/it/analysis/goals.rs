@@ -71,12 +71,12 @@ fn distances_from_goals() {
                 Timeout limit=30 win=False";
     let analysis = Analysis::of(&game(SPRITES, MAPPING, RULES, ends));
     let game = analysis.game();
-    let mut state = game.start(&game.level("Agig\n").unwrap(), crate::Seed::from_text("missing"));
+    let mut state = game.start(&game.level("Agig\n").unwrap(), engine::Seed::from_text("missing"));
     let missing = |state: &State| -> Vec<u32> {
         analysis.goals().iter().map(|goal| analysis.missing(goal, state)).collect()
     };
     assert_eq!(missing(&state), [2, 4, 31]);
-    game.step(&mut state, crate::Action::Right);
-    game.step(&mut state, crate::Action::Right);
+    game.step(&mut state, engine::Action::Right);
+    game.step(&mut state, engine::Action::Right);
     assert_eq!(missing(&state), [0, 3, 29]);
 }

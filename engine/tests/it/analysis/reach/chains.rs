@@ -1,7 +1,7 @@
 //! Chains of causes: the missing requirements of rules, and their places.
 
 use super::*;
-use crate::analysis::{Missing, Shortage, Unreachable};
+use engine::analysis::{Missing, Shortage, Unreachable};
 
 const SPRITES: &str =
     "wall > Immovable\nlamp > Resource limit=5\ndoor > Immovable\ngem > Door\nhero > MovingAvatar";

@@ -1,9 +1,8 @@
 //! Each effect is executed and compared with its row: whatever it does to the two sprites and to others is in its summary.
 
-use crate::keywords::EFFECTS;
-use crate::observe::SpriteRecord;
-use crate::rules::effects::{EffectSummary, Moves, ParameterKind, Side, Summary, effect_parameters};
-use crate::{Action, Game, Seed};
+use engine::analysis::{EffectSummary, Side};
+use engine::inspect::{EffectRow, is_idle};
+use engine::{Action, EFFECTS, Game, ParameterKind, Seed, SpriteRecord, effect_parameters};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A game in which one effect is executed once, on a sprite of `one` beside one of `two`; `rule` is its line.
@@ -49,12 +48,12 @@ fn played(game: &Game, ticks: usize) -> Option<BTreeMap<u32, SpriteRecord>> {
 /// The differences between a tick with the rule and one without that the summary does not declare, and the number of all.
 /// `named` is the type that parameters of the rule name.
 fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<String>, usize) {
-    let summary: &Summary = &with.0.effects[0].summary;
+    let row = EffectRow::of_first(with).unwrap();
     let (Some(ours), Some(plain)) = (played(with, ticks), played(without, ticks)) else {
         return (Vec::new(), 0);
     };
     let [one, two] = ["one", "two"].map(|name| with.sprite_type(name).unwrap());
-    let has = |is: &dyn Fn(&EffectSummary) -> bool| summary.effects.iter().any(is);
+    let has = |is: &dyn Fn(&EffectSummary) -> bool| row.effects.iter().any(is);
     let replaces = |effect: &EffectSummary| {
         use EffectSummary as E;
         matches!(effect, E::Become(_) | E::BecomeAny(_) | E::BecomeAll(..))
@@ -70,41 +69,35 @@ fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<Strin
         }
     };
     for (id, record) in &plain {
-        let is_first = record.stype == one.0;
-        let is_second = record.stype == two.0;
+        let is_first = usize::from(record.stype) == one.index();
+        let is_second = usize::from(record.stype) == two.index();
         let Some(found) = ours.get(id) else {
             let removes = |effect: &EffectSummary| {
                 use EffectSummary as E;
                 match effect {
                     E::Kill(side) => *side == if is_first { Side::First } else { Side::Second },
-                    E::KillAll(stype) | E::BecomeAll(stype, _) => stype.0 == record.stype,
+                    E::KillAll(stype) | E::BecomeAll(stype, _) => stype.index() == usize::from(record.stype),
                     E::Collect => is_first,
                     E::Health { .. } => true,
                     effect => is_first && replaces(effect),
                 }
             };
             expect(has(&removes), "a sprite goes");
-            expect(is_first || is_second || summary.affects_distant_sprites, "a distant sprite goes");
+            expect(is_first || is_second || row.affects_distant_sprites, "a distant sprite goes");
             continue;
         };
         if found == record {
             continue;
         }
-        expect(is_first || is_second || summary.affects_distant_sprites, "a distant sprite changes");
+        expect(is_first || is_second || row.affects_distant_sprites, "a distant sprite changes");
         // The summary speaks of types that no parameter names. Only a sprite that does not move by itself is at its last place.
-        let is_still = summary.moves != Moves::Anything || with.0.types[two.index()].is_idle();
+        let is_still = !row.moves_anything || is_idle(with, two);
         if is_second && named != "two" && is_still {
-            expect(!summary.spares_still_second(), "the second sprite changes");
+            expect(!row.spares_still_second, "the second sprite changes");
         }
         // A sprite that turns, or changes its speed, moves otherwise by itself in the next tick.
-        let steers = summary.turn.is_some() || summary.speed.is_some();
-        if (found.rect.x, found.rect.y) != (record.rect.x, record.rect.y) && !steers {
-            let may_move = match summary.moves {
-                Moves::Nothing => false,
-                Moves::First => is_first,
-                Moves::Anything => true,
-            };
-            expect(may_move, "a sprite moves");
+        if (found.rect.x, found.rect.y) != (record.rect.x, record.rect.y) && !row.steers {
+            expect(row.moves_anything || row.moves_first && is_first, "a sprite moves");
         }
     }
     if ours.keys().any(|id| !plain.contains_key(id)) {

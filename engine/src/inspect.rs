@@ -1,0 +1,81 @@
+//! Inner figures of games and states: for the tests of this crate, which play whole games and so run against the library
+//! (`tests/it`), and for whoever looks into the engine. They follow its design, and no promise of compatibility.
+
+use crate::analysis::EffectSummary;
+use crate::geometry::Direction;
+use crate::rules::SpriteType;
+use crate::rules::effects::Moves;
+use crate::{Game, State};
+
+/// The row of an effect: the possible consequences of one execution.
+#[derive(Clone, Debug)]
+pub struct EffectRow {
+    /// The effects, in order.
+    pub effects: Vec<EffectSummary>,
+    /// `true` if the first sprite may move.
+    pub moves_first: bool,
+    /// `true` if any sprite may move.
+    pub moves_anything: bool,
+    /// `true` if the first sprite may face another way or get another speed.
+    pub steers: bool,
+    /// `true` if sprites that take no part in the meeting may change.
+    pub affects_distant_sprites: bool,
+    /// `true` if a second sprite stays as it is that nothing else moves, and whose type no parameter names.
+    pub spares_still_second: bool,
+}
+
+impl EffectRow {
+    /// Returns the row of the first effect of a game.
+    pub fn of_first(game: &Game) -> Option<EffectRow> {
+        let summary = &game.0.effects.first()?.summary;
+        Some(EffectRow {
+            effects: summary.effects.to_vec(),
+            moves_first: summary.moves != Moves::Nothing,
+            moves_anything: summary.moves == Moves::Anything,
+            steers: summary.turn.is_some() || summary.speed.is_some(),
+            affects_distant_sprites: summary.affects_distant_sprites,
+            spares_still_second: summary.spares_still_second(),
+        })
+    }
+}
+
+/// Returns `true` if the updates of the type's sprites do nothing.
+pub fn is_idle(game: &Game, stype: SpriteType) -> bool {
+    game.0.types[stype.index()].is_idle()
+}
+
+/// Returns `true` if the type's sprites are scenery: they take part in nothing.
+pub fn is_scenery(game: &Game, stype: SpriteType) -> bool {
+    game.0.scenery[stype.index()]
+}
+
+/// Returns `true` if the type's sprites are fixtures: others meet them, and nothing changes them.
+pub fn is_fixture(game: &Game, stype: SpriteType) -> bool {
+    game.0.fixtures[stype.index()]
+}
+
+/// Returns the number of sprites with a slot of their own, and that of fixtures.
+pub fn stored_sprites(state: &State) -> (usize, usize) {
+    (state.world.slot_count(), state.world.fixture_count())
+}
+
+/// Returns the number of sets of rarely changed values: one for each type, and those that sprites own.
+pub fn overrides(state: &State) -> usize {
+    state.world.overrides_count()
+}
+
+/// Returns the ticks between two moves of each sprite in flight.
+pub fn flight_periods(state: &State) -> impl Iterator<Item = u16> {
+    state.schedule.flying().map(|slot| state.world.sprite(slot).period)
+}
+
+/// Returns the widths in pixels of the type's sprites now, and before their last update.
+pub fn widths(state: &State, stype: SpriteType) -> Vec<(i32, i32)> {
+    let world = &state.world;
+    world.slots(stype).map(|slot| (world.sprite(slot).rect.w, world.last(slot).w)).collect()
+}
+
+/// Returns the first step of the path between two pixels in a game with `obs=`; `None` if there is none to make.
+pub fn first_step(state: &State, from: (i32, i32), to: (i32, i32)) -> Option<Direction> {
+    state.world.first_step(from, to).0
+}

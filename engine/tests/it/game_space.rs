@@ -1,0 +1,21 @@
+//! Game spaces: games with parameters.
+
+use engine::Game;
+use engine::syntax::{parse, print};
+
+const GAME: &str = "GameSpace\n  ParameterSet\n    SPEED > values=0.1:0.3:1.0 value=0.4\n    LIMIT > values=2:3:9 value=5\n    WIN > values=True:False value=TRUE\n  SpriteSet\n    gold > Resource limit=LIMIT\n    avatar > MovingAvatar speed=SPEED\n  LevelMapping\n    g > gold\n  InteractionSet\n    gold avatar > collectResource scoreChange=LIMIT,1\n    avatar wall > addTimer timer=LIMIT ftype=killAll stype=gold scoreChange=LIMIT\n  TerminationSet\n    SpriteCounter stype=gold win=WIN\n    Timeout limit=LIMIT win=False\n";
+
+#[test]
+fn a_game_space_plays_and_prints() {
+    let game = Game::from_source(GAME).unwrap_or_else(|problems| panic!("{problems}"));
+    let text = print(&parse(GAME).0);
+    assert!(text.contains("    ParameterSet\n        SPEED > values=0.1:0.3:1.0 value=0.4\n"), "{text}");
+    assert_eq!(Game::from_source(&text).unwrap().digest(), game.digest());
+    let again = print(game.description());
+    assert_eq!(Game::from_source(&again).unwrap().digest(), game.digest());
+}
+
+#[test]
+fn parameters_belong_to_game_spaces() {
+    assert!(Game::from_source(&GAME.replace("GameSpace", "BasicGame")).is_err());
+}

@@ -1,0 +1,105 @@
+//! Warnings about rules that cannot do what they seem to.
+
+mod swapped;
+mod terminations;
+
+use engine::Game;
+
+pub(super) const GAME: &str = "\
+BasicGame
+SpriteSet
+    grass > Immovable
+    nest > SpawnPoint stype=chick prob=0.5 total=9
+    chick > RandomNPC
+    stone > Immovable
+    fence > Immovable
+    egg > Resource limit=3
+    avatar > MovingAvatar
+LevelMapping
+    . > grass
+    n > nest
+    s > grass stone
+    f > grass fence
+    e > grass egg
+    A > grass avatar
+InteractionSet
+    egg avatar > collectResource
+    avatar stone fence nest > stepBack
+    chick stone fence > stepBack
+    chick avatar > killIfOtherHasMore resource=egg limit=2 scoreChange=1
+TerminationSet
+    SpriteCounter stype=nest win=False
+    Timeout limit=300 win=True
+";
+
+/// Checks the codes and lines of the warnings about the game with some text replaced.
+#[track_caller]
+pub(super) fn check(replace: &str, with: &str, expect: &[(&str, usize)]) {
+    assert!(GAME.contains(replace), "{replace}");
+    let source = GAME.replace(replace, with);
+    let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}"));
+    let line = |start| engine::line_and_column(&source, start).0;
+    let reported = game.warnings().iter().map(|warning| (warning.code, line(warning.span.start)));
+    assert_eq!(reported.collect::<Vec<_>>(), expect, "{:?}", game.warnings());
+}
+
+#[test]
+fn a_sound_game_has_no_warnings() {
+    check("", "", &[]);
+}
+
+#[test]
+fn rules_that_never_fire() {
+    let rule = "avatar stone fence nest > stepBack\n";
+    check(rule, &format!("{rule}        stone fence > killSprite\n"), &[("never-fires", 20)]);
+    // Two stones in one cell.
+    let both = &GAME.replace("s > grass stone", "s > grass stone stone");
+    assert!(
+        Game::from_source(&both.replace(rule, &format!("{rule}        stone stone > killSprite\n")))
+            .unwrap()
+            .warnings()
+            .is_empty()
+    );
+    // Pushed sprites move.
+    let pushed = format!("{rule}        stone avatar > bounceForward\n        stone fence > undoAll\n");
+    check(rule, &pushed, &[]);
+    check("egg avatar > collectResource", "egg avatar > killSprite", &[("never-fires", 21)]);
+}
+
+#[test]
+fn swapped_barriers_are_reported() {
+    let rule = "avatar stone fence nest > stepBack";
+    check(rule, "stone avatar fence nest > stepBack", &[("swapped-rule", 19)]);
+    check(rule, &format!("{rule}\n        stone avatar > stepBack"), &[]);
+    check(rule, "stone avatar > stepBack\n        avatar stone > killSprite", &[]);
+}
+
+#[test]
+fn sprites_under_scenery() {
+    let late = GAME
+        .replace("        grass > Immovable\n", "")
+        .replace("        avatar > Mov", "        grass > Immovable\n        avatar > Mov");
+    let game = Game::from_source(&late).unwrap();
+    let codes: Vec<&str> = game.warnings().iter().map(|warning| warning.code).collect();
+    assert_eq!(codes, ["hidden-sprite"; 3], "{:?}", game.warnings());
+}
+
+#[test]
+fn parameters_of_the_other_physics() {
+    check("chick > RandomNPC", "chick > RandomNPC gravity=1", &[("ignored-parameter", 5)]);
+    check("chick > RandomNPC", "chick > RandomNPC gravity=1 physicstype=CONT", &[]);
+    check("avatar > MovingAvatar", "avatar > MovingAvatar jump_strength=5", &[("ignored-parameter", 9)]);
+}
+
+#[test]
+fn avatars_drawn_first_are_reported() {
+    let first = GAME.replace(
+        "        grass > Immovable\n",
+        "        hen > MovingAvatar\n        wall > Immovable\n        grass > Immovable\n",
+    );
+    let game = Game::from_source(&first.replace("A > grass avatar", "A > grass hen")).unwrap();
+    assert!(game.warnings().iter().any(|warning| warning.code == "lost-avatar"), "{:?}", game.warnings());
+    let mut state = game.start(&game.level("A.n\n").unwrap(), engine::Seed::from_text("any"));
+    game.step(&mut state, engine::Action::Right);
+    assert_eq!(game.actions(&state), [engine::Action::Nil], "the warning is wrong: the player finds it");
+}

@@ -1,0 +1,4 @@
+//! Text to game descriptions and back.
+
+mod parse;
+mod print;
