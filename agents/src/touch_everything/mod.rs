@@ -331,6 +331,3 @@ fn imagine(seen: &mut Observation, beliefs: &mut Beliefs, action: Action) {
         (avatar.column, avatar.row) = ((to % board.columns) as i32, (to / board.columns) as i32);
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -7,29 +7,29 @@ use engine::Game;
 
 pub(super) const GAME: &str = "\
 BasicGame
-SpriteSet
-    grass > Immovable
-    nest > SpawnPoint stype=chick prob=0.5 total=9
-    chick > RandomNPC
-    stone > Immovable
-    fence > Immovable
-    egg > Resource limit=3
-    avatar > MovingAvatar
-LevelMapping
-    . > grass
-    n > nest
-    s > grass stone
-    f > grass fence
-    e > grass egg
-    A > grass avatar
-InteractionSet
-    egg avatar > collectResource
-    avatar stone fence nest > stepBack
-    chick stone fence > stepBack
-    chick avatar > killIfOtherHasMore resource=egg limit=2 scoreChange=1
-TerminationSet
-    SpriteCounter stype=nest win=False
-    Timeout limit=300 win=True
+    SpriteSet
+        grass > Immovable
+        nest > SpawnPoint stype=chick prob=0.5 total=9
+        chick > RandomNPC
+        stone > Immovable
+        fence > Immovable
+        egg > Resource limit=3
+        avatar > MovingAvatar
+    LevelMapping
+        . > grass
+        n > nest
+        s > grass stone
+        f > grass fence
+        e > grass egg
+        A > grass avatar
+    InteractionSet
+        egg avatar > collectResource
+        avatar stone fence nest > stepBack
+        chick stone fence > stepBack
+        chick avatar > killIfOtherHasMore resource=egg limit=2 scoreChange=1
+    TerminationSet
+        SpriteCounter stype=nest win=False
+        Timeout limit=300 win=True
 ";
 
 /// Checks the codes and lines of the warnings about the game with some text replaced.

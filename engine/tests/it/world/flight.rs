@@ -5,20 +5,20 @@ use engine::{Action, Game, Outcome, Seed};
 
 const INVADERS: &str = "\
 BasicGame
-SpriteSet
-    invader > Bomber stype=bomb orientation=RIGHT cooldown=3 speed=0.8 prob=0.1
-    bomb > Missile orientation=DOWN cooldown=2 speed=0.3
-    avatar > MovingAvatar
-LevelMapping
-    i > invader
-    A > avatar
-InteractionSet
-    invader EOS > turnAround
-    invader invader > reverseDirection
-    bomb EOS > killSprite
-    bomb avatar > killSprite scoreChange=1
-TerminationSet
-    SpriteCounter stype=invader limit=0 win=True
+    SpriteSet
+        invader > Bomber stype=bomb orientation=RIGHT cooldown=3 speed=0.8 prob=0.1
+        bomb > Missile orientation=DOWN cooldown=2 speed=0.3
+        avatar > MovingAvatar
+    LevelMapping
+        i > invader
+        A > avatar
+    InteractionSet
+        invader EOS > turnAround
+        invader invader > reverseDirection
+        bomb EOS > killSprite
+        bomb avatar > killSprite scoreChange=1
+    TerminationSet
+        SpriteCounter stype=invader limit=0 win=True
 ";
 
 #[test]
