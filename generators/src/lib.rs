@@ -14,8 +14,6 @@ pub mod kernels;
 pub mod levels;
 mod map_elites;
 mod search;
-#[cfg(test)]
-mod toys;
 
 pub use annealing::{Annealing, AnnealingConfig};
 pub use archive::{AddStatus, Archive, Axis, Evaluated};
