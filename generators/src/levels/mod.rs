@@ -33,9 +33,6 @@ mod vault;
 mod warehouse;
 mod yards;
 
-#[cfg(test)]
-mod tests;
-
 pub use config::LevelConfig;
 pub use constructive::{ConstructiveLevels, Solved};
 pub use examples::{Examples, cover};

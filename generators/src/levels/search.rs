@@ -61,23 +61,3 @@ impl Variation for LevelSearch<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::levels::tests::{game_in, workspace};
-
-    #[test]
-    fn the_kind_of_search_suits_the_game() {
-        for (folder, puzzles) in [("quiet-jars", true), ("hailglass", false), ("tinkers-attic", false)] {
-            let game = game_in(&workspace().join("corpora").join(folder)).unwrap();
-            let puzzle = PuzzleConfig { floor_plans: 8, ..PuzzleConfig::default() };
-            let search = LevelSearch::new(&game, LevelConfig::default(), puzzle).unwrap();
-            assert_eq!(matches!(search, LevelSearch::Puzzles(_)), puzzles, "{folder}");
-            let level = search.create(Seed::from_text(folder)).unwrap();
-            let next = search.mutate(&level, &mut Seed::from_text(folder).sampler());
-            assert_eq!((next.columns(), next.rows()), (level.columns(), level.rows()));
-            assert_ne!(next, level, "{folder}");
-        }
-    }
-}

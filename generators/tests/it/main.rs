@@ -4,8 +4,9 @@ extern crate infinite_arcade_generators as generators;
 
 mod annealing;
 mod archive;
+mod corpora;
 mod evolution;
 mod feasible_infeasible;
+mod levels;
 mod map_elites;
-mod measures;
 mod toys;

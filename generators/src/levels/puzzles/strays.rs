@@ -327,13 +327,4 @@ mod tests {
             assert!((rate - looking).abs() < 0.2, "{rate} in the game, {looking} here");
         }
     }
-
-    #[test]
-    fn boards_without_room_have_no_level() {
-        for sides in [(0, 7), (12, 12)] {
-            let config = StrayConfig { columns: sides, rows: sides, ..StrayConfig::default() };
-            let levels = StrayLevels::new(PushRules::AMONG_STRAYS[0], config);
-            assert_eq!(levels.level(Seed::from_text("small")), None, "{sides:?}");
-        }
-    }
 }

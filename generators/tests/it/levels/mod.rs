@@ -1,12 +1,18 @@
 //! Properties of the levels of all games: our own and, if they are available, public ones.
 
-use super::{ConstructiveLevels, Examples, LevelConfig, cover};
-use crate::{GenerateError, Generator};
+mod measures;
+mod puzzles;
+mod search;
+mod symmetry;
+mod variation;
+mod yards;
+
+use crate::corpora::{self, game_in, levels_in, name_of};
 use engine::analysis::{Role, Steering};
 use engine::{Action, Analysis, Game, Level, Outcome, Seed};
-use itertools::Itertools;
+use generators::levels::{ConstructiveLevels, Examples, LevelConfig, cover};
+use generators::{GenerateError, Generator};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The number of levels to generate for each game.
@@ -14,46 +20,9 @@ const SEEDS: u64 = 50;
 /// The public games whose levels are all inspected.
 const PUBLIC: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
-pub(super) fn workspace() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the crate lies in the workspace")
-}
-
-/// The folders in a folder, sorted; empty, with a message, if it is missing.
-#[allow(clippy::print_stderr, reason = "a skipped test says so")]
-pub(super) fn folders(path: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = std::fs::read_dir(path) else {
-        eprintln!("skipped: there is no folder {}", path.display());
-        return Vec::new();
-    };
-    entries.filter_map(|entry| Some(entry.ok()?.path())).sorted().collect_vec()
-}
-
-/// The game in a folder, if the engine can play it.
-pub(super) fn game_in(folder: &Path) -> Option<Game> {
-    let source =
-        ["game.vgdl", "game.txt"].iter().find_map(|name| std::fs::read_to_string(folder.join(name)).ok())?;
-    Game::from_source(&source).ok()
-}
-
-pub(super) fn name_of(folder: &Path) -> String {
-    folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
-pub(super) fn public_folder() -> PathBuf {
-    workspace().join("../shared/gvgai/games")
-}
-
-/// The levels that a game comes with.
-fn own_levels(folder: &Path, game: &Game) -> Vec<Level> {
-    (0..)
-        .map_while(|number| std::fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok())
-        .filter_map(|text| game.level(&text).ok())
-        .collect()
-}
-
 #[test]
 fn levels_of_our_own_games() {
-    for folder in folders(&workspace().join("corpora")) {
+    for folder in corpora::own() {
         if let Some(game) = game_in(&folder) {
             check(&name_of(&folder), &game);
         }
@@ -62,7 +31,7 @@ fn levels_of_our_own_games() {
 
 #[test]
 fn levels_of_six_public_games() {
-    for folder in folders(&public_folder()) {
+    for folder in corpora::public() {
         if PUBLIC.contains(&name_of(&folder).as_str()) {
             let game = game_in(&folder).expect("a game that the engine plays");
             check(&name_of(&folder), &game);
@@ -74,7 +43,7 @@ fn levels_of_six_public_games() {
 #[test]
 fn every_public_game_gets_levels_or_a_reason() {
     let (mut games, mut unlucky) = (0, Vec::new());
-    for folder in folders(&public_folder()) {
+    for folder in corpora::public() {
         let Some(game) = game_in(&folder) else { continue };
         games += 1;
         let configs = [((4, 6), (4, 5), 0.0), ((10, 18), (8, 11), 1.0), ((24, 30), (12, 16), 0.3)];
@@ -167,10 +136,10 @@ fn harder_levels_hold_more_harmful_things() {
 /// Generates levels that resemble a game's own, for each of our games.
 #[test]
 fn levels_resemble_their_examples() {
-    for folder in folders(&workspace().join("corpora")) {
+    for folder in corpora::own() {
         let Some(game) = game_in(&folder) else { continue };
         let name = name_of(&folder);
-        let own = own_levels(&folder, &game);
+        let own = levels_in(&folder, &game);
         let examples = Arc::new(Examples::of(&game, &own).expect("games of ours have levels"));
         let config = LevelConfig::like(examples.clone());
         let levels = ConstructiveLevels::new(&game, config).unwrap();
@@ -193,9 +162,9 @@ fn levels_resemble_their_examples() {
 /// Learnt walls can leave a small board without a free cell.
 #[test]
 fn the_smallest_boards_are_levels_or_none() {
-    for folder in folders(&workspace().join("corpora")).into_iter().chain(folders(&public_folder())) {
+    for folder in corpora::own().into_iter().chain(corpora::public()) {
         let Some(game) = game_in(&folder) else { continue };
-        let own = own_levels(&folder, &game);
+        let own = levels_in(&folder, &game);
         let examples = Examples::of(&game, &own).map(Arc::new);
         for side in [4, 5, 6] {
             let like = examples.clone().map_or_else(LevelConfig::default, LevelConfig::like);

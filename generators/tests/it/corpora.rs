@@ -1,0 +1,57 @@
+//! Games in folders: our own and, if they are available, public ones.
+
+use engine::{Game, Level};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The folders of our own games, sorted.
+pub(crate) fn own() -> Vec<PathBuf> {
+    folders("../corpora")
+}
+
+/// The folders of public games, sorted; empty, with a message, if they are missing.
+pub(crate) fn public() -> Vec<PathBuf> {
+    folders("../../shared/gvgai/games")
+}
+
+#[allow(clippy::print_stderr, reason = "a skipped test says so")]
+fn folders(path: &str) -> Vec<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let Ok(entries) = fs::read_dir(&path) else {
+        eprintln!("SKIPPED: there is no folder {}", path.display());
+        return Vec::new();
+    };
+    let mut folders: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    folders.sort();
+    folders
+}
+
+pub(crate) fn name_of(folder: &Path) -> String {
+    folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// The text of the game in a folder, if there is one.
+pub(crate) fn source_in(folder: &Path) -> Option<String> {
+    ["game.vgdl", "game.txt"].iter().find_map(|name| fs::read_to_string(folder.join(name)).ok())
+}
+
+/// The game in a folder, if the engine can play it.
+pub(crate) fn game_in(folder: &Path) -> Option<Game> {
+    Game::from_source(&source_in(folder)?).ok()
+}
+
+/// One of our own games.
+pub(crate) fn own_game(name: &str) -> Game {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
+    game_in(&folder).unwrap_or_else(|| panic!("there is no game in {}", folder.display()))
+}
+
+/// The texts of the levels that the game in a folder comes with.
+pub(crate) fn level_texts_in(folder: &Path) -> Vec<String> {
+    (0..).map_while(|number| fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok()).collect()
+}
+
+/// The levels that the game in a folder comes with, as far as the engine reads them.
+pub(crate) fn levels_in(folder: &Path, game: &Game) -> Vec<Level> {
+    level_texts_in(folder).iter().filter_map(|text| game.level(text).ok()).collect()
+}
