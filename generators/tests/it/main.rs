@@ -7,6 +7,7 @@ mod archive;
 mod corpora;
 mod evolution;
 mod feasible_infeasible;
+mod games;
 mod levels;
 mod map_elites;
 mod toys;
