@@ -17,8 +17,6 @@ mod naming;
 mod phrase;
 mod scene;
 mod template;
-#[cfg(test)]
-mod tests;
 mod turns;
 mod variation;
 mod vocabulary;

@@ -55,23 +55,3 @@ impl Turns {
         self.order.get(sampler.below(self.order.len().max(1))).copied()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::{BTreeMap, BTreeSet};
-
-    #[test]
-    fn every_kernel_has_a_turn_and_kinds_mingle() {
-        let turns = Turns::draw(Kind::ALL, Seed::from_text("turns"));
-        let names: BTreeSet<&str> = turns.kernels().map(|(name, _)| name).collect();
-        assert!(names.len() == Kernel::all().len() && turns.order.len() == names.len(), "{names:?}");
-        let mut kinds = BTreeMap::new();
-        for (_, kind) in turns.kernels().take(20) {
-            *kinds.entry(kind).or_insert(0) += 1;
-        }
-        assert!(kinds.values().all(|&there| there <= MOST), "{kinds:?}");
-        let none = Turns::draw(&[], Seed::from_text("none"));
-        assert!(none.any(&mut Seed::from_text("any").sampler()).is_none());
-    }
-}

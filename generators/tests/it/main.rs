@@ -8,6 +8,7 @@ mod corpora;
 mod evolution;
 mod feasible_infeasible;
 mod games;
+mod kernels;
 mod levels;
 mod map_elites;
 mod toys;
