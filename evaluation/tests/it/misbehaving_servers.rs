@@ -8,6 +8,7 @@ use evaluation::client::{
 use serde_json::json;
 use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
 use std::sync::Arc;
+use std::thread;
 use std::time::Duration;
 
 /// A key as a server could repeat it.
@@ -108,23 +109,27 @@ fn persistent_failures_are_infrastructure_failures_and_free() {
 
 #[test]
 fn hanging_servers_time_out() {
-    let server = Server::scripted(vec![Response::Hang, Response::completion("up"), Response::Hang]);
-    let connect = |seconds| {
+    let hurried = |responses, seconds| {
+        let server = Server::scripted(responses);
         let (connection, _) = connect(&server, |options| {
             options.timeout = Duration::from_secs(seconds);
             options.tries = NonZeroU32::new(2).unwrap();
         });
-        connection
+        (server, connection)
     };
-    let connection = connect(2);
-    let reply = connection.model.chat(&request("Now?")).unwrap();
-    assert_eq!((reply.text.as_str(), reply.failures[0].status), ("up", None));
-    assert!(reply.failures[0].message.contains("within 2s"), "{}", reply.failures[0].message);
-    assert_eq!(connection.caps.spent().requests, 1);
-    let connection = connect(1);
-    let error = connection.model.chat(&request("And now?")).unwrap_err();
-    assert_eq!((error.kind, error.failures.len()), (ChatErrorKind::Infrastructure, 2));
-    assert_eq!(connection.caps.spent().requests, 0);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            let (_server, connection) = hurried(vec![Response::Hang, Response::completion("up")], 2);
+            let reply = connection.model.chat(&request("Now?")).unwrap();
+            assert_eq!((reply.text.as_str(), reply.failures[0].status), ("up", None));
+            assert!(reply.failures[0].message.contains("within 2s"), "{}", reply.failures[0].message);
+            assert_eq!(connection.caps.spent().requests, 1);
+        });
+        let (_server, connection) = hurried(vec![Response::Hang], 1);
+        let error = connection.model.chat(&request("And now?")).unwrap_err();
+        assert_eq!((error.kind, error.failures.len()), (ChatErrorKind::Infrastructure, 2));
+        assert_eq!(connection.caps.spent().requests, 0);
+    });
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::{folder_of, manifests, report};
 use std::collections::{BTreeMap, BTreeSet};
+use tests::{read, rust_files};
 
 /// Our crates by folder, each with its allowed dependencies. Imports point one way only.
 const ALLOWED: &[(&str, &[&str])] = &[
@@ -192,4 +193,32 @@ fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> b
         open.extend(next.filter(|target| seen.insert(target)));
     }
     false
+}
+
+/// A crate without doctests says so in its manifest, which saves a look for them; one that says so has none.
+#[test]
+fn doctests_are_looked_for_where_there_are_some() {
+    let mut fenced: BTreeMap<String, String> = BTreeMap::new();
+    for (file, text) in rust_files() {
+        let is_fence =
+            |line: &str| ["//! ```", "/// ```"].iter().any(|fence| line.trim_start().starts_with(fence));
+        let mut parts = file.components().map(|part| part.as_os_str().to_string_lossy().into_owned());
+        if let (Some(folder), true) = (parts.next(), parts.next().is_some_and(|part| part == "src"))
+            && let Some(number) = text.lines().position(is_fence)
+        {
+            fenced.entry(folder).or_insert_with(|| format!("{}:{}", file.display(), number + 1));
+        }
+    }
+    let mut problems = Vec::new();
+    for manifest in manifests() {
+        let is_off = read(manifest.path()).contains("\ndoctest = false\n");
+        if let (true, Some(place)) = (is_off, fenced.get(&manifest.folder)) {
+            problems.push(format!(
+                "{place}: this example is not tested; remove `doctest = false` from {}",
+                manifest.path()
+            ));
+        }
+    }
+    assert!(!fenced.is_empty());
+    report(problems);
 }
