@@ -116,7 +116,7 @@ impl Session {
         episode.actions.truncate(self.at);
         episode.hashes.truncate(self.at);
         (episode.outcome, episode.score) = (self.state.outcome(), self.state.score());
-        debug_assert!(episode.level == self.level.digest());
+        assert!(episode.level == self.level.digest());
         episode
     }
 }

@@ -69,7 +69,7 @@ fn entries(
             }
         }
     }
-    debug_assert!(embedding.columns == board.columns && embedding.rows == board.rows);
+    assert!(embedding.columns == board.columns && embedding.rows == board.rows);
     entries
 }
 
