@@ -279,7 +279,7 @@ fn many_threads_share_limits_and_servers() {
         3 => Response::Cut(Vec::new()),
         _ => {
             // Gives requests time to overlap.
-            std::thread::sleep(Duration::from_millis(2));
+            thread::sleep(Duration::from_millis(2));
             Response::completion("up")
         }
     });
@@ -289,7 +289,7 @@ fn many_threads_share_limits_and_servers() {
         options.limits = Limits { requests: Some(40), ..Limits::default() };
     });
     let answered = std::sync::atomic::AtomicUsize::new(0);
-    std::thread::scope(|scope| {
+    thread::scope(|scope| {
         for thread in 0..8 {
             let (model, answered) = (&connection.model, &answered);
             scope.spawn(move || {
