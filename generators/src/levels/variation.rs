@@ -143,3 +143,68 @@ fn stretch(length: usize, sampler: &mut Sampler) -> (usize, usize) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use std::fs;
+    use std::path::Path;
+
+    fn seed(name: &str) -> Seed {
+        Seed::from_text("variation").child(name, 0)
+    }
+
+    /// The border cells, if all of them are wall.
+    fn border(variation: &LevelVariation<'_>, level: &Level) -> Option<Vec<u8>> {
+        let draft = variation.draft(level);
+        let border: Vec<usize> = (0..draft.grid.len()).filter(|&cell| draft.grid.on_border(cell)).collect();
+        let closed = border.iter().all(|&cell| draft.is_wall(cell));
+        closed.then(|| border.into_iter().map(|cell| draft.cells[cell]).collect())
+    }
+
+    fn check(name: &str, game: &Game, parents: &[&Level], child: &Level, variation: &LevelVariation<'_>) {
+        let text = child.to_string();
+        assert_eq!(game.level(&text).as_ref(), Ok(child), "{name}\n{text}");
+        let one = parents[0];
+        assert_eq!((child.columns(), child.rows()), (one.columns(), one.rows()), "{name}");
+        assert!(game.start(child, seed(name)).avatar_id().is_some(), "{name}\n{text}");
+        if let Some(border_of_parent) = border(variation, one) {
+            assert_eq!(border(variation, child), Some(border_of_parent), "{name}\n{text}");
+        }
+        let allowed = parents.iter().map(|parent| variation.draft(parent).faults());
+        let allowed = allowed.reduce(|one, two| one.or(&two)).unwrap_or_default();
+        let faults = variation.draft(child).faults();
+        assert!(faults.no_worse_than(&allowed), "{name}: {faults:?}\n{text}");
+    }
+
+    #[test]
+    fn varied_levels_are_levels() {
+        let corpora = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora")).unwrap();
+        for folder in corpora.map(|entry| entry.unwrap().path()) {
+            let Ok(source) = fs::read_to_string(folder.join("game.vgdl")) else { continue };
+            let game = Game::from_source(&source).unwrap();
+            let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+            let variation = LevelVariation::new(&game, LevelConfig::default()).unwrap();
+            let mut sampler = seed(&name).sampler();
+            let create = |index: u64| variation.create(seed(&name).child("level", index)).unwrap();
+            let (mut level, other) = (create(0), create(1));
+            let (mut changed, mut different) = (0, BTreeSet::new());
+            for turn in 0..500 {
+                let crossing = turn % 5 == 4;
+                let child = if crossing {
+                    variation.cross(&level, &other, &mut sampler)
+                } else {
+                    variation.mutate(&level, &mut sampler)
+                };
+                let parents = if crossing { vec![&level, &other] } else { vec![&level] };
+                check(&name, &game, &parents, &child, &variation);
+                changed += u32::from(child != level);
+                different.insert(child.to_string());
+                level = if turn % 50 == 49 { create(turn) } else { child };
+            }
+            assert!(changed >= 490, "{name}: {changed} of 500 changed something");
+            assert!(different.len() >= 450, "{name}: {} different levels", different.len());
+        }
+    }
+}
