@@ -5,41 +5,57 @@ use crate::game_report::GameCase;
 use agents::{Budget, Limits, NearestGoal, play};
 use engine::{Episode, Game, Level, Outcome, Seed};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 /// A play is broken off after this multiple of the ticks of the win, and [`GRACE`] more.
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
+/// The plays of a closer look, as a multiple of those of the first: a gate that few plays speak against asks more of them before
+/// it fails.
+pub(super) const CLOSER: u32 = 4;
+
 /// The plays of careless players, made when the first gate asks, and shared by all.
 pub(crate) struct CarelessPlays {
     seed: Seed,
     levels: Vec<OnceLock<Vec<Episode>>>,
+    /// The share of wins in a closer look, by level.
+    closer: Vec<OnceLock<f64>>,
 }
 
 impl CarelessPlays {
     /// The plays on so many levels; none is made yet.
     pub(crate) fn new(levels: usize, seed: Seed) -> CarelessPlays {
-        CarelessPlays { seed, levels: vec![OnceLock::new(); levels] }
+        CarelessPlays { seed, levels: vec![OnceLock::new(); levels], closer: vec![OnceLock::new(); levels] }
     }
 }
 
 /// The plays of careless players on a level. Cost, once: a call for each action and tick.
 pub(super) fn plays<'a>(case: GameCase<'a>, won: WonLevel<'_>, gates: &Gates) -> &'a [Episode] {
-    let Gates { careless_plays, careless_slips, .. } = *gates;
-    let all = case.careless;
-    let seed = all.seed.child("level", won.number as u64);
-    all.levels[won.number].get_or_init(|| {
-        nearest_goal(case.game, (won.level, won.ticks()), (careless_slips, careless_plays), seed)
+    case.careless.levels[won.number].get_or_init(|| further_plays(case, won, gates, 0..gates.careless_plays))
+}
+
+/// The share of the careless plays on a level that are won, from [`CLOSER`] times as many plays. Cost, once: these plays.
+pub(super) fn closer_win_share(case: GameCase<'_>, won: WonLevel<'_>, gates: &Gates) -> f64 {
+    *case.careless.closer[won.number].get_or_init(|| {
+        let first = gates.careless_plays;
+        let further = further_plays(case, won, gates, first..first.saturating_mul(CLOSER));
+        win_share(&[plays(case, won, gates), &further].concat())
     })
 }
 
-/// Plays of the nearest-goal player on a level that is won in so many ticks, with a share of slips. Cost: a call for each
-/// action and tick.
+fn further_plays(case: GameCase<'_>, won: WonLevel<'_>, gates: &Gates, numbers: Range<u32>) -> Vec<Episode> {
+    let seed = case.careless.seed.child("level", won.number as u64);
+    nearest_goal(case.game, (won.level, won.ticks()), (gates.careless_slips, numbers), seed)
+}
+
+/// The plays of these numbers by the nearest-goal player on a level that is won in so many ticks, with a share of slips. Cost: a
+/// call for each action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
     (level, ticks): (&Level, usize),
-    (slips, plays): (f64, u32),
+    (slips, numbers): (f64, Range<u32>),
     seed: Seed,
 ) -> Vec<Episode> {
     let limits = Limits { ticks: PATIENCE * ticks + GRACE, calls: u64::MAX };
@@ -48,7 +64,7 @@ pub(super) fn nearest_goal(
         let mut player = NearestGoal::new(slips, seed.child("player", 0));
         play(game, level, &mut player, Budget(0), seed.child("chance", 0), limits).episode
     };
-    (0..plays).into_par_iter().map(run).collect()
+    numbers.into_par_iter().map(run).collect()
 }
 
 /// The share of plays that are won.

@@ -9,8 +9,8 @@ use engine::{Analysis, Episode, Game, Level, Seed, SpriteClass, SpriteType, Term
 
 /// On each level after the first, up to [`Gates::instant_levels`] of them apart, the shortest known win takes at least
 /// [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the slowest spawner on the level, and the nearest-goal player
-/// ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its plays. The time limit of the game is
-/// [`Gates::time_limit`] times the longest known win.
+/// ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its plays, and of four times as many where it wins more. The time
+/// limit of the game is [`Gates::time_limit`] times the longest known win.
 ///
 /// A spawner counts if the level places it and what it makes can harm, is wanted for an ending or gives something. Its period is
 /// the mean time between two sprites: its cooldown divided by its probability. A game that is won by lasting has no time limit
@@ -34,7 +34,11 @@ impl GameValidator for NotInstant {
             let before = problems.len();
             problems.extend(self.too_short(case.analysis, **won, &periods));
             let seed = case.seed.child("level", won.number as u64);
-            let share = self.nearest_goal_wins(case.game, (won.level, won.ticks()), seed);
+            let wins = |plays| self.nearest_goal_wins(case.game, (won.level, won.ticks()), plays, seed);
+            let mut share = wins(gates.bot_plays);
+            if share > gates.bot_wins {
+                share = wins(gates.bot_plays.saturating_mul(careless::CLOSER));
+            }
             let text = format!(
                 "the nearest-goal player wins {:.0} % of its plays on level {}",
                 100.0 * share,
@@ -73,7 +77,7 @@ impl NotInstant {
     /// long as for a win of so many ticks. Asks for no known win, so that a level can be refused before one is searched for.
     /// Cost: its plays.
     pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
-        self.nearest_goal_wins(game, (level, ticks), seed) > self.0.bot_wins
+        self.nearest_goal_wins(game, (level, ticks), self.0.bot_plays, seed) > self.0.bot_wins
     }
 
     /// Tests whether a win comes sooner than one of a level after the first may.
@@ -82,8 +86,8 @@ impl NotInstant {
         !self.too_short(analysis, won, &periods(analysis)).is_empty()
     }
 
-    fn nearest_goal_wins(&self, game: &Game, level: (&Level, usize), seed: Seed) -> f64 {
-        careless::win_share(&careless::nearest_goal(game, level, (0.0, self.0.bot_plays), seed))
+    fn nearest_goal_wins(&self, game: &Game, level: (&Level, usize), plays: u32, seed: Seed) -> f64 {
+        careless::win_share(&careless::nearest_goal(game, level, (0.0, 0..plays), seed))
     }
 
     /// Returns the problems with a win that comes too soon.

@@ -11,8 +11,9 @@ use std::collections::BTreeSet;
 /// levels: at least [`Gates::growth`] levels bring some that no earlier one needed; the last level needs as many as the first,
 /// and at least [`Gates::last_share`] of all that any needs; and it is no easier than the first two, by [`Gates::easier`].
 ///
-/// Ease is that of the ladder, where one was played on every level; else the share of careless plays that are won. Games of
-/// fewer than three levels have nothing to progress. Cost: the wins are replayed, and the careless plays.
+/// Ease is that of the ladder, where one was played on every level; else the share of careless plays that are won, of four times
+/// as many where the last level seems easier. Games of fewer than three levels have nothing to progress. Cost: the wins are
+/// replayed, and the careless plays.
 #[derive(Clone, Debug)]
 pub struct Progression(pub Gates);
 
@@ -61,8 +62,7 @@ impl GameValidator for Progression {
             ));
         }
         let eases = self.eases(case, &wins);
-        let easiest = eases[0].min(eases[1]);
-        let ease = eases[eases.len() - 1];
+        let (ease, easiest) = last_and_easiest(&eases);
         if ease > easiest + gates.easier {
             problems.push(format!("the last level is easier ({ease:.2}) than an early one ({easiest:.2})"));
         }
@@ -85,14 +85,29 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// The ease of the levels, from 0 to 1.
+    /// The ease of the levels, from 0 to 1; of careless plays, those that are compared from a closer look if the first speaks
+    /// against the game.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();
-        known.unwrap_or_else(|| {
-            wins.iter().map(|won| careless::win_share(careless::plays(case, *won, &self.0))).collect()
-        })
+        if let Some(known) = known {
+            return known;
+        }
+        let of_plays = |won: &super::WonLevel<'_>| careless::win_share(careless::plays(case, *won, &self.0));
+        let mut eases: Vec<f64> = wins.iter().map(of_plays).collect();
+        let (ease, easiest) = last_and_easiest(&eases);
+        if ease > easiest + self.0.easier {
+            for number in [0, 1, wins.len() - 1] {
+                eases[number] = careless::closer_win_share(case, wins[number], &self.0);
+            }
+        }
+        eases
     }
+}
+
+/// The ease of the last level, and the smaller one of the first two.
+fn last_and_easiest(eases: &[f64]) -> (f64, f64) {
+    (eases[eases.len() - 1], eases[0].min(eases[1]))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use engine::State;
 use engine::analysis::Resource;
 
 /// On average over the levels, a win leaves [`Gates::spare`] of the consumables that it uses, and careless players win at most
-/// [`Gates::careless_wins`] of their plays after the first level.
+/// [`Gates::careless_wins`] of their plays after the first level, and of four times as many where they win more.
 ///
 /// A consumable is a resource that some rule takes, or that shots cost. Its supply is what the avatar spends in the win, holds
 /// at the end, and could still take from what is left on the board. Levels whose win spends none are left out. Careless players
@@ -24,8 +24,7 @@ impl GameValidator for Tight {
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
-        let (mut problems, mut notes, mut spares, mut shares) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut problems, mut notes, mut spares) = (Vec::new(), Vec::new(), Vec::new());
         let consumed = |resource: &&Resource| !resource.takers.is_empty() || resource.is_ammunition;
         for won in &wins {
             for resource in case.analysis.resources().iter().filter(consumed) {
@@ -35,10 +34,8 @@ impl GameValidator for Tight {
                 let text = format!("level {}: a win spends {spent} `{name}` and leaves {left}", won.number);
                 notes.push(Evidence::new(text));
             }
-            if won.number > 0 || wins.len() == 1 {
-                shares.push(careless::win_share(careless::plays(case, *won, gates)));
-            }
         }
+        let later = || wins.iter().filter(|won| won.number > 0 || wins.len() == 1);
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
         if !spares.is_empty() {
             let (spare, (least, most)) = (mean(&spares), gates.spare);
@@ -51,7 +48,11 @@ impl GameValidator for Tight {
             let seen = Evidence::new(text).advise("place fewer, or ask for more");
             if spare < least || spare > most { &mut problems } else { &mut notes }.push(seen);
         }
-        let won = mean(&shares);
+        let shares = |of: &dyn Fn(&WonLevel<'_>) -> f64| mean(&later().map(of).collect::<Vec<f64>>());
+        let mut won = shares(&|won| careless::win_share(careless::plays(case, *won, gates)));
+        if won > gates.careless_wins {
+            won = shares(&|won| careless::closer_win_share(case, *won, gates));
+        }
         let text = format!(
             "careless players win {:.0} % of their plays, {:.0} % allowed",
             100.0 * won,
