@@ -83,7 +83,8 @@ fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option
 
 #[cfg(test)]
 mod tests {
-    use crate::gates::tests::check;
+    use crate::gates::tests::{check, judged};
+    use crate::{Gates, Verdict};
 
     /// Every gate costs a key, and traps stand beside the way.
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    trap > Immovable\n    key > Resource limit=9\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    t > trap\n    k > key\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    avatar trap > killSprite\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
@@ -95,5 +96,18 @@ mod tests {
         let slack = NARROW.replace("kkkk g g g", "kkkkkkkk g");
         check("tight", GAME, &[&slack], Some("a win leaves 88 % of the consumables"));
         check("tight", GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100 %"));
+    }
+
+    /// One play is won, and so are two of the three that follow.
+    #[test]
+    fn few_plays_are_followed_by_more() {
+        let level = "wttttw\nwA  pw\nwttttw\n";
+        let judge = |careless_wins| {
+            let few = |gates: &mut Gates| (gates.careless_plays, gates.careless_wins) = (1, careless_wins);
+            judged("tight", GAME, &[level], few).verdict
+        };
+        assert!(matches!(judge(0.8), Verdict::Pass { .. }), "{:?}", judge(0.8));
+        let Verdict::Fail { reason, .. } = judge(0.7) else { panic!("{:?}", judge(0.7)) };
+        assert!(reason.0.contains("careless players win 75 %"), "{reason:?}");
     }
 }
