@@ -33,19 +33,19 @@ impl CarelessPlays {
 
 /// The plays of careless players on a level. Cost, once: a call for each action and tick.
 pub(super) fn plays<'a>(case: GameCase<'a>, won: WonLevel<'_>, gates: &Gates) -> &'a [Episode] {
-    case.careless.levels[won.number].get_or_init(|| further_plays(case, won, gates, 0..gates.careless_plays))
+    case.careless.levels[won.number].get_or_init(|| numbered_plays(case, won, gates, 0..gates.careless_plays))
 }
 
 /// The share of the careless plays on a level that are won, from [`CLOSER`] times as many plays. Cost, once: these plays.
 pub(super) fn closer_win_share(case: GameCase<'_>, won: WonLevel<'_>, gates: &Gates) -> f64 {
     *case.careless.closer[won.number].get_or_init(|| {
         let first = gates.careless_plays;
-        let further = further_plays(case, won, gates, first..first.saturating_mul(CLOSER));
+        let further = numbered_plays(case, won, gates, first..first.saturating_mul(CLOSER));
         win_share(&[plays(case, won, gates), &further].concat())
     })
 }
 
-fn further_plays(case: GameCase<'_>, won: WonLevel<'_>, gates: &Gates, numbers: Range<u32>) -> Vec<Episode> {
+fn numbered_plays(case: GameCase<'_>, won: WonLevel<'_>, gates: &Gates, numbers: Range<u32>) -> Vec<Episode> {
     let seed = case.careless.seed.child("level", won.number as u64);
     nearest_goal(case.game, (won.level, won.ticks()), (gates.careless_slips, numbers), seed)
 }

@@ -74,8 +74,8 @@ impl GameValidator for NotInstant {
 
 impl NotInstant {
     /// Tests whether the nearest-goal player wins a level more often than one after the first may let it, if it may take as
-    /// long as for a win of so many ticks. Asks for no known win, so that a level can be refused before one is searched for.
-    /// Cost: its plays.
+    /// long as for a win of so many ticks, without the closer look of the gate. Asks for no known win, so that a level can be
+    /// refused before one is searched for. Cost: its plays.
     pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
         self.nearest_goal_wins(game, (level, ticks), self.0.bot_plays, seed) > self.0.bot_wins
     }
