@@ -46,18 +46,28 @@ fn episode(
     settings: &PromptSettings,
     answer: impl Fn(&[ChatMessage]) -> String,
 ) -> (Vec<Action>, Outcome) {
+    beginning(LIMIT, subject, settings, answer)
+}
+
+/// Plays the first decisions of a level.
+fn beginning(
+    limit: u64,
+    subject: &Subject,
+    settings: &PromptSettings,
+    answer: impl Fn(&[ChatMessage]) -> String,
+) -> (Vec<Action>, Outcome) {
     let prompter = Prompter::new(subject, settings.clone()).unwrap();
     let game = &subject.game;
     let mut state = game.start(&subject.levels[0].level, Seed::from_text("served").child(&subject.id, 0));
     let (mut actions, mut past): (Vec<Action>, Vec<Past>) = (Vec::new(), Vec::new());
     let mut before: Option<(Observation, Action, f64)> = None;
-    while !state.is_over() && (actions.len() as u64) < LIMIT {
+    while !state.is_over() && (actions.len() as u64) < limit {
         let (observation, score) = (game.observe(&state), state.score());
         let turn = Turn {
             subject,
             level: 0,
             number: actions.len() as u64,
-            limit: LIMIT,
+            limit,
             commit: Commitment::ONE,
             played: &[],
             observation: &observation,
@@ -119,7 +129,7 @@ fn through(model: &dyn Model, messages: &[ChatMessage]) -> String {
 
 #[test]
 fn network_moves_equal_direct_calls() {
-    let games = if sweeping() { 4 } else { 2 };
+    let (games, limit) = if sweeping() { (4, LIMIT) } else { (2, LIMIT / 4) };
     for (name, mode) in [("random", Mode::ZeroShot), ("reflex", Mode::ZeroShot), ("reflex", Mode::Contextual)]
     {
         let (player, server): (PromptPlayer, Running) = (name.parse().unwrap(), spawn(name));
@@ -129,8 +139,8 @@ fn network_moves_equal_direct_calls() {
         let settings = PromptSettings { mode, ..PromptSettings::default() };
         let mut played = 0;
         for subject in corpus().iter().take(games) {
-            let direct = episode(subject, &settings, |messages| through(&player, messages));
-            let remotely = episode(subject, &settings, |messages| through(&*remote.model, messages));
+            let direct = beginning(limit, subject, &settings, |messages| through(&player, messages));
+            let remotely = beginning(limit, subject, &settings, |messages| through(&*remote.model, messages));
             assert_eq!(remotely, direct, "{name} on {}", subject.id);
             played += direct.0.len();
         }
