@@ -249,6 +249,16 @@ impl Game {
         let next = state.world.tick().saturating_add(1);
         let countdown = |sprite: Sprite| {
             let traits = &self.0.types[sprite.stype.index()].traits;
+            // A spreader spreads at age 2.
+            if is_a(sprite.stype, C::Spreader) && sprite.count < 2 && traits.spread_probability >= 1.0 {
+                let ticks = 2_i32.saturating_sub(sprite.count);
+                return Countdown {
+                    stype: sprite.stype,
+                    event: Event::Makes,
+                    ticks: Some(ticks),
+                    left: None,
+                };
+            }
             if !is_a(sprite.stype, C::SpawnPoint) {
                 let ticks = traits.limit.saturating_sub(sprite.count).saturating_add(2).max(1);
                 return Countdown { stype: sprite.stype, event: Event::Ends, ticks: Some(ticks), left: None };

@@ -2,7 +2,7 @@
 
 use crate::art::{Art, creatures, ground, passages, shots, things};
 use crate::colour::{self, Colour};
-use engine::analysis::{Harm, Key, Motion, Role, Steering};
+use engine::analysis::{EffectSummary, Harm, Key, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType};
 
 /// Declares the glyphs in one place: variant, form, meaning, colour, letters of a terminal, drawing.
@@ -140,10 +140,11 @@ impl Glyph {
             Role::Wall => Glyph::Wall,
             Role::Cover => Glyph::Cover,
             Role::Refuge => Glyph::Refuge,
-            Role::Floor if is_thing(analysis, stype) => neutral(analysis.game().class(stype)),
-            Role::Floor => Glyph::Floor,
             Role::Neutral if analysis.sign(stype).is_some() => Glyph::Sign,
-            Role::Neutral if still => neutral(analysis.game().class(stype)),
+            Role::Floor if is_thing(analysis, stype) && analysis.sign(stype).is_some() => Glyph::Sign,
+            Role::Floor if is_thing(analysis, stype) => neutral(analysis, stype),
+            Role::Floor => Glyph::Floor,
+            Role::Neutral if still => neutral(analysis, stype),
             Role::Neutral if matches!(facts.motion, Motion::Straight(_)) => Glyph::Raft,
             Role::Neutral => Glyph::Friend,
         }
@@ -214,9 +215,16 @@ fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     locks.next().map_or(Glyph::Key, |lock| glyph(&lock.key))
 }
 
-fn neutral(class: Option<SpriteClass>) -> Glyph {
-    match class {
-        Some(SpriteClass::Conveyor) => Glyph::Conveyor,
+fn neutral(analysis: &Analysis, stype: SpriteType) -> Glyph {
+    let carries = || {
+        let mut met = analysis.encounters().iter();
+        met.any(|met| {
+            met.second.is_some_and(|second| analysis.applies(second, stype))
+                && met.does(|effect| *effect == EffectSummary::Carry)
+        })
+    };
+    match analysis.game().class(stype) {
+        Some(SpriteClass::Conveyor) if carries() => Glyph::Conveyor,
         Some(SpriteClass::Portal) => Glyph::Portal,
         Some(class) if class.is_a(SpriteClass::SpawnPoint) => Glyph::Maker,
         _ => Glyph::Neutral,

@@ -78,7 +78,8 @@ impl Prospects {
         self.counts_down
     }
 
-    /// Returns the next event of each type that counts down: `molehill makes one in 4 (2 left)`, `fire ends in 3`.
+    /// Returns the next event of each type that counts down, if it comes before the time is up: `molehill acts in 4 (2 left)`,
+    /// `fire ends in 3`.
     pub(crate) fn countdowns(&self, game: &Game, state: &State) -> String {
         let mut next: Vec<Countdown> = Vec::new();
         for found in game.countdowns(state) {
@@ -98,7 +99,9 @@ impl Prospects {
                 (None, _) => format!("{name}{left}"),
             }
         };
-        let told = |countdown: &&Countdown| countdown.ticks.is_some() || countdown.left.is_some();
+        let left = self.deadline.map_or(i32::MAX, |(limit, _)| limit.saturating_sub(state.tick()));
+        let told =
+            |countdown: &&Countdown| countdown.ticks.map_or(countdown.left.is_some(), |ticks| ticks <= left);
         next.iter().filter(told).map(part).collect::<Vec<_>>().join(", ")
     }
 }

@@ -349,3 +349,25 @@ fn signs_point_as_they_are_set() {
     let turned = drawn(["UP", "LEFT"], [Action::Right, Action::Left]);
     assert_eq!(turned, drawn(["UP", "RIGHT"], [Action::Nil; 2]));
 }
+
+/// Forms follow what the rules say, not the class alone: a flood is dammed and not filled, a vane turns what comes to it, and a
+/// conveyor that carries nothing is a thing like others.
+#[test]
+fn forms_follow_the_rules() {
+    let source = GAME
+        .replace(
+            "    LevelMapping\n",
+            "        spring > Spreader stype=flood limit=90\n        flood > Immovable\n        vane > Conveyor orientation=UP\n        \
+                belt > Conveyor\n        mat > Conveyor\n    LevelMapping\n        s > floor spring\n        v > floor vane\n        \
+                z > floor belt\n        y > floor mat\n",
+        )
+        .replace(
+            "    TerminationSet\n",
+            "        flood tub > killSprite\n        marten flood > killSprite\n        dart vane > align\n        \
+                newt belt > pullWithIt\n        newt mat > reverseDirection\n    TerminationSet\n",
+        );
+    let analysis = Analysis::of(&Game::from_source(&source).unwrap());
+    let glyph = |name: &str| Glyph::of(&analysis, analysis.game().sprite_type(name).unwrap());
+    let found = ["flood", "drain", "vane", "belt", "mat"].map(glyph);
+    assert_eq!(found, [Glyph::Hazard, Glyph::Socket, Glyph::Sign, Glyph::Conveyor, Glyph::Neutral]);
+}

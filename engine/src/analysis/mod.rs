@@ -43,6 +43,7 @@ pub use win_methods::WinMethod;
 use crate::game::Game;
 use crate::geometry::Direction;
 use crate::rules::SpriteType;
+use crate::rules::effects::Turn;
 use futures::{PossibleFutures, Start};
 use lock::Touches;
 use pairs::Pairs;
@@ -149,14 +150,18 @@ impl Analysis {
         })
     }
 
-    /// Returns the direction, of unit length, of a sign: a type that stands still and faces somewhere, and on touching which others turn.
+    /// Returns the direction, of unit length, of a sign: a type that stands still and faces somewhere, and on touching which others turn, back or its own way.
     /// Rules may turn its sprites too. Cost: O(encounters).
     pub fn sign(&self, stype: SpriteType) -> Option<Direction> {
         let traits = &self.game.0.types[stype.index()].traits;
         let faces = traits.is_oriented && traits.orientation != Direction::NONE;
         let turns = |encounter: &Encounter| {
             let is_other = encounter.second.is_some_and(|written| self.applies(written, stype));
-            is_other && encounter.does(|effect| *effect == EffectSummary::Turn)
+            let takes_its_way = || {
+                let effect = &self.game.0.effects[usize::from(encounter.effect)];
+                effect.summary.turn == Some(Turn::OfPartner)
+            };
+            is_other && (encounter.does(|effect| *effect == EffectSummary::Turn) || takes_its_way())
         };
         let is_sign = faces && self.facts(stype).motion == Motion::Still && self.encounters.iter().any(turns);
         is_sign.then_some(traits.orientation)

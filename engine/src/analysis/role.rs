@@ -184,7 +184,9 @@ impl Analysis {
             let asked = [pushable.stype, stype].iter().any(|stype| self.aims.remove.contains(stype));
             let made = matches!(sink.fate, Fate::Becomes(to) if self.aims.create.contains(&to));
             let harmless = harm == Harm::None && self.touches.iter().all(|row| !row[stype.index()].blocks);
-            asked || made || sink.fills || !sink.opens.is_empty() || harmless
+            // What only play makes, a flood, say, is dammed and not filled.
+            let fills = sink.fills && (harm == Harm::None || !self.facts[stype.index()].symbols.is_empty());
+            asked || made || fills || !sink.opens.is_empty() || harmless
         })
     }
 

@@ -28,3 +28,26 @@ fn countdowns_foretell_what_happens() {
     }
     assert_eq!((made, ended), (2, 1));
 }
+
+/// A spreader counts to the tick in which it spreads, and then to its end.
+#[test]
+fn spreaders_foretell_both() {
+    let game = "BasicGame\n    SpriteSet\n        dough > Spreader stype=loaf age=-4 limit=4\n        loaf > Immovable\n        \
+        cook > MovingAvatar\n    LevelMapping\n        d > dough\n        A > cook\n    InteractionSet\n    TerminationSet\n        \
+        Timeout limit=90\n";
+    let game = Game::from_source(game).unwrap();
+    let mut state = game.start(&game.level("A    \n  d  \n     \n").unwrap(), Seed::from_text("dough"));
+    let count = |state: &engine::State, name: &str| state.alive(game.sprite_type(name).unwrap());
+    let mut seen = Vec::new();
+    while let [known] = game.countdowns(&state)[..] {
+        let loaves = count(&state, "loaf");
+        game.step(&mut state, Action::Nil);
+        let spreads = count(&state, "loaf") > loaves;
+        assert_eq!(spreads, known.event == Event::Makes && known.ticks == Some(1), "{known:?}");
+        seen.push((known.event, known.ticks.unwrap()));
+    }
+    let makes = (1..=6).rev().map(|ticks| (Event::Makes, ticks));
+    let ends = (1..=4).rev().map(|ticks| (Event::Ends, ticks));
+    assert_eq!(seen, makes.chain(ends).collect::<Vec<_>>());
+    assert_eq!((count(&state, "dough"), count(&state, "loaf")), (0, 4));
+}

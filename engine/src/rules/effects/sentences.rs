@@ -411,13 +411,18 @@ impl Effect {
                 Sentence::of("{one} {one:turn|turns} in a random direction on touching {two}")
                     .alone("{every} {every:turn|turns} in a random direction")
             }
-            Effect::AttractGaze { prob, .. } => {
-                Sentence::of("{one} {one:turn|turns} to face the way of {two} on touching {two}{chance}")
-                    .scored_if(prob)
-                    .with("chance", Value::Chance(prob))
-            }
-            Effect::Align { .. } => {
-                Sentence::of("{one} {one:are|is} put in the place of {two} on touching {two}")
+            Effect::AttractGaze { prob, align } => Sentence::of(
+                "{one} {one:turn|turns} to face the way of {two} on touching {two}{aligned}{chance}",
+            )
+            .part("aligned", align, ", in line with it")
+            .scored_if(prob)
+            .with("chance", Value::Chance(prob)),
+            Effect::Align { orient } => {
+                Sentence::of("{one} {one:are|is} put in the place of {two} on touching {two}{turned}").part(
+                    "turned",
+                    orient,
+                    ", and {one:face|faces} its way",
+                )
             }
             Effect::BounceForward => Sentence::of("{two} {two:push|pushes} {one}"),
             Effect::PullWithIt { .. } => Sentence::of("{two} {two:carry|carries} {one} along"),
