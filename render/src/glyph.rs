@@ -68,6 +68,7 @@ glyphs! {
     Maker, "a hatch with a plus", "makes other things", PURPLE, "⊞ ", "%+", passages::maker;
     Boulder, "a rock", "falls, blocks, may crush", STONE, "● ", "O ", things::boulder;
     Crate, "a crossed crate", "can be pushed", WOOD, "▣ ", "[]", things::crossed_crate;
+    Pointer, "a crate with an arrow", "can be pushed, turns what comes to it", WOOD, "▷ ", "[>", things::pointer;
     Key, "a key", "opens something", YELLOW, "¬ ", "k ", things::key;
     Switch, "a button", "touch it to open", ORANGE, "⊙ ", "o ", things::switch;
     Token, "a coin", "a resource to hold", YELLOW, "○ ", "$ ", things::token;
@@ -109,6 +110,7 @@ impl Glyph {
             Role::Shot => Glyph::Bolt,
             Role::Portal => Glyph::Portal,
             Role::PortalExit => Glyph::PortalExit,
+            Role::Pushable if analysis.sign(stype).is_some() => Glyph::Pointer,
             Role::Pushable => Glyph::Crate,
             Role::Gate | Role::Hazard if lies_under(analysis, stype) => Glyph::Mire,
             Role::Key | Role::Collectable if lies_under(analysis, stype) => Glyph::Spring,
@@ -131,6 +133,10 @@ impl Glyph {
             Role::Prey => Glyph::Prey,
             Role::Key => key(analysis, stype),
             Role::Soil => Glyph::Soil,
+            Role::Collectable if still && !wanted && is_source(analysis, stype) => Glyph::Spring,
+            Role::Collectable if still && !wanted && changes_speed(analysis, stype).is_some() => {
+                Glyph::Switch
+            }
             Role::Collectable if wanted && still => Glyph::Treasure,
             Role::Collectable if wanted => Glyph::Prey,
             Role::Collectable if !still => Glyph::Friend,
@@ -162,7 +168,10 @@ impl Glyph {
     /// Returns `true` if the tile turns with the sprite's orientation.
     pub(crate) fn turns(self) -> bool {
         use Glyph as G;
-        matches!(self, G::Craft | G::Charger | G::HostileShot | G::Bolt | G::Blade | G::Conveyor | G::Sign)
+        matches!(
+            self,
+            G::Craft | G::Charger | G::HostileShot | G::Bolt | G::Blade | G::Conveyor | G::Sign | G::Pointer
+        )
     }
 
     /// Returns `true` if the tile fills its cell: neighbours join, and other sprites of the cell are drawn over it.
@@ -198,6 +207,27 @@ fn is_thing(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let above = |symbol: &u8| game.places(*symbol).last() == Some(&stype);
     !analysis.is_scenery(stype) && analysis.facts(stype).symbols.iter().all(above)
+}
+
+/// Returns `true` if it gives a resource to every avatar that touches it, and stays.
+fn is_source(analysis: &Analysis, stype: SpriteType) -> bool {
+    let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    touches.all(|touch| !touch.ends_other() && touch.gives.iter().any(|&(_, by)| by > 0))
+}
+
+/// Returns the type whose speed changes when an avatar touches a type.
+pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
+    let is_avatar =
+        |written: SpriteType| analysis.avatars().iter().any(|avatar| analysis.applies(written, avatar.stype));
+    analysis.encounters().iter().find_map(|met| {
+        let second = met.second?;
+        let is_met = (analysis.applies(met.first, stype) && is_avatar(second))
+            || (analysis.applies(second, stype) && is_avatar(met.first));
+        met.effects.iter().find_map(|effect| match *effect {
+            EffectSummary::Speed(Some(of)) if is_met && of != stype && !is_avatar(of) => Some(of),
+            _ => None,
+        })
+    })
 }
 
 /// Returns the glyph of a type that gives a key: a button if touching it is enough, coins if many can be held.

@@ -42,7 +42,7 @@ pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Resu
                 let front = match own.filter(|avatar| turns && avatar.name == *name) {
                     Some(avatar) => unit((avatar.facing.x, avatar.facing.y)),
                     // Signs that are turned are among the movers.
-                    None if look.glyph == Glyph::Sign => {
+                    None if matches!(look.glyph, Glyph::Sign | Glyph::Pointer) => {
                         let set = observation.movers.iter().find(is_here);
                         set.map_or(looks.front(stype), |mover| unit((mover.facing.x, mover.facing.y)))
                     }

@@ -1,7 +1,7 @@
 //! The prospects that the rules allow a player to know: time left, what a win still needs, countdowns, who moves how.
 
 use crate::figure::Form;
-use crate::glyph::Glyph;
+use crate::glyph::{Glyph, changes_speed};
 use engine::analysis::{Condition, EffectSummary, Goal, Harm, Key, Motion};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
@@ -138,7 +138,36 @@ fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
 fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let avatars = analysis.avatars().iter();
     let opened = avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied());
-    opened.chain(uses(analysis, stype)).collect()
+    opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
+}
+
+/// Returns what the count of a type does, if some number of them ends the game: `2 win`, `one, and you lose`.
+fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let mut goals: Vec<&Goal> = analysis.goals().iter().collect();
+    goals.sort_by_key(|goal| !goal.win);
+    goals.into_iter().find_map(|goal| {
+        let count = match &goal.condition {
+            Condition::AtLeast(types, limit) if types.contains(&stype) => limit.to_string(),
+            Condition::Exactly(types, limit) if *limit > 0 && types.contains(&stype) => {
+                let left = if !goal.win && analysis.only_falls(types) { "only" } else { "exactly" };
+                format!("{left} {limit}{}", if types.len() > 1 { " in all" } else { "" })
+            }
+            _ => return None,
+        };
+        Some(match (goal.win, count.as_str()) {
+            (true, "1") => "one wins".to_owned(),
+            (true, count) => format!("{count} win"),
+            (false, "1") => "one, and you lose".to_owned(),
+            (false, count) => format!("{count}, and you lose"),
+        })
+    })
+}
+
+/// Returns the resource that a type gives to the avatar.
+fn given(analysis: &Analysis, stype: SpriteType) -> Option<&str> {
+    let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let resource = touches.find_map(|touch| touch.gives.iter().find(|(_, by)| *by > 0))?.0;
+    Some(analysis.game().name(resource))
 }
 
 /// Returns what the avatar has from a thing that no rule requires.
@@ -194,7 +223,9 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
     };
     match glyph {
-        _ if analysis.aims().prevent.contains(&stype) => "too many, and you lose".to_owned(),
+        _ if analysis.aims().prevent.contains(&stype) => {
+            ending(analysis, stype).unwrap_or_else(|| glyph.meaning().to_owned())
+        }
         Glyph::Neutral if form == Form::Glyph(Glyph::Floor) => "ground".to_owned(),
         Glyph::Enemy | Glyph::Charger | Glyph::Friend | Glyph::Raft if !motion.is_empty() => {
             format!("{motion}, {harm}")
@@ -210,6 +241,9 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         Glyph::Switch => named("touch it to change", &changed(analysis, stype)),
         Glyph::Key | Glyph::Token => named("needed for", &uses(analysis, stype)),
         Glyph::Gem => gain(analysis, stype),
+        Glyph::Spring if blocks() => {
+            given(analysis, stype).map_or_else(|| glyph.meaning().to_owned(), |name| format!("gives {name}"))
+        }
         Glyph::Gate => match analysis.locks().iter().find(|lock| lock.stype == stype).map(|lock| &lock.key) {
             Some(Key::Resource { resource, amount: 1, .. }) => format!("needs {}", game.name(*resource)),
             Some(Key::Resource { resource, amount, .. }) => {

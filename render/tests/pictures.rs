@@ -167,7 +167,7 @@ fn what_loses_the_game_by_its_coming_is_not_called_harmless() {
         source.replace("InteractionSet\n", "InteractionSet\n        plum newt > transformTo stype=rotten\n");
     let game = Game::from_source(&source).unwrap();
     let looks = Looks::of(&Analysis::of(&game));
-    assert_eq!(looks.meaning(game.sprite_type("rotten").unwrap()), "too many, and you lose");
+    assert_eq!(looks.meaning(game.sprite_type("rotten").unwrap()), "one, and you lose");
 }
 
 #[test]
@@ -350,24 +350,36 @@ fn signs_point_as_they_are_set() {
     assert_eq!(turned, drawn(["UP", "RIGHT"], [Action::Nil; 2]));
 }
 
-/// Forms follow what the rules say, not the class alone: a flood is dammed and not filled, a vane turns what comes to it, and a
-/// conveyor that carries nothing is a thing like others.
+/// Forms follow what the rules say, not the class alone: a flood is dammed and not filled, vanes and boards turn what comes to them, a
+/// conveyor that carries nothing is a thing like others, a pond gives, and a lever changes others.
 #[test]
 fn forms_follow_the_rules() {
     let source = GAME
         .replace(
             "    LevelMapping\n",
             "        spring > Spreader stype=flood limit=90\n        flood > Immovable\n        vane > Conveyor orientation=UP\n        \
-                belt > Conveyor\n        mat > Conveyor\n    LevelMapping\n        s > floor spring\n        v > floor vane\n        \
-                z > floor belt\n        y > floor mat\n",
+                belt > Conveyor\n        mat > Conveyor\n        board > Passive orientation=UP\n        pond > Immovable\n        bead > Resource limit=9\n        \
+                lever > Immovable\n        shell > Immovable\n    LevelMapping\n        s > floor spring\n        v > floor vane\n        \
+                z > floor belt\n        y > floor mat\n        o > floor board\n        q > floor pond\n        x > floor lever\n",
         )
         .replace(
             "    TerminationSet\n",
             "        flood tub > killSprite\n        marten flood > killSprite\n        dart vane > align\n        \
-                newt belt > pullWithIt\n        newt mat > reverseDirection\n    TerminationSet\n",
+                newt belt > pullWithIt\n        newt mat > reverseDirection\n        board marten > bounceForward\n        \
+                dart board > align\n        marten pond > changeResource resource=bead value=1\n        marten pond > stepBack\n        \
+                lever marten > decreaseSpeedToAll stype=newt value=0.4\n        lever marten > killSprite scoreChange=1\n        \
+                plum newt > transformTo stype=shell\n    TerminationSet\n        SpriteCounterMore stype=shell limit=2 win=False\n        \
+                MultiSpriteCounter stype1=newt limit=3 win=False\n",
         );
     let analysis = Analysis::of(&Game::from_source(&source).unwrap());
     let glyph = |name: &str| Glyph::of(&analysis, analysis.game().sprite_type(name).unwrap());
     let found = ["flood", "drain", "vane", "belt", "mat"].map(glyph);
     assert_eq!(found, [Glyph::Hazard, Glyph::Socket, Glyph::Sign, Glyph::Conveyor, Glyph::Neutral]);
+    assert_eq!(["board", "pond", "lever"].map(glyph), [Glyph::Pointer, Glyph::Spring, Glyph::Switch]);
+    let looks = Looks::of(&analysis);
+    let meaning = |name: &str| looks.meaning(analysis.game().sprite_type(name).unwrap());
+    assert_eq!(
+        ["pond", "lever", "shell", "newt"].map(meaning),
+        ["gives bead", "touch it to change newt", "2, and you lose", "only 3, and you lose"]
+    );
 }

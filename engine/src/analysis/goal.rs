@@ -2,6 +2,7 @@
 
 use super::Analysis;
 use super::attain::Attainable;
+use super::encounter::{EffectSummary, timed_effects};
 use crate::rules::terminations::Condition as Written;
 use crate::rules::{Rules, SpriteType};
 use crate::state::State;
@@ -155,6 +156,48 @@ impl Analysis {
     /// The demands of the terminations on the player.
     pub fn aims(&self) -> &Aims {
         &self.aims
+    }
+
+    /// Returns `true` if there are never more sprites of these types together than a level begins with: what makes one takes
+    /// another. Cost: O(encounters × types).
+    pub fn only_falls(&self, types: &[SpriteType]) -> bool {
+        let game = &self.game;
+        let one_of = |stype: &SpriteType| types.contains(stype);
+        let all_of = |written: SpriteType| {
+            game.sprite_types().filter(|stype| self.applies(written, *stype)).all(|stype| one_of(&stype))
+        };
+        let is_made = |maker: SpriteType| {
+            let facts = self.facts(maker);
+            facts.possible && facts.makes.iter().any(one_of)
+        };
+        let adds = |effect: &EffectSummary, first: Option<SpriteType>| match effect {
+            EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
+                effect.makes().iter().any(one_of) && !first.is_some_and(all_of)
+            }
+            EffectSummary::BecomeAll(from, to) => one_of(to) && !all_of(*from),
+            EffectSummary::Clone => {
+                first.is_none_or(|first| game.sprite_types().any(|s| one_of(&s) && self.applies(first, s)))
+            }
+            EffectSummary::Make(to) => one_of(to),
+            EffectSummary::Kill(_)
+            | EffectSummary::KillAll(_)
+            | EffectSummary::Stop
+            | EffectSummary::Undo(_)
+            | EffectSummary::Turn
+            | EffectSummary::Push
+            | EffectSummary::Carry
+            | EffectSummary::Teleport
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Shield { .. } => false,
+        };
+        let timed = timed_effects(&game.0);
+        !game.sprite_types().any(is_made)
+            && !self.encounters.iter().any(|met| met.does(|effect| adds(effect, Some(met.first))))
+            && !timed.iter().any(|(target, effects)| effects.iter().any(|effect| adds(effect, *target)))
     }
 
     /// Returns the termination that would end the game if this state were the end of a tick. Cost: O(goals × types).

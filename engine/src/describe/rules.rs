@@ -155,6 +155,10 @@ pub(super) fn ending(analysis: &Analysis, condition: &Condition, win: bool) -> S
         }
         Condition::AtMost(_, limit) => limited(Phrase::AtMost, *limit),
         Condition::AtLeast(_, limit) => limited(Phrase::AtLeast, *limit),
+        // What begins with more and never grows.
+        Condition::Exactly(types, limit) if !win && analysis.only_falls(types) => {
+            limited(Phrase::OnlyLeft, *limit)
+        }
         Condition::Exactly(_, limit) => limited(Phrase::Exactly, *limit),
         Condition::Tick(limit) => {
             // The first step is tick 0 of the reference, and any tick is one at the earliest.

@@ -115,7 +115,16 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
 /// The way that a sign faces.
 fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let way = direction_name(analysis.sign(stype)?)?;
-    let phrase = if is_turned(analysis, stype) { Phrase::FacesFirst } else { Phrase::Faces };
+    let is_pushed = |encounter: &Encounter| {
+        analysis.applies(encounter.first, stype) && encounter.does(|effect| *effect == EffectSummary::Push)
+    };
+    let phrase = if is_turned(analysis, stype) {
+        Phrase::FacesFirst
+    } else if analysis.encounters().iter().any(is_pushed) {
+        Phrase::FacesPush
+    } else {
+        Phrase::Faces
+    };
     Some(phrase.with(&[("way", way)]))
 }
 

@@ -135,6 +135,15 @@ pub(crate) fn gem(art: &mut Art) {
     art.fill(Outline::star(0.34, 0.32, 4, 0.11, 0.04), PAPER);
 }
 
+/// A crate with an arrow.
+pub(crate) fn pointer(art: &mut Art) {
+    let main = art.main();
+    art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.05), main);
+    let arrow = [[0.2, 0.4], [0.5, 0.4], [0.5, 0.24], [0.82, 0.5], [0.5, 0.76], [0.5, 0.6], [0.2, 0.6]];
+    art.fill(Outline::polygon(&arrow), PAPER);
+    art.stroke(Outline::polygon(&arrow), INK, 0.03);
+}
+
 pub(crate) fn sign(art: &mut Art) {
     let main = art.main();
     let arrow = [[0.08, 0.38], [0.5, 0.38], [0.5, 0.16], [0.92, 0.5], [0.5, 0.84], [0.5, 0.62], [0.08, 0.62]];

@@ -437,14 +437,15 @@ impl Effect {
             }
             Effect::ChangeSpeed { stype, value, how } => {
                 let alone = match how {
-                    SpeedChange::Increase => "every {type} becomes faster by {value}",
-                    SpeedChange::Decrease => "every {type} becomes slower by {value}",
-                    SpeedChange::Set => "the speed of every {type} becomes {value}",
+                    SpeedChange::Increase => "each step of every {type} becomes {value} longer",
+                    SpeedChange::Decrease => "each step of every {type} becomes {value} shorter",
+                    SpeedChange::Set => "each step of every {type} becomes {value} long",
                 };
+                let cells = if value == 1.0 { "a cell".to_owned() } else { format!("{value} cells") };
                 Sentence::of("when {one} {one:touch|touches} {two}, {alone}")
                     .alone(alone)
                     .with("type", Value::Name(stype))
-                    .with("value", Value::Decimal(value))
+                    .with("value", Value::Text(cells))
             }
             Effect::WaterPhysics => {
                 Sentence::of("{one} {one:sink|sinks} slowly from then on on touching {two}")
