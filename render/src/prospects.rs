@@ -146,14 +146,18 @@ fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut goals: Vec<&Goal> = analysis.goals().iter().collect();
     goals.sort_by_key(|goal| !goal.win);
     goals.into_iter().find_map(|goal| {
-        let count = match &goal.condition {
-            Condition::AtLeast(types, limit) if types.contains(&stype) => limit.to_string(),
-            Condition::Exactly(types, limit) if *limit > 0 && types.contains(&stype) => {
-                let left = if !goal.win && analysis.only_falls(types) { "only" } else { "exactly" };
-                format!("{left} {limit}{}", if types.len() > 1 { " in all" } else { "" })
+        let (degree, types, limit) = match &goal.condition {
+            Condition::AtLeast(types, limit) => ("", types, limit),
+            Condition::Exactly(types, limit) if !goal.win && analysis.only_falls(types) => {
+                ("only ", types, limit)
             }
-            _ => return None,
+            Condition::Exactly(types, limit) => ("exactly ", types, limit),
+            Condition::AtMost(..) | Condition::Tick(_) => return None,
         };
+        if *limit <= 0 || !types.contains(&stype) {
+            return None;
+        }
+        let count = format!("{degree}{limit}{}", if types.len() > 1 { " in all" } else { "" });
         Some(match (goal.win, count.as_str()) {
             (true, "1") => "one wins".to_owned(),
             (true, count) => format!("{count} win"),
