@@ -19,9 +19,6 @@ const LEAST_OF_ROUND: usize = 4;
 /// Games judged in a row, none of them accepted, after which an archive is given up: what is left of it seldom passes.
 const DRY: usize = 48;
 
-/// Archives in a row that made nothing, after which none follows.
-const BARREN: u32 = 3;
-
 /// The feasibility of a game that a look took for feasible and the last judges did not.
 const REFUSED: f64 = 0.95;
 
@@ -36,7 +33,7 @@ struct Filling {
 }
 
 impl Maker<'_> {
-    /// Fills archives, one after the other, until enough games are accepted, all rounds are spent, or [`BARREN`] have made nothing.
+    /// Fills archives, one after the other, until enough games are accepted, all rounds are spent, or an archive has made nothing.
     /// With sets of rules of its own there is one archive, which is never given up.
     pub(super) fn evolved(&self, own: Option<Own<'_>>) -> GameSet {
         let dry = if own.is_some() { usize::MAX } else { DRY };
@@ -44,13 +41,11 @@ impl Maker<'_> {
         let (set, company) = (GameSet::default(), Company::of(self.order));
         let mut filling = Filling { set, company, shown: BTreeSet::new(), rounds: 0 };
         let wanted = self.order.count as usize;
-        let mut barren = 0;
         for number in 0.. {
             let before = filling.set.games.len();
             self.archive(number, &variation, dry, &mut filling);
             let made = filling.set.games.len();
-            barren = if made == before { barren + 1 } else { 0 };
-            if made == wanted || barren == BARREN || filling.rounds == self.order.effort.attempts {
+            if made == wanted || made == before || filling.rounds == self.order.effort.attempts {
                 break;
             }
         }
@@ -135,14 +130,15 @@ mod tests {
     use crate::levels::Method;
     use engine::Seed;
 
-    /// As many rounds as it takes to judge [`DRY`] games, not all that there are; [`BARREN`] archives, not one after the other.
+    /// As many rounds as it takes to judge [`DRY`] games, not all that there are; one archive, not one after the other.
     #[test]
-    fn dry_archives_are_given_up() {
-        let looks = LEAST_OF_ROUND as u32;
+    fn a_dry_archive_is_given_up() {
+        let looks = 12;
         let order = GameOrder { method: Method::Evolutionary, least_interactions: usize::MAX, ..order() };
         let order = GameOrder { effort: GameEffort { attempts: 1000, looks, ..order.effort }, ..order };
         let made = make_games(&order, &[], "", Seed::from_text("dry"), &());
         let Err(GamesError::NoneAccepted { looks: spent, .. }) = made else { panic!("{made:?}") };
-        assert_eq!(spent, u64::from(BARREN) * DRY as u64);
+        let (first, rounds) = (u64::from(looks), (DRY / LEAST_OF_ROUND) as u64);
+        assert_eq!(spent, first + (rounds - 1) * LEAST_OF_ROUND as u64);
     }
 }
