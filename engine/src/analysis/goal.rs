@@ -170,29 +170,14 @@ impl Analysis {
             let facts = self.facts(maker);
             facts.possible && facts.makes.iter().any(one_of)
         };
-        let adds = |effect: &EffectSummary, first: Option<SpriteType>| match effect {
-            EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
-                effect.makes().iter().any(one_of) && !first.is_some_and(all_of)
+        let adds = |effect: &EffectSummary, first: Option<SpriteType>| {
+            if *effect == EffectSummary::Clone {
+                return first
+                    .is_none_or(|first| game.sprite_types().any(|s| one_of(&s) && self.applies(first, s)));
             }
-            EffectSummary::BecomeAll(from, to) => one_of(to) && !all_of(*from),
-            EffectSummary::Clone => {
-                first.is_none_or(|first| game.sprite_types().any(|s| one_of(&s) && self.applies(first, s)))
-            }
-            EffectSummary::Make(to) => one_of(to),
-            EffectSummary::Kill(_)
-            | EffectSummary::KillAll(_)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Collect
-            | EffectSummary::Change { .. }
-            | EffectSummary::Health { .. }
-            | EffectSummary::Shield { .. } => false,
+            let replaced = if let EffectSummary::BecomeAll(from, _) = effect { Some(*from) } else { first };
+            let takes_one = !matches!(effect, EffectSummary::Make(_)) && replaced.is_some_and(all_of);
+            effect.makes().iter().any(one_of) && !takes_one
         };
         let timed = timed_effects(&game.0);
         !game.sprite_types().any(is_made)
