@@ -156,7 +156,7 @@ pub(crate) fn mark(at: u8) -> &'static [Part] {
     &TABLE[usize::from(at)].parts
 }
 
-/// The picture that a game names for a type.
+/// The picture that a game names for a type, or that the name of the type calls for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hint<'a> {
     /// Its role, in composed games.
@@ -179,6 +179,22 @@ impl<'a> Hint<'a> {
             }
             _ => Hint { role: None, adjective: None, noun: parts.last().copied().unwrap_or("") },
         }
+    }
+
+    /// Returns the hint of the name of a type that has no `img=`; `None` where the glyph of the rules shows a way, as those of
+    /// portals and signs do, which no noun tells.
+    pub(crate) fn of_name(name: &'a str, glyph: Glyph) -> Option<Hint<'a>> {
+        use Glyph as G;
+        let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
+        let hint = Hint { role: None, adjective: None, noun: name };
+        // Nothing that is held has a face, and what is dug away is ground.
+        let form = hint.form(glyph);
+        let is_apt = match glyph {
+            G::Token | G::Key => !form.has_face(),
+            G::Soil => form.is_ground(),
+            _ => true,
+        };
+        (!shows_way && is_apt).then_some(hint)
     }
 
     /// Returns the form of a type whose rules suggest `glyph`.

@@ -82,9 +82,17 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// Computes the looks of an analysed game, with the pictures that it names. Cost: O(types²).
+    /// Computes the looks of an analysed game, with the pictures that it names, or that the names of its types call for. Cost:
+    /// O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
-        let looks = Looks::with_pictures(analysis, &pictures(analysis.game()));
+        let named = pictures(analysis.game());
+        let by_name = |stype: SpriteType, glyph: Glyph| match named.get(&stype) {
+            Some(img) => Some(Hint::of(img)),
+            None => Hint::of_name(analysis.game().name(stype), glyph),
+        };
+        let mut looks = Looks::with_hints(analysis, by_name);
+        let is_floor = |(_, img): &(&SpriteType, &String)| Hint::of(img).role == Some("floor");
+        looks.floor = named.iter().find(is_floor).map(|(&stype, _)| stype);
         let told = |stype: SpriteType| meaning(analysis, stype, looks.look(stype).form);
         let meanings = analysis.game().sprite_types().map(told).collect();
         Looks { meanings, ..looks }
@@ -93,10 +101,10 @@ impl Looks {
     /// Computes the looks that follow from the rules alone, whatever pictures the game names, with the meanings of the
     /// glyphs. Cost: O(types²).
     pub fn of_rules(analysis: &Analysis) -> Looks {
-        Looks::with_pictures(analysis, &BTreeMap::new())
+        Looks::with_hints(analysis, |_, _| None)
     }
 
-    fn with_pictures(analysis: &Analysis, pictures: &BTreeMap<SpriteType, String>) -> Looks {
+    fn with_hints<'a>(analysis: &Analysis, hint_of: impl Fn(SpriteType, Glyph) -> Option<Hint<'a>>) -> Looks {
         let game = analysis.game();
         let is_shown = |stype: &SpriteType| {
             let facts = analysis.facts(*stype);
@@ -112,7 +120,7 @@ impl Looks {
         order.sort_by_key(|stype| glyphs[stype.index()] == Glyph::Gate);
         for stype in order {
             let glyph = glyphs[stype.index()];
-            let hint = pictures.get(&stype).map(|img| Hint::of(img));
+            let hint = hint_of(stype, glyph);
             let form = hint.map_or(Form::Glyph(glyph), |hint| hint.form(glyph));
             let (mark, mood) = (hint.and_then(Hint::mark), hint.map_or(Mood::Calm, |hint| hint.mood(glyph)));
             let before = seen.iter().filter(|look| look.form == form).count();
@@ -134,11 +142,19 @@ impl Looks {
         let holdings = health || !analysis.resources().is_empty();
         let meanings = glyphs.iter().map(|glyph| glyph.meaning().to_owned()).collect();
         let prospects = Prospects::of(analysis);
-        let is_floor = |(_, img): &(&SpriteType, &String)| Hint::of(img).role == Some("floor");
-        let floor = pictures.iter().find(is_floor).map(|(&stype, _)| stype);
         let front = |stype| analysis.sign(stype).and_then(|way| unit((way.x, way.y)));
         let fronts = game.sprite_types().map(front).collect();
-        Looks { game: game.clone(), looks, visible, shown, holdings, meanings, prospects, floor, fronts }
+        Looks {
+            game: game.clone(),
+            looks,
+            visible,
+            shown,
+            holdings,
+            meanings,
+            prospects,
+            floor: None,
+            fronts,
+        }
     }
 
     /// Returns the game that they belong to.
