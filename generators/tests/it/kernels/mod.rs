@@ -149,7 +149,7 @@ fn a_faulty_kernel_is_refused_with_its_fault() {
     };
     check("kind =", "sort =", "unknown field `sort`");
     check("slot = \"exam\"", "slot = \"final\"", "unknown variant `final`");
-    check(": hero", ": hero@nowhere", "there is no place `@nowhere`");
+    check(": draw threeIsles", ": hero@nowhere", "there is no place `@nowhere`");
     check("TerminationSet", "", "the rules have no TerminationSet");
     let form = "[[form]]\nname = \"other\"\ngoal = \"Leave\"\nterminations = \"\"\n\n";
     check("[[level]]", &format!("{form}{form}[[level]]"), "two forms are called `other`");
