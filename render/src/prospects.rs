@@ -2,7 +2,7 @@
 
 use crate::figure::Form;
 use crate::glyph::{Glyph, changes_speed};
-use engine::analysis::{Condition, EffectSummary, Goal, Harm, Key, Motion};
+use engine::analysis::{Condition, EffectSummary, Goal, Harm, Key, Motion, Side};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
 /// The facts about a game that captions are made of.
@@ -192,6 +192,36 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
+/// Returns the types at which all of a type change, whoever comes to them.
+fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let opens =
+        |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
+    let encounters = analysis.encounters().iter();
+    encounters.filter(|encounter| encounter.does(opens)).map(|encounter| encounter.first).collect()
+}
+
+/// Returns what a still thing does with others that come to it: takes what has to go for the win, or changes all of a type.
+fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let (game, wanted) = (analysis.game(), &analysis.aims().remove);
+    let is_you = |other: SpriteType| analysis.avatars().iter().any(|avatar| avatar.stype == other);
+    let others = || game.sprite_types().filter(|&other| analysis.facts(other).possible && !is_you(other));
+    let takes = |other: &SpriteType| {
+        let goes = |side: Side| move |effect: &EffectSummary| *effect == EffectSummary::Kill(side);
+        analysis.between(*other, stype).any(|encounter| encounter.does(goes(Side::First)))
+            || analysis.between(stype, *other).any(|encounter| encounter.does(goes(Side::Second)))
+    };
+    if let Some(taken) = others().find(|other| wanted.contains(other) && takes(other)) {
+        return Some(format!("bring {} here", game.name(taken)));
+    }
+    others().find_map(|other| {
+        let mut effects = analysis.between(stype, other).flat_map(|encounter| &encounter.effects);
+        let changed = effects.find_map(|effect| {
+            if let EffectSummary::BecomeAll(from, _) = effect { Some(*from) } else { None }
+        })?;
+        Some(format!("{} here changes {}", game.name(other), game.name(changed)))
+    })
+}
+
 /// Returns the meaning of a type in legends: of its glyph, with its movement and harm.
 pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
     let glyph = Glyph::of(analysis, stype);
@@ -236,9 +266,10 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         }
         Glyph::Prey if !motion.is_empty() => format!("{}, {motion}", glyph.meaning()),
         Glyph::Neutral if blocks() => "solid".to_owned(),
-        Glyph::Neutral => harm.to_owned(),
+        Glyph::Neutral => use_of_others(analysis, stype).unwrap_or_else(|| harm.to_owned()),
         Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),
         Glyph::Wall if !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
+        Glyph::Wall => named("opened by", &openers(analysis, stype)),
         Glyph::Ward if analysis.facts(stype).fleeting => "soon gone".to_owned(),
         Glyph::Ward if analysis.aims().protect.contains(&stype) => "too few left, and you lose".to_owned(),
         Glyph::Ward => "others can spoil it".to_owned(),

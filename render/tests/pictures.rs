@@ -401,3 +401,21 @@ fn forms_follow_the_rules() {
         ["gives bead", "touch it to change newt", "2, and you lose", "only 3, and you lose"]
     );
 }
+
+#[test]
+fn legends_tell_what_others_are_brought_to() {
+    let source = GAME
+        .replace("hatch marten > killSprite", "newt hatch > killSprite")
+        .replace("tub drain > killSprite", "plum newt > transformToAll stype=latch stypeTo=floor")
+        .replace("plum marten > killSprite scoreChange=1", "newt marten > reverseDirection")
+        .replace("stype=hatch limit=0", "stype=newt limit=0")
+        .replace("latch marten > killIfOtherHasMore resource=pin limit=1\n", "\n")
+        .replace("marten thorn newt dart > killSprite", "marten thorn dart > killSprite");
+    let game = Game::from_source(&source).unwrap();
+    let looks = Looks::of(&Analysis::of(&game));
+    let meaning = |name: &str| looks.meaning(game.sprite_type(name).unwrap());
+    assert_eq!(
+        ["hatch", "plum", "latch", "wall"].map(meaning),
+        ["bring newt here", "newt here changes latch", "opened by plum", "blocks the way for good"]
+    );
+}
