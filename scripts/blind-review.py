@@ -4,8 +4,8 @@
     scripts/blind-review.py --arcade target/release/arcade --generated new-games --public gvgai/games \
         --corpus corpora --numbers 12 6 6 --seed autumn --out review
 
-Writes review/01 to review/24, each with rules.txt, level-0.png, level-2.png, level-4.png and two filmstrips of plays by the same
-planner, and review-key.json beside the folder, which reviewers must not see. Needs Pillow.
+Writes review/01 to review/24, each with rules.txt, level-0.png, level-2.png, level-4.png and two filmstrips of wins by the same
+planners, and review-key.json beside the folder, which reviewers must not see. Needs Pillow.
 
 With --pairs, review-pairs.txt lists each generated game beside one of the corpus, for the question which of the two a person made.
 """
@@ -19,7 +19,8 @@ import tempfile
 from filmstrip import frames, run, sheet
 
 FRAMES = 8
-PLANNER = "olets:300"
+# The players of a filmstrip in the order in which they try to win.
+PLANNERS = ["olets:300"] * 3 + ["olets:3000"] * 2 + ["systematic:300000"]
 TICKS = 160
 
 
@@ -45,22 +46,23 @@ def rules(arcade, game):
 
 
 def filmstrip(arcade, game, number, out, seed):
-    """Eight frames of the best of three plays, side by side."""
+    """Eight frames of the first win, side by side, or of the first play if nobody wins. Returns whether it is a win."""
     with tempfile.TemporaryDirectory() as scratch:
         best = None
-        for attempt in range(3):
+        for attempt, planner in enumerate(PLANNERS):
             gif = pathlib.Path(scratch) / f"{attempt}.gif"
-            told = run(arcade, "--json", "render", str(game), level(game, number), "--planner", PLANNER, "--seed",
+            told = run(arcade, "--json", "render", str(game), level(game, number), "--planner", planner, "--seed",
                        f"{seed}-{attempt}", "--max-ticks", str(TICKS), "--scale", "20", "-o", str(gif))
             if gif.exists():
-                won = "won" in told.stdout
+                won = json.loads(told.stdout)["outcome"] == "won"
                 if best is None or won and not best[1]:
                     best = (gif, won)
                 if won:
                     break
         if best is None:
-            return
+            return False
         sheet(frames(best[0], FRAMES), 4).save(out)
+        return best[1]
 
 
 def main():
@@ -90,8 +92,8 @@ def main():
         for at in (0, 2, 4):
             run(args.arcade, "render", str(game), level(game, at), "--scale", "32", "--legend", "-o",
                 str(folder / f"level-{at}.png"))
-        for at in (1, 3):
-            filmstrip(args.arcade, game, at, folder / f"film-{at}.png", args.seed)
+        won = [at for at in (1, 3) if filmstrip(args.arcade, game, at, folder / f"film-{at}.png", args.seed)]
+        key[f"{number:02}"]["films won"] = won
         print(f"{number:02} of {len(games)}", flush=True)
     args.out.with_name(args.out.name + "-key.json").write_text(json.dumps(key, indent=1) + "\n")
     if args.pairs:

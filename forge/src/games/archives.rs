@@ -9,7 +9,7 @@ use crate::search_loop::{run_search, spread};
 use crate::tally::{LOOK, Tally};
 use engine::Digest;
 use generators::kernels::{KernelGenome, KernelVariation};
-use generators::{MapElites, MapElitesConfig};
+use generators::{Archive, Evaluated, Evaluation, MapElites, MapElitesConfig};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -72,23 +72,26 @@ impl Maker<'_> {
             let looks = if *rounds == first { initial } else { (of_game * missing / 4).max(LEAST_OF_ROUND) };
             let look = |genome: &KernelGenome| {
                 self.progress.looked();
-                looker.look(genome)
+                company.has_place_for(genome).then(|| looker.look(genome))
             };
+            let unwelcome = Evaluation { feasibility: 0.0, objective: 0.0, measures: Vec::new() };
+            // What the set has no place for is neither bred from nor looked at.
+            search.retain(|genome| company.has_place_for(genome));
             run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
+                let Some(look) = look else { return unwelcome.clone() };
                 set.looks += 1;
                 set.tally.judge(LOOK, look.evaluation.is_feasible(), look.calls);
                 look.evaluation
             });
-            let is_welcome = |genome: &KernelGenome| {
-                company.room.has_room(genome.kernel(), genome.kind().name())
-                    && company.room.is_open(genome.kernel(), genome.form())
-            };
             let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
             let wanted_now = missing.max(LEAST_OF_ROUND);
             let key = KernelGenome::key;
-            let picked = spread(search.archive(), wanted_now, &[], is_near, is_welcome, shown, key);
+            let elites = spread(search.archive(), wanted_now, &[], is_near, shown, key);
+            let others = nearly_feasible(search.archive(), wanted_now - elites.len(), &elites, shown);
+            let elites = elites.into_iter().map(|(cell, genome)| (Some(cell), genome));
+            let picked: Vec<_> = elites.chain(others.into_iter().map(|genome| (None, genome))).collect();
             let objection = |candidate: &Candidate| company.objection(candidate);
-            let judge = |(cell, genome): &(usize, KernelGenome)| {
+            let judge = |(cell, genome): &(Option<usize>, KernelGenome)| {
                 let key = genome.key().to_string();
                 let seed = self.seed.child("judges", 0).child(&key, 0);
                 let judged = self.once(&format!("{rounds}-{key}"), || {
@@ -113,13 +116,32 @@ impl Maker<'_> {
                         dry = 0;
                     }
                     Some(Err(why)) => tally.taken_back(why),
-                    None => search.demote(cell, REFUSED),
+                    None => cell.into_iter().for_each(|cell| search.demote(cell, REFUSED)),
                 }
                 set.tally.add(&tally);
             }
             *rounds += 1;
         }
     }
+}
+
+/// Games of kernels of which none was picked, each the one of its kernel that a look found the least infeasible, and that no judge has
+/// seen: the players of a look are weak, and some kernels are beyond them.
+fn nearly_feasible(
+    archive: &Archive<KernelGenome>,
+    wanted: usize,
+    picked: &[(usize, KernelGenome)],
+    shown: &mut BTreeSet<Digest>,
+) -> Vec<KernelGenome> {
+    let mut left: Vec<&Evaluated<KernelGenome>> = archive.pockets().flat_map(|(_, pocket)| pocket).collect();
+    let is_new = |judged: &&Evaluated<KernelGenome>| !shown.contains(&judged.candidate.key());
+    left.retain(|judged| judged.evaluation.feasibility > 0.0 && is_new(judged));
+    left.sort_by(|one, other| other.evaluation.feasibility.total_cmp(&one.evaluation.feasibility));
+    let mut kernels: BTreeSet<&str> = picked.iter().map(|(_, genome)| genome.kernel()).collect();
+    let first = left.into_iter().filter(|judged| kernels.insert(judged.candidate.kernel()));
+    let nearly: Vec<_> = first.take(wanted).map(|judged| judged.candidate.clone()).collect();
+    shown.extend(nearly.iter().map(KernelGenome::key));
+    nearly
 }
 
 #[cfg(test)]
@@ -129,6 +151,40 @@ mod tests {
     use crate::games::{GameEffort, GameOrder, GamesError, make_games};
     use crate::levels::Method;
     use engine::Seed;
+    use generators::games::Kind;
+
+    #[test]
+    fn kernels_without_an_elite_send_their_least_infeasible() {
+        let seed = Seed::from_text("pockets");
+        let draws = |kind: Kind| {
+            (0..).map(move |draw| KernelGenome::draw(&[kind], seed.child("draw", draw)).unwrap())
+        };
+        let of_kernel = |kind: Kind| {
+            let first = draws(kind).next().unwrap();
+            draws(kind).filter(move |genome| genome.kernel() == first.kernel()).take(3)
+        };
+        let mut archive = Archive::new(axes(), 4);
+        let mut expected = None;
+        for (kind, feasibilities) in [(Kind::Lure, [0.5, 0.75, 0.25]), (Kind::Rescue, [1.0, 0.9, 0.0])] {
+            for (genome, feasibility) in of_kernel(kind).zip(feasibilities) {
+                if feasibility == 0.75 {
+                    expected = Some(genome.key());
+                }
+                archive.add(genome, Evaluation { feasibility, objective: 0.5, measures: vec![0.0; 3] });
+            }
+        }
+        let elites: Vec<_> = archive.elites().map(|(cell, elite)| (cell, elite.candidate.clone())).collect();
+        let mut shown = BTreeSet::new();
+        let keys =
+            |genomes: Vec<KernelGenome>| genomes.iter().map(|genome| Some(genome.key())).collect::<Vec<_>>();
+        assert_eq!(keys(nearly_feasible(&archive, 4, &elites, &mut shown)), [expected]);
+        assert_eq!(nearly_feasible(&archive, 0, &elites, &mut shown).len(), 0);
+        assert_eq!(
+            nearly_feasible(&archive, 4, &[], &mut shown).len(),
+            2,
+            "what has been shown is not shown again"
+        );
+    }
 
     /// As many rounds as it takes to judge [`DRY`] games, not all that there are; one archive, not one after the other.
     #[test]

@@ -108,7 +108,7 @@ impl Maker<'_> {
                 let is_near =
                     |one: &Level, other: &Level| round < CHOOSY && self.likeness.distance(one, other) <= NEAR;
                 let missing = wanted - set.levels.len();
-                let picked = spread(search.archive(), missing, &taken, is_near, |_| true, &mut shown, key);
+                let picked = spread(search.archive(), missing, &taken, is_near, &mut shown, key);
                 if picked.is_empty() {
                     break;
                 }
