@@ -209,17 +209,22 @@ impl<'a> Hint<'a> {
             (Some("wall"), _) | (None, Glyph::Wall) => noun().filter(is_wall).unwrap_or(drawn),
             (None, _) => noun().unwrap_or(drawn),
             (Some(role), _) => {
-                let state = self.adjective.and_then(|adjective| named(".", adjective));
+                let state = self.state();
                 let by_role = || named("@", role).map(Form::of_entry);
                 state.map(Form::of_entry).or_else(noun).or_else(by_role).unwrap_or(drawn)
             }
         }
     }
 
+    /// Returns the figure of its state. A prize stays what it is, and has a mark: a fallen one is no fallen bridge.
+    fn state(self) -> Option<u8> {
+        self.adjective.filter(|_| self.role != Some("prize")).and_then(|adjective| named(".", adjective))
+    }
+
     /// Returns the mark of its state.
     pub(crate) fn mark(self) -> Option<u8> {
         let adjective = self.adjective?;
-        if named(".", adjective).is_some() {
+        if self.state().is_some() {
             return None;
         }
         let position =

@@ -25,7 +25,7 @@ pub(super) struct GameGate<'a> {
     first: Panel,
 }
 
-/// The time limits of games, in ticks: round numbers, as authors choose them.
+/// The ticks at which games are lost: round numbers, as authors choose them.
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
 /// The least time limit, as a multiple of the longest win that is known of the levels.
 const TIME_PER_WIN: f64 = 2.5;
@@ -178,11 +178,11 @@ impl<'a> GameGate<'a> {
     }
 }
 
-/// The time limit of a game whose longest known win takes so many ticks.
+/// The time limit of a game whose longest known win takes so many ticks. The tick at which the game is lost comes one later, and is round.
 fn time_limit(longest: usize) -> u32 {
     let least = longest as f64 * TIME_PER_WIN;
-    let round = TIME_LIMITS.into_iter().find(|&limit| f64::from(limit) >= least);
-    round.unwrap_or_else(|| (least / 1000.0).ceil() as u32 * 1000)
+    let round = TIME_LIMITS.into_iter().find(|&limit| f64::from(limit) > least);
+    round.unwrap_or_else(|| ((least / 1000.0).floor() as u32 + 1) * 1000) - 1
 }
 
 fn interactions(game: &Game) -> usize {
@@ -267,7 +267,7 @@ pub(super) mod tests {
     /// Kernels of this kind leave the time limit to the gate.
     #[test]
     fn a_game_has_a_course_and_time_for_it() {
-        let order = GameOrder { kinds: vec![Kind::Escape], ..order() };
+        let order = GameOrder { kinds: vec![Kind::Tending], ..order() };
         let seed = Seed::from_text("course");
         let made = make_games(&order, &[], "canary", seed, &()).unwrap().games.remove(0);
         let Origin::Generated { generator, patterns, .. } = &made.card.origin else {
@@ -284,7 +284,7 @@ pub(super) mod tests {
 
     #[test]
     fn time_limits_are_round_and_generous() {
-        for (longest, expect) in [(25, 150), (60, 150), (61, 200), (100, 250), (160, 400), (500, 2000)] {
+        for (longest, expect) in [(25, 149), (59, 149), (60, 199), (99, 249), (159, 399), (500, 1999)] {
             assert_eq!(time_limit(longest), expect, "{longest}");
         }
     }
