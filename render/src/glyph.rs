@@ -215,16 +215,19 @@ fn is_source(analysis: &Analysis, stype: SpriteType) -> bool {
     touches.all(|touch| !touch.ends_other() && touch.gives.iter().any(|&(_, by)| by > 0))
 }
 
+/// Returns `true` if rules on a type hold for an avatar.
+pub(crate) fn is_avatar(analysis: &Analysis, written: SpriteType) -> bool {
+    analysis.avatars().iter().any(|avatar| analysis.applies(written, avatar.stype))
+}
+
 /// Returns the type whose speed changes when an avatar touches a type.
 pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
-    let is_avatar =
-        |written: SpriteType| analysis.avatars().iter().any(|avatar| analysis.applies(written, avatar.stype));
     analysis.encounters().iter().find_map(|met| {
         let second = met.second?;
-        let is_met = (analysis.applies(met.first, stype) && is_avatar(second))
-            || (analysis.applies(second, stype) && is_avatar(met.first));
+        let is_met = (analysis.applies(met.first, stype) && is_avatar(analysis, second))
+            || (analysis.applies(second, stype) && is_avatar(analysis, met.first));
         met.effects.iter().find_map(|effect| match *effect {
-            EffectSummary::Speed(Some(of)) if is_met && of != stype && !is_avatar(of) => Some(of),
+            EffectSummary::Speed(Some(of)) if is_met && of != stype && !is_avatar(analysis, of) => Some(of),
             _ => None,
         })
     })

@@ -1,8 +1,8 @@
 //! The prospects that the rules allow a player to know: time left, what a win still needs, countdowns, who moves how.
 
 use crate::figure::Form;
-use crate::glyph::{Glyph, changes_speed};
-use engine::analysis::{Condition, EffectSummary, Goal, Harm, Key, Motion, Side};
+use crate::glyph::{Glyph, changes_speed, is_avatar};
+use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Side};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
 /// The facts about a game that captions are made of.
@@ -192,19 +192,22 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns the types at which all of a type change, whoever comes to them.
+/// Returns the types at which all of a type change, whoever comes to them: never the avatar, which comes.
 fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opens =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
-    let encounters = analysis.encounters().iter();
-    encounters.filter(|encounter| encounter.does(opens)).map(|encounter| encounter.first).collect()
+    let thing = |encounter: &Encounter| match is_avatar(analysis, encounter.first) {
+        true => encounter.second,
+        false => Some(encounter.first),
+    };
+    analysis.encounters().iter().filter(|encounter| encounter.does(opens)).filter_map(thing).collect()
 }
 
 /// Returns what a still thing does with others that come to it: takes what has to go for the win, or changes all of a type.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (game, wanted) = (analysis.game(), &analysis.aims().remove);
-    let is_you = |other: SpriteType| analysis.avatars().iter().any(|avatar| avatar.stype == other);
-    let others = || game.sprite_types().filter(|&other| analysis.facts(other).possible && !is_you(other));
+    let is_other = |other: SpriteType| analysis.facts(other).possible && !is_avatar(analysis, other);
+    let others = || game.sprite_types().filter(|&other| is_other(other));
     let takes = |other: &SpriteType| {
         let goes = |side: Side| move |effect: &EffectSummary| *effect == EffectSummary::Kill(side);
         analysis.between(*other, stype).any(|encounter| encounter.does(goes(Side::First)))
@@ -227,8 +230,7 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
     let glyph = Glyph::of(analysis, stype);
     let game = analysis.game();
     let whom = |other: SpriteType| {
-        let is_you = analysis.avatars().iter().any(|avatar| analysis.applies(other, avatar.stype));
-        if is_you { "you".to_owned() } else { game.name(other).to_owned() }
+        if is_avatar(analysis, other) { "you".to_owned() } else { game.name(other).to_owned() }
     };
     let motion = match analysis.facts(stype).motion {
         Motion::Chasing(other) => format!("chases {}", whom(other)),

@@ -418,4 +418,9 @@ fn legends_tell_what_others_are_brought_to() {
         ["hatch", "plum", "latch", "wall"].map(meaning),
         ["bring newt here", "newt here changes latch", "opened by plum", "blocks the way for good"]
     );
+
+    let source = source.replace("plum newt > transformToAll", "marten plum > transformToAll");
+    let game = Game::from_source(&source).unwrap();
+    let looks = Looks::of(&Analysis::of(&game));
+    assert_eq!(looks.meaning(game.sprite_type("latch").unwrap()), "opened by plum", "not by the player");
 }
