@@ -2,7 +2,7 @@
 
 use crate::figure::Form;
 use crate::glyph::{Glyph, changes_speed, is_avatar};
-use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Side};
+use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Role, Side};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
 /// The facts about a game that captions are made of.
@@ -135,9 +135,14 @@ fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
 }
 
 /// Returns the types that all go or change when the avatar touches a type.
-fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+fn opened(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let avatars = analysis.avatars().iter();
-    let opened = avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied());
+    avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied()).collect()
+}
+
+/// The same, and the types that it opens or is paid for, or whose speed it changes.
+fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let opened = opened(analysis, stype).into_iter();
     opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
 }
 
@@ -174,25 +179,33 @@ fn given(analysis: &Analysis, stype: SpriteType) -> Option<&str> {
     Some(analysis.game().name(resource))
 }
 
+/// Returns what the avatar becomes on touching a type.
+fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let becomes = touches.find_map(|touch| touch.becomes)?;
+    Some(format!("makes you {}", analysis.game().name(becomes)))
+}
+
 /// Returns what the avatar has from a thing that no rule requires.
 fn gain(analysis: &Analysis, stype: SpriteType) -> String {
-    let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
     let is_met = |second: Option<SpriteType>| second.is_some_and(|second| analysis.applies(second, stype));
     let mut encounters = analysis.encounters().iter();
-    if let Some(becomes) = touches().find_map(|touch| touch.becomes) {
-        return format!("makes you {}", analysis.game().name(becomes));
+    if let Some(becomes) = becomes(analysis, stype) {
+        return becomes;
     }
     if encounters.any(|encounter| is_met(encounter.second) && encounter.effects.iter().any(heals)) {
         return "changes your health".to_owned();
     }
-    match touches().map(|touch| touch.score).max() {
+    let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    match touches.map(|touch| touch.score).max() {
         Some(score) if score > 0 => "take it for points".to_owned(),
         _ => Glyph::Gem.meaning().to_owned(),
     }
 }
 
-/// Returns the types at which all of a type change, whoever comes to them: never the avatar, which comes.
+/// Returns the types at which all of a type change, whoever comes to them: never the avatar, which comes, nor what turns
+/// into that type by itself and back again.
 fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opens =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
@@ -200,7 +213,33 @@ fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
         true => encounter.second,
         false => Some(encounter.first),
     };
-    analysis.encounters().iter().filter(|encounter| encounter.does(opens)).filter_map(thing).collect()
+    let things = analysis.encounters().iter().filter(|encounter| encounter.does(opens)).filter_map(thing);
+    things.filter(|&opener| !alternates(analysis, opener, stype)).collect()
+}
+
+/// Returns `true` if a switch turns into the type that it opens: a portal that is shut for some ticks.
+fn alternates(analysis: &Analysis, switch: SpriteType, stype: SpriteType) -> bool {
+    analysis.turns(switch).iter().any(|(becomes, _)| *becomes == stype)
+}
+
+/// Returns `true` if all of a type change by some encounter.
+fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool {
+    let changes =
+        |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
+    analysis.encounters().iter().any(|encounter| encounter.does(changes))
+}
+
+/// Returns the thing that a type is a later state of.
+fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
+    let possible = |from: SpriteType| analysis.facts(from).possible && !is_avatar(analysis, from);
+    let change = |encounter: &Encounter| {
+        encounter.effects.iter().find_map(|effect| match effect {
+            EffectSummary::Become(to) if *to == stype => Some(encounter.first),
+            EffectSummary::BecomeAll(from, to) if *to == stype => Some(*from),
+            _ => None,
+        })
+    };
+    analysis.encounters().iter().filter_map(change).find(|&from| possible(from))
 }
 
 /// Returns what a still thing does with others that come to it: takes what has to go for the win, or changes all of a type.
@@ -208,12 +247,15 @@ fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (game, wanted) = (analysis.game(), &analysis.aims().remove);
     let is_other = |other: SpriteType| analysis.facts(other).possible && !is_avatar(analysis, other);
     let others = || game.sprite_types().filter(|&other| is_other(other));
+    let moves = |other: &SpriteType| {
+        analysis.facts(*other).motion != Motion::Still || analysis.role(*other) == Role::Pushable
+    };
     let takes = |other: &SpriteType| {
         let goes = |side: Side| move |effect: &EffectSummary| *effect == EffectSummary::Kill(side);
         analysis.between(*other, stype).any(|encounter| encounter.does(goes(Side::First)))
             || analysis.between(stype, *other).any(|encounter| encounter.does(goes(Side::Second)))
     };
-    if let Some(taken) = others().find(|other| wanted.contains(other) && takes(other)) {
+    if let Some(taken) = others().find(|other| wanted.contains(other) && moves(other) && takes(other)) {
         return Some(format!("bring {} here", game.name(taken)));
     }
     others().find_map(|other| {
@@ -258,6 +300,7 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         let avatars = analysis.avatars();
         !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
     };
+    let state = || Some(format!("was {}", game.name(earlier(analysis, stype)?)));
     match glyph {
         _ if analysis.aims().prevent.contains(&stype) => {
             ending(analysis, stype).unwrap_or_else(|| glyph.meaning().to_owned())
@@ -268,15 +311,32 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         }
         Glyph::Prey if !motion.is_empty() => format!("{}, {motion}", glyph.meaning()),
         Glyph::Neutral if blocks() => "solid".to_owned(),
-        Glyph::Neutral => use_of_others(analysis, stype).unwrap_or_else(|| harm.to_owned()),
+        Glyph::Neutral => use_of_others(analysis, stype)
+            .or_else(|| becomes(analysis, stype))
+            .or_else(state)
+            .unwrap_or_else(|| harm.to_owned()),
         Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),
+        Glyph::Wall if analysis.facts(stype).fleeting => "solid for a while".to_owned(),
         Glyph::Wall if !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
-        Glyph::Wall => named("opened by", &openers(analysis, stype)),
+        Glyph::Wall if !opened(analysis, stype).is_empty() => {
+            named("touch it to change", &opened(analysis, stype))
+        }
+        Glyph::Wall => match openers(analysis, stype) {
+            none if none.is_empty() && changes_as_a_whole(analysis, stype) => "solid for a while".to_owned(),
+            openers => named("opened by", &openers),
+        },
         Glyph::Ward if analysis.facts(stype).fleeting => "soon gone".to_owned(),
+        // A state of something else is counted with it.
+        Glyph::Ward
+            if earlier(analysis, stype).is_some_and(|from| !analysis.aims().protect.contains(&from)) =>
+        {
+            state().unwrap_or_default()
+        }
         Glyph::Ward if analysis.aims().protect.contains(&stype) => "too few left, and you lose".to_owned(),
         Glyph::Ward => "others can spoil it".to_owned(),
         Glyph::Switch => named("touch it to change", &changed(analysis, stype)),
         Glyph::Key | Glyph::Token => named("needed for", &uses(analysis, stype)),
+        Glyph::Gem if blocks() && !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
         Glyph::Gem => gain(analysis, stype),
         Glyph::Spring if blocks() => {
             given(analysis, stype).map_or_else(|| glyph.meaning().to_owned(), |name| format!("gives {name}"))
@@ -285,6 +345,9 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
             Some(Key::Resource { resource, amount: 1, .. }) => format!("needs {}", game.name(*resource)),
             Some(Key::Resource { resource, amount, .. }) => {
                 format!("needs {amount} {}", game.name(*resource))
+            }
+            Some(Key::Switch(switch, _)) if alternates(analysis, *switch, stype) => {
+                "solid for a while".to_owned()
             }
             Some(Key::Switch(switch, _)) => format!("opened by {}", game.name(*switch)),
             _ => glyph.meaning().to_owned(),

@@ -424,3 +424,60 @@ fn legends_tell_what_others_are_brought_to() {
     let looks = Looks::of(&Analysis::of(&game));
     assert_eq!(looks.meaning(game.sprite_type("latch").unwrap()), "opened by plum", "not by the player");
 }
+
+#[test]
+fn legends_tell_states_apart() {
+    let source = "BasicGame
+  SpriteSet
+    floor > Immovable
+    pad > Immovable
+    scrap > Immovable
+    cord > Immovable
+    tub > Passive
+    fuse > Immovable
+    grille > Immovable
+    opened > Immovable
+    stool > Immovable
+    broken > Immovable
+    airlock > Door
+    exit > Immovable
+    glue > Flicker limit=9
+    marten > MovingAvatar
+  LevelMapping
+    p > floor pad
+    c > floor cord
+    t > floor tub
+    g > floor grille
+    s > floor stool
+    a > floor airlock
+    m > floor marten
+    l > floor glue
+  InteractionSet
+    pad marten > addTimer timer=25 ftype=transformToAll stype=scrap stypeTo=pad
+    pad marten > transformTo stype=scrap
+    cord marten > transformToAll stype=tub stypeTo=fuse
+    grille marten > transformIfCount stypeCount=fuse leq=0 stype=opened
+    tub marten > bounceForward
+    stool fuse > transformTo stype=broken
+    airlock marten > transformTo stype=exit
+    marten scrap cord grille glue stool > stepBack
+  TerminationSet
+    SpriteCounter stype=airlock win=True
+    MultiSpriteCounter stype1=tub stype2=fuse stype3=broken win=False
+";
+    let game = Game::from_source(source).unwrap();
+    let looks = Looks::of(&Analysis::of(&game));
+    let meaning = |name: &str| looks.meaning(game.sprite_type(name).unwrap());
+    let meanings = [
+        ("scrap", "solid for a while"),
+        ("cord", "touch it to change tub"),
+        ("grille", "solid as it is"),
+        ("opened", "was grille"),
+        ("broken", "was stool"),
+        ("exit", "was airlock"),
+        ("glue", "solid for a while"),
+    ];
+    for (name, expected) in meanings {
+        assert_eq!(meaning(name), expected, "{name}");
+    }
+}

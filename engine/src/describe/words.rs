@@ -26,7 +26,8 @@ impl Party {
             return Party { name: "you".to_owned(), you: true };
         }
         if all_you {
-            return Party { name: format!("you as {name}"), you: true };
+            let forms: Vec<&str> = own.iter().map(|avatar| game.name(avatar.stype)).collect();
+            return Party { name: format!("you as {}", list(&forms, "or")), you: true };
         }
         let article = if members(analysis, stype).is_empty() { "the" } else { "any" };
         Party { name: format!("{article} {name}"), you: false }

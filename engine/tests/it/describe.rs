@@ -173,6 +173,15 @@ fn several_avatars_are_distinguished() {
 }
 
 #[test]
+fn several_forms_of_the_player_are_named_one_by_one() {
+    let source = "BasicGame\n  SpriteSet\n    lamb > Immovable\n    avatar >\n      free > MovingAvatar\n      bearing >\n        \
+                  laden > MovingAvatar\n        tainted > MovingAvatar\n  LevelMapping\n    l > lamb\n    A > free\n    B > laden\n    \
+                  C > tainted\n  InteractionSet\n    bearing lamb > stepBack\n  TerminationSet\n    SpriteCounter stype=lamb win=True\n";
+    let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
+    assert_eq!(guide.meetings, ["You as laden or tainted cannot enter the lamb."]);
+}
+
+#[test]
 fn groups_that_are_chased_are_told() {
     let source = "BasicGame\n  SpriteSet\n    lure >\n      bait > Immovable\n      avatar > MovingAvatar\n    bear > Chaser \
                   stype=lure cooldown=2\n  LevelMapping\n    b > bait\n    c > bear\n  InteractionSet\n    avatar bear > \

@@ -3,12 +3,13 @@
 use super::course::{self, Board, Space, Traits};
 use super::graft::Graft;
 use super::habits::{Edge, Habits};
+use super::hues;
 use super::kernel::{Casting, Kernel, Slot};
 use super::map::Map;
 use super::naming;
 use super::phrase::{self, Nouns};
 use super::scene::Scene;
-use super::{template, ways};
+use super::{template, vocabulary, ways};
 use crate::GenerateError;
 use crate::games::{english, palette};
 use engine::syntax::{self, MappingLine, Param, SpriteLine};
@@ -135,7 +136,7 @@ impl Choices<'_> {
         let mut sampler = self.nouns.sampler();
         let nouns = self.cast(&mut sampler)?;
         let traits = traits(&description);
-        self.color(&mut description.sprites);
+        self.color(&mut description.sprites, &nouns);
         self.picture(&mut description.sprites, &nouns);
         let declared = description.sprite_lines().iter().map(|(_, line)| line.name.text.clone()).collect();
         let sampler_of_names = &mut self.nouns.child("names", 0).sampler();
@@ -249,13 +250,18 @@ impl Choices<'_> {
     }
 
     /// Gives every type a colour.
-    fn color(&self, lines: &mut [SpriteLine]) {
+    fn color(&self, lines: &mut [SpriteLine], nouns: &Nouns) {
         let roles: BTreeMap<&str, &Casting> =
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
         let mut palette = Palette {
             scene: self.scene,
+            nouns,
             hero: self.habits.hero,
-            taken: vec![self.scene.floor_color.clone(), self.scene.wall_color.clone()],
+            taken: vec![
+                self.scene.floor_color.clone(),
+                self.scene.wall_color.clone(),
+                self.habits.hero.to_owned(),
+            ],
             given: BTreeMap::new(),
         };
         // States have the colour of the thing, which may stand below them.
@@ -325,15 +331,16 @@ impl Choices<'_> {
 }
 
 /// The colours that types have got.
-struct Palette {
+struct Palette<'a> {
     scene: &'static Scene,
+    nouns: &'a Nouns,
     hero: &'static str,
     taken: Vec<String>,
     /// By type, or by the role of which a type is a state.
     given: BTreeMap<String, String>,
 }
 
-impl Palette {
+impl Palette<'_> {
     fn color(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, states: bool) {
         for line in lines {
             let name = line.name.text.as_str();
@@ -355,10 +362,15 @@ impl Palette {
         }
     }
 
+    /// The player has the colour of its habit, a thing its own by nature, others one that suits their role.
     fn draw(&mut self, name: &str, role: &str) -> String {
-        let is_free = !self.taken.iter().any(|taken| taken == self.hero);
-        let color =
-            if role == "hero" && is_free { self.hero } else { super::vocabulary::color(role, &self.taken) };
+        let ground = [self.scene.floor_color.as_str(), self.scene.wall_color.as_str()];
+        let natural = self.nouns.get(name).and_then(|noun| hues::natural(noun));
+        let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);
+        let color = match role {
+            "hero" if !ground.contains(&self.hero) => self.hero,
+            _ => natural.filter(free).unwrap_or_else(|| vocabulary::color(role, &self.taken)),
+        };
         let color = color.to_owned();
         self.taken.push(color.clone());
         self.given.insert(name.to_owned(), color.clone());

@@ -8,22 +8,12 @@ use std::collections::BTreeMap;
 /// The habits of the author of a game. They change how it looks and counts, and nothing about its dilemma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Habits {
-    pub(crate) points: Points,
     /// All points are multiplied by this number.
     pub(crate) unit: u32,
     pub(crate) edge: Edge,
     pub(crate) space: Space,
     /// The player's colour, unless the floor or the walls have it.
     pub(crate) hero: &'static str,
-}
-
-/// The points of a game.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Points {
-    /// As the kernel has them.
-    Written,
-    /// As the kernel has them, without penalties for a death. Others are the price of what can be done again, and stay.
-    Gains,
 }
 
 /// The border of the board.
@@ -49,17 +39,16 @@ const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow
 impl Habits {
     pub(crate) fn draw(seed: Seed) -> Habits {
         let of = |name| seed.child(name, 0).sampler();
-        let points = *of("score").choose(&[Points::Written, Points::Gains]);
         let unit = *of("unit").choose(&[1, 1, 1, 2, 5, 10]);
         let edge = if of("edge").ratio(1, 4) { Edge::Screen } else { Edge::Walls };
         let hero = of("hero").choose(&HEROES);
-        Habits { points, unit, edge, space: Space::draw(&mut of("space")), hero }
+        Habits { unit, edge, space: Space::draw(&mut of("space")), hero }
     }
 
     /// Changes rules to these habits, and returns the edge that the levels have.
     pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
-            self.points.apply(line);
+            drop_penalty_of_death(line);
             for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
                 if let Ok(points) = param.value.text.parse::<i64>() {
                     param.value = (points * i64::from(self.unit)).to_string().as_str().into();
@@ -73,14 +62,11 @@ impl Habits {
     }
 }
 
-impl Points {
-    fn apply(self, line: &mut InteractionLine) {
-        let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
-        let is_death = line.first.text == "hero" && line.effect.text.starts_with("kill");
-        match self {
-            Points::Gains if is_death => line.params.retain(|param| !is_penalty(param)),
-            Points::Gains | Points::Written => {}
-        }
+/// A death costs no points: it ends the game. Other penalties are the price of what can be done again, and stay.
+fn drop_penalty_of_death(line: &mut InteractionLine) {
+    let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
+    if line.first.text == "hero" && line.effect.text.starts_with("kill") {
+        line.params.retain(|param| !is_penalty(param));
     }
 }
 
@@ -149,8 +135,8 @@ mod tests {
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    plum > Immovable\n    foe >\n      cat > Chaser stype=hero\n      dog > Chaser stype=plum\n    hero > ShootAvatar stype=shot\n    shot > Missile\n  LevelMapping\n    p > plum\n  InteractionSet\n    hero wall cat > stepBack\n    foe wall > stepBack\n    shot wall > killSprite\n    plum hero > killSprite scoreChange=2\n    hero foe > killSprite scoreChange=-1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n";
 
-    fn habits(points: Points, unit: u32, edge: Edge) -> Habits {
-        Habits { points, unit, edge, space: Space::default(), hero: HEROES[0] }
+    fn habits(unit: u32, edge: Edge) -> Habits {
+        Habits { unit, edge, space: Space::default(), hero: HEROES[0] }
     }
 
     fn applied(source: &str, habits: Habits) -> (String, Edge) {
@@ -161,7 +147,7 @@ mod tests {
 
     #[test]
     fn everything_that_moves_stops_at_the_edge_of_the_screen() {
-        let (text, edge) = applied(GAME, habits(Points::Written, 1, Edge::Screen));
+        let (text, edge) = applied(GAME, habits(1, Edge::Screen));
         assert_eq!(edge, Edge::Screen);
         for rule in ["hero EOS > stepBack", "foe EOS > stepBack", "shot EOS > killSprite"] {
             assert!(text.contains(rule), "{text}");
@@ -169,7 +155,7 @@ mod tests {
         assert_eq!(text.matches("EOS").count(), 3, "{text}");
         let turned =
             GAME.replace("foe wall > stepBack", "foe wall > reverseDirection\n    foe wall > stepBack");
-        let (text, edge) = applied(&turned, habits(Points::Written, 1, Edge::Screen));
+        let (text, edge) = applied(&turned, habits(1, Edge::Screen));
         assert_eq!((edge, text.matches("foe EOS").count()), (Edge::Screen, 2), "{text}");
     }
 
@@ -186,24 +172,23 @@ mod tests {
         let kept = GAME.replace("shot wall > killSprite", "shot wall > stepBack");
         let priced = GAME.replace("shot wall > killSprite", "shot wall > killSprite scoreChange=-1");
         for source in [pushed, loose, twice, turned, late, kept, priced] {
-            let (text, edge) = applied(&source, habits(Points::Written, 1, Edge::Screen));
+            let (text, edge) = applied(&source, habits(1, Edge::Screen));
             assert_eq!(edge, Edge::Walls, "{text}");
             assert!(!text.contains("EOS"), "{text}");
         }
     }
 
     #[test]
-    fn points_have_a_habit_and_a_unit() {
+    fn points_have_a_unit_and_a_death_costs_none() {
         let points = |habits| {
             let text = applied(GAME, habits).0;
             let values = text.split("scoreChange=").skip(1).map(|rest| rest.lines().next().unwrap());
             values.map(str::to_owned).collect::<Vec<_>>()
         };
-        assert_eq!(points(habits(Points::Written, 5, Edge::Walls)), ["10", "-5"]);
-        assert_eq!(points(habits(Points::Gains, 10, Edge::Walls)), ["20"]);
+        assert_eq!(points(habits(10, Edge::Walls)), ["20"]);
         let priced =
             GAME.replace("plum hero > killSprite scoreChange=2", "plum hero > stepBack scoreChange=-2");
-        let text = applied(&priced, habits(Points::Gains, 1, Edge::Walls)).0;
+        let text = applied(&priced, habits(1, Edge::Walls)).0;
         assert!(text.contains("plum hero > stepBack scoreChange=-2"), "{text}");
     }
 }

@@ -11,6 +11,7 @@ mod form;
 mod genome;
 mod graft;
 mod habits;
+mod hues;
 mod kernel;
 mod map;
 mod naming;

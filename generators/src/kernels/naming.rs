@@ -1,7 +1,7 @@
 //! Names of types in VGDL, as authors of small games write them: one short word in lower case.
 //!
-//! Titles and stories use the nouns of the scene; rules use these names. An `oilCan` is an `oilcan`, a `curtainCord` a `cord`, a lit
-//! `lamp` a `litlamp`, an open `boathouse` an `exit`.
+//! Titles and stories use the nouns of the scene; rules use these names. A `curtainCord` is a `cord`, a `coalLump` is `coal`, an
+//! `oilCan` an `oilcan`, a lit `lamp` a `litlamp`, an open `boathouse` an `exit`.
 
 use super::kernel::Casting;
 use super::phrase::Nouns;
@@ -12,28 +12,18 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Last words of nouns that say too little alone.
 const VAGUE: &[&str] = &[
-    "bar", "bay", "board", "bunch", "butt", "can", "car", "case", "circle", "corner", "drop", "flat", "head",
-    "heap", "hill", "hold", "hole", "hook", "in", "jet", "litter", "lump", "machine", "maker", "master",
-    "pad", "pan", "patch", "pile", "plug", "press", "pull", "race", "rind", "ring", "score", "sheet",
-    "shoot", "side", "step", "stick", "strip", "stroke", "stub", "tip", "waste",
+    "bar", "bay", "block", "board", "butt", "can", "car", "case", "circle", "corner", "cutting", "flag",
+    "flat", "head", "hill", "hold", "hole", "hook", "house", "in", "jet", "light", "litter", "machine",
+    "maker", "master", "mouth", "note", "office", "pad", "pan", "patch", "plug", "press", "pull", "race",
+    "rind", "ring", "room", "score", "sheet", "shoot", "side", "sprite", "step", "stick", "strip", "stroke",
+    "stub", "tile", "tip", "waste",
 ];
 
-/// Last words of nouns that say enough alone, and that authors write alone: a `key`, whatever it is made of.
-const PLAIN: &[&str] = &[
-    "archer", "arrow", "ball", "baron", "barrel", "basket", "bean", "bear", "bell", "boar", "bomb", "boy",
-    "bridge", "bull", "cage", "cannon", "cart", "castle", "cat", "chain", "chest", "cord", "crab", "crystal",
-    "curtain", "dam", "dart", "dog", "doll", "door", "dragon", "duck", "elephant", "fence", "fire", "flask",
-    "fog", "gardener", "gate", "girl", "goat", "grass", "grille", "hedge", "helmet", "ice", "ink", "key",
-    "king", "knight", "lamp", "lever", "log", "mask", "monkey", "moth", "mouse", "nest", "pearl", "pebble",
-    "pigeon", "pit", "plank", "pony", "pool", "rat", "rhino", "robot", "rope", "rubble", "sack", "seed",
-    "shield", "shirt", "snail", "snow", "soldier", "spider", "stone", "thicket", "tower", "train", "tree",
-    "vine", "warden", "water", "well", "whistle", "window",
-];
+/// Last words of nouns for some of a stuff: authors name the stuff.
+const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
 
-/// The longest noun of two words that is a name as it is.
-const WHOLE: usize = 10;
 /// The longest name of a state: a chandelier that is lit is `lit`.
-const LONGEST: usize = 10;
+const LONGEST: usize = 12;
 
 /// Draws the names of the types of a game, by their names in the kernel. Types without a noun and `wall` keep theirs.
 pub(crate) fn names<'a>(
@@ -106,12 +96,12 @@ impl Names<'_> {
     }
 }
 
-/// Returns a noun as one word, or its last word where that says enough: that of a long noun more often than that of a short one.
+/// Returns the word of a noun that says enough alone: the last one, or the stuff of which there is some; or all of them as one word.
 fn short(noun: &str) -> String {
     let spaced = english::spaced(noun);
-    let says_enough = |last: &str| PLAIN.contains(&last) || noun.len() > WHOLE && !VAGUE.contains(&last);
     match spaced.rsplit_once(' ') {
-        Some((_, last)) if says_enough(last) => last.to_owned(),
+        Some((stuff, last)) if AMOUNTS.contains(&last) && !stuff.contains(' ') => stuff.to_owned(),
+        Some((_, last)) if !VAGUE.contains(&last) => last.to_owned(),
         _ => joined(noun),
     }
 }
