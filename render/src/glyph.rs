@@ -117,6 +117,7 @@ impl Glyph {
             Role::Exit => Glyph::Exit,
             Role::Gate => Glyph::Gate,
             Role::Boulder => Glyph::Boulder,
+            Role::Enemy if is_spoilt(analysis, stype) => Glyph::Friend,
             Role::Enemy => match facts.motion {
                 Motion::Straight(_) if is_dropped(analysis, stype) => Glyph::HostileShot,
                 Motion::Straight(_) => Glyph::Charger,
@@ -262,4 +263,10 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> Glyph {
         Some(class) if class.is_a(SpriteClass::SpawnPoint) => Glyph::Maker,
         _ => Glyph::Neutral,
     }
+}
+
+/// Returns `true` if a type does no harm and others turn it into one that must not be: a friend that must be kept safe.
+pub(crate) fn is_spoilt(analysis: &Analysis, stype: SpriteType) -> bool {
+    let prevented = |to: SpriteType| analysis.aims().prevent.contains(&to);
+    analysis.harm(stype) == Harm::None && analysis.turns(stype).iter().any(|(to, _)| prevented(*to))
 }

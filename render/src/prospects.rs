@@ -1,7 +1,7 @@
 //! The prospects that the rules allow a player to know: time left, what a win still needs, countdowns, who moves how.
 
 use crate::figure::Form;
-use crate::glyph::{Glyph, changes_speed, is_avatar};
+use crate::glyph::{Glyph, changes_speed, is_avatar, is_spoilt};
 use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Role, Side};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
@@ -186,16 +186,19 @@ fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     Some(format!("makes you {}", analysis.game().name(becomes)))
 }
 
-/// Returns what the avatar has from a thing that no rule requires.
-fn gain(analysis: &Analysis, stype: SpriteType) -> String {
+/// Returns that a type changes the health of whoever touches it, if it does.
+fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
     let is_met = |second: Option<SpriteType>| second.is_some_and(|second| analysis.applies(second, stype));
     let mut encounters = analysis.encounters().iter();
-    if let Some(becomes) = becomes(analysis, stype) {
-        return becomes;
-    }
-    if encounters.any(|encounter| is_met(encounter.second) && encounter.effects.iter().any(heals)) {
-        return "changes your health".to_owned();
+    let changes = encounters.any(|encounter| is_met(encounter.second) && encounter.does(heals));
+    changes.then(|| "changes your health".to_owned())
+}
+
+/// Returns what the avatar has from a thing that no rule requires.
+fn gain(analysis: &Analysis, stype: SpriteType) -> String {
+    if let Some(effect) = becomes(analysis, stype).or_else(|| health(analysis, stype)) {
+        return effect;
     }
     let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     match touches.map(|touch| touch.score).max() {
@@ -285,6 +288,7 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         Harm::Kills => "deadly",
         Harm::Wounds => "wounds",
         Harm::Conditional => "deadly at times",
+        Harm::None if is_spoilt(analysis, stype) => "keep it safe",
         // An enemy does harm in some other way: with what it makes, or to what must be kept.
         Harm::None if matches!(glyph, Glyph::Enemy | Glyph::Charger) => "harms",
         Harm::None => "harmless",
@@ -313,6 +317,7 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         Glyph::Neutral if blocks() => "solid".to_owned(),
         Glyph::Neutral => use_of_others(analysis, stype)
             .or_else(|| becomes(analysis, stype))
+            .or_else(|| health(analysis, stype))
             .or_else(state)
             .unwrap_or_else(|| harm.to_owned()),
         Glyph::Maker | Glyph::Nest if blocks() => format!("{}, solid", glyph.meaning()),

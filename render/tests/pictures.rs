@@ -480,4 +480,11 @@ fn legends_tell_states_apart() {
     for (name, expected) in meanings {
         assert_eq!(meaning(name), expected, "{name}");
     }
+
+    let source = source
+        .replace("  LevelMapping\n", "    kid > Missile cooldown=2\n    lost > Immovable\n  LevelMapping\n    k > floor kid\n")
+        .replace("  TerminationSet\n", "    kid tub > transformTo stype=lost\n  TerminationSet\n    SpriteCounterMore stype=lost limit=1 win=False\n");
+    let game = Game::from_source(&source).unwrap();
+    let looks = Looks::of(&Analysis::of(&game));
+    assert_eq!(looks.meaning(game.sprite_type("kid").unwrap()), "goes straight on, keep it safe");
 }

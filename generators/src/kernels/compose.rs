@@ -365,11 +365,11 @@ impl Palette<'_> {
     /// The player has the colour of its habit, a thing its own by nature, others one that suits their role.
     fn draw(&mut self, name: &str, role: &str) -> String {
         let ground = [self.scene.floor_color.as_str(), self.scene.wall_color.as_str()];
-        let natural = self.nouns.get(name).and_then(|noun| hues::natural(noun));
+        let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
         let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);
         let color = match role {
             "hero" if !ground.contains(&self.hero) => self.hero,
-            _ => natural.filter(free).unwrap_or_else(|| vocabulary::color(role, &self.taken)),
+            _ => natural.find(free).unwrap_or_else(|| vocabulary::color(role, &self.taken)),
         };
         let color = color.to_owned();
         self.taken.push(color.clone());

@@ -274,8 +274,28 @@ const NATURAL: &[(&str, &[&str])] = &[
     ("LIGHTBLUE", &["crystal", "glass", "ice", "mirror", "pane", "window"]),
 ];
 
-/// Returns the colour that a thing has by nature, if it is known for one.
-pub(super) fn natural(noun: &str) -> Option<&'static str> {
+/// Colours that stand for one that something else has.
+const NEAR: &[(&str, &[&str])] = &[
+    ("BROWN", &["LIGHTORANGE", "ORANGE"]),
+    ("DARKGRAY", &["BLACK", "GRAY"]),
+    ("DARKGREEN", &["GREEN", "LIGHTGREEN"]),
+    ("GRAY", &["LIGHTGRAY", "DARKGRAY"]),
+    ("GREEN", &["DARKGREEN", "LIGHTGREEN"]),
+    ("LIGHTGRAY", &["WHITE", "GRAY"]),
+    ("RED", &["LIGHTRED"]),
+    ("WHITE", &["LIGHTGRAY"]),
+    ("YELLOW", &["LIGHTYELLOW", "GOLD"]),
+];
+
+/// Returns the colours that a thing can have by nature, the best first; none if it is not known for one.
+pub(super) fn natural(noun: &str) -> impl Iterator<Item = &'static str> {
+    let best = best(noun);
+    let near =
+        NEAR.iter().filter(move |(color, _)| Some(*color) == best).flat_map(|(_, near)| near.iter().copied());
+    best.into_iter().chain(near)
+}
+
+fn best(noun: &str) -> Option<&'static str> {
     let last = noun.rfind(|letter: char| letter.is_ascii_uppercase()).map_or("", |at| &noun[at..]);
     let last = last.to_ascii_lowercase();
     let of = |word: &str| NATURAL.iter().find(|(_, nouns)| nouns.contains(&word)).map(|(color, _)| *color);
@@ -289,8 +309,9 @@ mod tests {
 
     #[test]
     fn things_have_the_colour_of_the_noun_or_of_its_last_word() {
-        let of = ["polarBear", "iceBear", "bear", "duchess"].map(natural);
+        let of = ["polarBear", "iceBear", "bear", "duchess"].map(best);
         assert_eq!(of, [Some("WHITE"), Some("BROWN"), Some("BROWN"), None]);
+        assert_eq!(natural("rat").collect::<Vec<_>>(), ["GRAY", "LIGHTGRAY", "DARKGRAY"]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::games::palette::COLORS;
 /// The colours that suit roles.
 const SUITING: &[(&[&str], &[&str])] = &[
     (&["hero"], &["GREEN", "LIGHTGREEN"]),
-    (&["exit", "haven", "outlet", "portal"], &["LIGHTBLUE", "BLUE"]),
+    (&["exit", "haven", "outlet", "portal", "sky"], &["LIGHTBLUE", "BLUE"]),
     (&["key", "prize", "coin", "treasure"], &["GOLD", "YELLOW", "LIGHTYELLOW"]),
     (
         &["door", "gate", "crate", "bridge", "soil", "plot", "dam", "trough"],
@@ -13,16 +13,19 @@ const SUITING: &[(&[&str], &[&str])] = &[
     ),
     (&["gulf", "pit", "shade", "flood"], &["DARKBLUE", "BLUE", "BLACK"]),
     (&["ice", "pane", "screen", "grille"], &["LIGHTBLUE", "WHITE"]),
-    (&["rubble", "guard", "plate", "socket", "firm"], &["LIGHTGRAY", "GRAY", "DARKGRAY"]),
+    (
+        &["rubble", "guard", "plate", "socket", "firm", "stone", "grave", "source"],
+        &["LIGHTGRAY", "GRAY", "DARKGRAY"],
+    ),
     (&["hunter", "fire", "pest", "thief"], &["RED", "LIGHTRED"]),
     (&["patrol", "stroller", "beast", "rival", "shooter"], &["LIGHTRED", "ORANGE", "PINK", "RED"]),
-    (&["sleeper", "nest", "den"], &["GRAY", "DARKGRAY", "DARKGREEN"]),
+    (&["sleeper", "nest", "den", "bird", "dust"], &["GRAY", "DARKGRAY", "DARKGREEN"]),
     (&["friend", "cargo", "customer", "prey", "keeper"], &["PINK", "LIGHTYELLOW", "LIGHTORANGE"]),
     (&["shot", "bolt", "blast", "charge", "embers"], &["ORANGE", "LIGHTORANGE"]),
     (&["plant", "seed", "food", "bait", "trail", "brush"], &["DARKGREEN", "LIGHTGREEN"]),
     (&["fuel", "lamp", "fireplace", "stove"], &["LIGHTYELLOW", "ORANGE", "YELLOW"]),
-    (&["remedy", "armour", "disguise", "tool", "ammo", "lever"], &["WHITE", "BLUE", "LIGHTGRAY"]),
-    (&["well", "spring"], &["BLUE", "LIGHTBLUE"]),
+    (&["floater", "remedy", "armour", "disguise", "tool", "ammo", "lever"], &["WHITE", "BLUE", "LIGHTGRAY"]),
+    (&["well", "spring", "load"], &["BLUE", "LIGHTBLUE"]),
 ];
 
 /// Tests whether a word is a role that has a colour.
