@@ -6,13 +6,13 @@ use super::gate::GameGate;
 use super::kept::Kept;
 use super::look::Looker;
 use super::order::{GameEffort, GameOrder};
-use super::rule_sets::{Own, RuleSets, SetVariation};
+use super::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::{LOOK, Tally};
 use engine::Seed;
-use generators::kernels::{KernelGenome, KernelVariation};
-use generators::{Annealing, AnnealingConfig};
+use generators::kernels::KernelGenome;
+use generators::{Annealing, AnnealingConfig, Variation};
 use std::collections::BTreeSet;
 use validators::CriteriaError;
 use validators::novelty::GameForm;
@@ -126,7 +126,8 @@ pub fn attempt_kernel(
     let drawn = KernelGenome::of_kernel(kernel, is_open, &BTreeSet::new(), seed.child("rules", 0));
     let mut attempted = Attempted::default();
     if let Some(drawn) = drawn {
-        maker.judge_proposed((drawn, None), number, seed, &|_| None, &mut attempted);
+        let variation = SetVariation::of_kind_of(&drawn, None);
+        maker.judge_proposed((drawn, &variation), number, seed, &|_| None, &mut attempted);
     }
     (attempted.made, attempted.tally)
 }
@@ -216,8 +217,9 @@ impl<'a> Maker<'a> {
                 break;
             };
             let drawn = sets.draw_of(set, seed.child("rules", 0));
-            let own = Some((sets, vec![set]));
-            if let Some(at) = self.judge_proposed((drawn, own), attempt, seed, &|_| None, &mut attempted) {
+            let variation = SetVariation::of_kind_of(&drawn, Some((sets, vec![set])));
+            let drawn = (drawn, &variation);
+            if let Some(at) = self.judge_proposed(drawn, attempt, seed, &|_| None, &mut attempted) {
                 let steps = [("game", number.into()), ("attempt", attempt.into()), ("judges", at)];
                 attempted.made.iter_mut().for_each(|made| made.path = path(steps));
                 break;
@@ -229,13 +231,13 @@ impl<'a> Maker<'a> {
     /// Judges what is proposed for a game that was drawn, until one is accepted: returns which.
     pub(super) fn judge_proposed(
         &self,
-        (drawn, own): (KernelGenome, Option<Own<'_>>),
+        (drawn, variation): (KernelGenome, &impl Variation<Candidate = KernelGenome>),
         attempt: u32,
         seed: Seed,
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         attempted: &mut Attempted,
     ) -> Option<u64> {
-        let proposed = self.proposed(drawn, own, seed, attempted);
+        let proposed = self.proposed(drawn, variation, seed, attempted);
         (0..).zip(&proposed).find_map(|(at, genome)| {
             let judges = seed.child("judges", at);
             attempted.made = self.gate.judge(genome, attempt, judges, objection, &mut attempted.tally);
@@ -244,37 +246,33 @@ impl<'a> Maker<'a> {
         })
     }
 
-    /// The games for the judges, from one that was drawn; of its own sets of rules only, if there are any.
+    /// The games for the judges: the best that a search finds by a variation, or the one that was drawn if there is no search or it
+    /// finds none: the players of a look are weak, and some kernels are beyond them.
     fn proposed(
         &self,
         drawn: KernelGenome,
-        own: Option<Own<'_>>,
+        variation: &impl Variation<Candidate = KernelGenome>,
         seed: Seed,
         attempted: &mut Attempted,
     ) -> Vec<KernelGenome> {
-        let proposed = match self.order.method {
-            Method::Constructive => vec![drawn],
-            _ => self.searched(&drawn, own, seed.child("search", 0), attempted),
+        let found = match self.order.method {
+            Method::Constructive => Vec::new(),
+            _ => self.searched(variation, seed.child("search", 0), attempted),
         };
-        if proposed.is_empty() {
-            attempted.tally.game_rejected("look");
-        }
-        proposed
+        if found.is_empty() { vec![drawn] } else { found }
     }
 
-    /// The best games of a search that starts from games of the same kind.
+    /// The best games of a search.
     fn searched(
         &self,
-        drawn: &KernelGenome,
-        own: Option<Own<'_>>,
+        variation: &impl Variation<Candidate = KernelGenome>,
         seed: Seed,
         attempted: &mut Attempted,
     ) -> Vec<KernelGenome> {
-        let variation = SetVariation { variation: KernelVariation::new(&[drawn.kind()]), own };
         let looks = self.order.effort.looks as usize;
         let looker = Looker::new(seed.child("look", 0));
         let config = AnnealingConfig { starts: looks / 3, ..AnnealingConfig::of(looks) };
-        let mut search = Annealing::new(&variation, config, seed.child("annealing", 0));
+        let mut search = Annealing::new(variation, config, seed.child("annealing", 0));
         let mut best = Finalists::new();
         let look = |genome: &KernelGenome| {
             self.progress.looked();

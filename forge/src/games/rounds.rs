@@ -3,8 +3,10 @@
 use super::candidate::Candidate;
 use super::company::{Company, Room};
 use super::make::{Attempted, GameSet, Maker, Shortfall, path};
+use engine::{Sampler, Seed};
+use generators::Variation;
 use generators::games::Kind;
-use generators::kernels::{KernelGenome, Turns};
+use generators::kernels::{KernelGenome, KernelVariation, Turns};
 use rayon::prelude::*;
 
 /// The attempts of a round, at least and at most. Part of what decides the bytes.
@@ -118,13 +120,54 @@ impl Maker<'_> {
     fn in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
         let seed = self.seed_of(turn.number);
-        let drawn = (turn.drawn.clone(), None);
+        let variation =
+            TurnVariation { turn, company, variation: KernelVariation::new(&[turn.drawn.kind()]) };
+        let drawn = (turn.drawn.clone(), &variation);
         let objection = |candidate: &Candidate| company.objection(candidate);
         if let Some(at) = self.judge_proposed(drawn, turn.number, seed, &objection, &mut attempted) {
             let steps = [("game", turn.number.into()), ("judges", at)];
             attempted.made.iter_mut().for_each(|made| made.path = path(steps));
         }
         attempted
+    }
+}
+
+/// The draws of a change before a parent is returned unchanged.
+const CHANGES: usize = 8;
+
+/// Variation of games of the kernel whose turn it is, as far as the set has a place for them.
+struct TurnVariation<'a> {
+    turn: &'a Turn,
+    company: &'a Company,
+    variation: KernelVariation,
+}
+
+impl TurnVariation<'_> {
+    fn is_wanted(&self, genome: &KernelGenome) -> bool {
+        genome.kernel() == self.turn.drawn.kernel() && self.company.has_place_for(genome)
+    }
+}
+
+impl Variation for TurnVariation<'_> {
+    type Candidate = KernelGenome;
+
+    /// Another draw of the kernel, or the one that began the turn where the set has no place for it.
+    fn create(&self, seed: Seed) -> Option<KernelGenome> {
+        let kernel = self.turn.drawn.kernel();
+        let is_open = |form: Option<&str>| self.company.room.is_open(kernel, form);
+        let drawn = KernelGenome::of_kernel(kernel, is_open, &self.company.scenes, seed);
+        Some(drawn.filter(|genome| self.is_wanted(genome)).unwrap_or_else(|| self.turn.drawn.clone()))
+    }
+
+    fn mutate(&self, parent: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
+        let changed = (0..CHANGES).map(|_| self.variation.mutate(parent, sampler));
+        let mut wanted = changed.filter(|genome| genome.key() != parent.key() && self.is_wanted(genome));
+        wanted.next().unwrap_or_else(|| parent.clone())
+    }
+
+    fn cross(&self, one: &KernelGenome, two: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
+        let child = self.variation.cross(one, two, sampler);
+        if self.is_wanted(&child) { child } else { one.clone() }
     }
 }
 

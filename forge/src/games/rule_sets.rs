@@ -297,7 +297,12 @@ pub(super) struct SetVariation<'a> {
     pub(super) own: Option<Own<'a>>,
 }
 
-impl SetVariation<'_> {
+impl<'a> SetVariation<'a> {
+    /// Variation of games of the kind of one.
+    pub(super) fn of_kind_of(genome: &KernelGenome, own: Option<Own<'a>>) -> SetVariation<'a> {
+        SetVariation { variation: KernelVariation::new(&[genome.kind()]), own }
+    }
+
     /// The game under the names of the set that it is of; `None` if it is of none.
     fn kept(&self, genome: KernelGenome) -> Option<KernelGenome> {
         let Some((all, own)) = &self.own else { return Some(genome) };

@@ -1,7 +1,7 @@
-//! Names of types in VGDL, as authors of small games write them: one short word in lower case.
+//! Names of types in VGDL, as authors of small games write them: one short word, or two in `camelCase`.
 //!
 //! Titles and stories use the nouns of the scene; rules use these names. A `curtainCord` is a `cord`, a `coalLump` is `coal`, an
-//! `oilCan` an `oilcan`, a lit `lamp` a `litlamp`, an open `boathouse` an `exit`.
+//! `oilCan` remains one, a lit `lamp` is a `litLamp`, an open `boathouse` an `exit`.
 
 use super::kernel::Casting;
 use super::phrase::Nouns;
@@ -45,7 +45,7 @@ pub(crate) fn names<'a>(
     for (stype, casting) in &castings {
         if matches!(casting, Casting::Role(_)) {
             let noun = &nouns[stype.as_str()];
-            names.give(stype, &[&short(noun), &joined(noun)]);
+            names.give(stype, &[&short(noun), noun]);
         }
     }
     for (stype, casting) in &castings {
@@ -81,7 +81,7 @@ impl Names<'_> {
         // The noun of a state is the adjective and the noun of the thing.
         let thing = noun.strip_prefix(adjective).unwrap_or(noun);
         let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
-        let both = format!("{adjective}{thing}");
+        let both = format!("{adjective}{}", english::capital(&thing));
         // A kernel has its own word for some states: a follower, the ashes of something, `dazed`.
         let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
         let tells_more = is_word && !vocabulary::is_role(stype);
@@ -96,18 +96,14 @@ impl Names<'_> {
     }
 }
 
-/// Returns the word of a noun that says enough alone: the last one, or the stuff of which there is some; or all of them as one word.
+/// Returns the word of a noun that says enough alone: the last one, or the stuff of which there is some; or the whole noun.
 fn short(noun: &str) -> String {
     let spaced = english::spaced(noun);
     match spaced.rsplit_once(' ') {
         Some((stuff, last)) if AMOUNTS.contains(&last) && !stuff.contains(' ') => stuff.to_owned(),
         Some((_, last)) if !VAGUE.contains(&last) => last.to_owned(),
-        _ => joined(noun),
+        _ => noun.to_owned(),
     }
-}
-
-fn joined(noun: &str) -> String {
-    noun.to_ascii_lowercase()
 }
 
 #[cfg(test)]
@@ -127,7 +123,7 @@ mod tests {
             ("globe", role("lamp"), "chandelier"),
             ("hunter", role("hunter"), "polarBear"),
             ("lever", role("lever"), "curtainCord"),
-            ("other", role("beast"), "polarbear"),
+            ("other", role("beast"), "polarBear"),
             ("litLamp", state("lamp", "lit"), "litFairLamp"),
             ("litGlobe", state("globe", "lit"), "litChandelier"),
             ("openExit", state("exit", "open"), "openBoathouse"),
@@ -142,14 +138,14 @@ mod tests {
             ("bear", "bear"),
             ("dazed", "dazed"),
             ("exit", "boathouse"),
-            ("fuel", "oilcan"),
-            ("hunter", "polarbear"),
+            ("fuel", "oilCan"),
+            ("hunter", "polarBear"),
             ("lever", "cord"),
-            ("other", "polarbear2"),
-            ("litLamp", "litlamp"),
+            ("other", "polarBear2"),
+            ("litLamp", "litLamp"),
             ("litGlobe", "lit"),
             ("openExit", "exit"),
-            ("wokenBear", "wokenbear"),
+            ("wokenBear", "wokenBear"),
         ];
         for (stype, name) in expect {
             assert_eq!(names[stype], name, "{stype}");
