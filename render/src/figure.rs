@@ -19,6 +19,9 @@ use std::sync::LazyLock;
 /// filled, a number for a line of that width; `=` adds the mirror image.
 const FIGURES: &str = include_str!("art/figures.txt");
 
+/// The figures of people.
+const PEOPLE: [&str; 5] = ["person", "keeper", "customer", "knight", "thief"];
+
 /// The shortest word that is recognised as the end of a longer one.
 const SHORTEST_END: usize = 4;
 
@@ -117,6 +120,10 @@ impl Form {
         self.figure().is_some_and(|figure| figure.parts.iter().any(|part| !matches!(part, Part::Outline(..))))
     }
 
+    fn is_person(self) -> bool {
+        self.figure().is_some_and(|figure| PEOPLE.contains(&figure.name))
+    }
+
     /// Returns its name, in a word.
     pub fn name(self) -> &'static str {
         match self {
@@ -203,7 +210,9 @@ impl<'a> Hint<'a> {
         let noun = || noun(self.noun).map(Form::of_entry);
         let is_wall = |form: &Form| form.figure().is_some_and(|figure| figure.is_wall);
         match (self.role, glyph) {
-            (_, Glyph::Avatar | Glyph::Craft) | (None, Glyph::Floor) => drawn,
+            // A player who is an animal looks like one; people have the figure of the glyph.
+            (_, Glyph::Avatar) => noun().filter(|form| form.has_face() && !form.is_person()).unwrap_or(drawn),
+            (_, Glyph::Craft) | (None, Glyph::Floor) => drawn,
             (Some("floor"), _) => Form::Glyph(Glyph::Floor),
             // Walls stay walls, whatever they are made of.
             (Some("wall"), _) | (None, Glyph::Wall) => noun().filter(is_wall).unwrap_or(drawn),
@@ -407,7 +416,8 @@ mod tests {
         check("gate/open/portcullis", Glyph::Neutral, "opendoor");
         check("oryx/cheese2", Glyph::Gem, "cheese");
         check("oryx/wug1", Glyph::Gem, "a gem");
-        check("hero/cat", Glyph::Avatar, "a figure in a bright ring");
+        check("hero/cat", Glyph::Avatar, "cat");
+        check("hero/clockmaker", Glyph::Avatar, "a figure in a bright ring");
         check("floor/grass", Glyph::Neutral, "a plain tile");
         check("wall/boxHedge", Glyph::Wall, "hedge");
         check("wall/toolbox", Glyph::Wall, "bricks");

@@ -13,13 +13,18 @@ fn ring(art: &mut Art) {
     art.fill(Outline::circle(0.5, 0.5, 0.4), RING.mixed(PAPER, 75));
 }
 
-/// A figure with a head, seen from the front; a pointer on the ring shows its facing.
-pub(crate) fn avatar(art: &mut Art) {
+/// The ring around the avatar, with a pointer that shows its facing.
+pub(super) fn ring_of_avatar(art: &mut Art) {
     ring(art);
     if let Some(direction) = art.facing {
         let pointer = Outline::polygon(&[[0.99, 0.5], [0.84, 0.36], [0.84, 0.64]]);
         art.solid(pointer.turned(direction), RING);
     }
+}
+
+/// A figure with a head, seen from the front; a pointer on the ring shows its facing.
+pub(crate) fn avatar(art: &mut Art) {
+    ring_of_avatar(art);
     let body = Outline::path("M.27,.83 C.27,.62,.36,.52,.5,.52 C.64,.52,.73,.62,.73,.83 Z");
     art.solid(body, art.main());
     let skin = Colour([0xff, 0xe0, 0xbd]);

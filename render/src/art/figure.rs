@@ -1,14 +1,24 @@
 //! Figures and marks of the table of [`crate::figure`].
 
 use super::Art;
-use super::creatures::teeth;
+use super::creatures::{ring_of_avatar, teeth};
 use crate::colour::{Colour, INK, PAPER, VERMILION};
 use crate::figure::{self, Figure, Mood, Part, Tint};
 use crate::glyph::Glyph;
 use crate::shape::Outline;
 
+/// The size of a figure in the ring of the avatar.
+const IN_RING: f32 = 0.72;
+
 /// Adds a figure, and the signs of what the rules say about it.
 pub(crate) fn draw(art: &mut Art, figure: &Figure) {
+    if art.look.glyph == Glyph::Avatar {
+        ring_of_avatar(art);
+        let first = art.shapes.len();
+        figure.parts.iter().for_each(|part| add(art, part));
+        art.shrink(first, IN_RING);
+        return;
+    }
     figure.parts.iter().for_each(|part| add(art, part));
     if let (true, Some(direction)) = (figure.turns, art.facing) {
         art.turn(0, direction);

@@ -109,6 +109,14 @@ impl Art {
         }
     }
 
+    /// Shrinks the shapes from this one on, towards the middle.
+    fn shrink(&mut self, first: usize, factor: f32) {
+        for shape in &mut self.shapes[first..] {
+            let outline = std::mem::take(&mut shape.outline);
+            shape.outline = outline.mapped(|[x, y]| [0.5 + (x - 0.5) * factor, 0.5 + (y - 0.5) * factor]);
+        }
+    }
+
     /// Dots at the foot, for types that share form and colour.
     fn pips(&mut self) {
         let count = self.look.pips;
