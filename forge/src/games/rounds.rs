@@ -174,7 +174,7 @@ impl Variation for TurnVariation<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
+    use std::collections::{BTreeMap, BTreeSet};
 
     fn ledger(kernels: &[(&'static str, Kind)]) -> Ledger {
         let fared = |&(kernel, kind)| Fared { kernel, kind, tries: 0 };
@@ -195,5 +195,25 @@ mod tests {
             *tried.entry(fared.kernel).or_insert(0) += 1;
         }
         assert_eq!(tried, BTreeMap::from([("one-pull", 12), ("one-spark", 28)]));
+    }
+
+    #[test]
+    fn a_search_keeps_to_the_kernel_whose_turn_it_is() {
+        let seed = Seed::from_text("turn");
+        let drawn = KernelGenome::of_kernel("one-spark", |_| true, &BTreeSet::new(), seed).unwrap();
+        let (turn, company) = (Turn { number: 0, drawn }, Company::default());
+        let kinds = KernelVariation::new(&[turn.drawn.kind()]);
+        let variation = TurnVariation { turn: &turn, company: &company, variation: kinds };
+        let other = KernelGenome::of_kernel("one-pull", |_| true, &BTreeSet::new(), seed).unwrap();
+        let sampler = &mut seed.sampler();
+        let mut genome = variation.create(seed).unwrap();
+        let mut changed = 0;
+        for _ in 0..40 {
+            let next = variation.mutate(&variation.cross(&genome, &other, sampler), sampler);
+            assert_eq!(next.kernel(), "one-spark");
+            changed += usize::from(next.key() != genome.key());
+            genome = next;
+        }
+        assert!(changed > 20, "{changed}");
     }
 }
