@@ -3,6 +3,7 @@
 use super::candidate::Candidate;
 use super::company::{Company, Room};
 use super::make::{Attempted, GameSet, Maker, Shortfall, path};
+use super::rule_sets::CHANGES;
 use engine::{Sampler, Seed};
 use generators::Variation;
 use generators::games::Kind;
@@ -131,9 +132,6 @@ impl Maker<'_> {
         attempted
     }
 }
-
-/// The draws of a change before a parent is returned unchanged.
-const CHANGES: usize = 8;
 
 /// Variation of games of the kernel whose turn it is, as far as the set has a place for them.
 struct TurnVariation<'a> {

@@ -289,7 +289,7 @@ fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
 pub(super) type Own<'a> = (&'a RuleSets, Vec<&'a RuleSet>);
 
 /// The draws of a change before a parent is returned unchanged.
-const CHANGES: usize = 8;
+pub(super) const CHANGES: usize = 8;
 
 /// Variation of games that keeps to some sets of rules, if there are any to keep to.
 pub(super) struct SetVariation<'a> {
