@@ -49,6 +49,7 @@ pub use game_measures::{GameKind, PlayMeasures};
 pub use game_report::{GameCase, GameReport, GameValidator};
 pub use gates::{
     ActorsMatter, Drama, GATES, Gates, Necessity, NoDeadTime, NotInstant, OpenGround, Progression, Tight,
+    ended_share,
 };
 pub use idle::NotIdle;
 pub use ladder::{Difficulty, Ladder, LadderConfig, PlayerResult, Rung, UnknownDifficulty};

@@ -9,7 +9,7 @@ use generators::kernels::{KernelGame, KernelGenome};
 use std::collections::BTreeSet;
 use validators::game_measures::Guards;
 use validators::novelty::{GameForm, NEAR};
-use validators::{Criteria, Panel};
+use validators::{Criteria, Panel, ended_share};
 
 /// Judges games for good, with dice that no search has seen.
 pub(super) struct GameGate<'a> {
@@ -29,6 +29,11 @@ pub(super) struct GameGate<'a> {
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
 /// The least time limit, as a multiple of the longest win that is known of the levels.
 const TIME_PER_WIN: f64 = 2.5;
+
+/// The share of careless plays that end by the rules, on average over the levels, for a game to go without a time limit.
+const ENDED_PLAYS: f64 = 0.25;
+/// The judges, in tallies, of a game that goes without a time limit if it passes so.
+const NO_CLOCK: &str = "no time limit";
 
 /// The reason for turning down a game in which too little happens.
 const MEAGRE: &str = "meagre";
@@ -96,18 +101,52 @@ impl<'a> GameGate<'a> {
                 .filter_map(|found| found.report.witness.as_ref())
                 .map(|win| win.actions.len())
                 .max()?;
-            let (candidate, _) = build(&genome.timed(time_limit(longest)))?;
-            let again = found.iter().map(|found| levels.again(&candidate.game, found, tally));
-            let Some(found) = again.collect::<Option<Vec<_>>>() else {
-                tally.game_rejected("time limit");
-                return None;
-            };
-            if mechanics(&candidate.game, &found) < self.order.least_mechanics {
-                tally.game_rejected(MEAGRE);
-                return None;
+            if !genome.has_clock() {
+                let mut spent = Tally::default();
+                let made = build(&genome.timed(None)).and_then(|(candidate, _)| {
+                    self.ends(&candidate, &found, seed).then_some(())?;
+                    self.limited(candidate, &levels, &found, &mut spent)
+                });
+                if made.is_some() {
+                    tally.add(&spent);
+                    return made;
+                }
+                tally.judge(NO_CLOCK, false, spent.calls);
             }
-            self.accept(candidate, &levels, found, tally)
+            let (candidate, _) = build(&genome.timed(Some(time_limit(longest))))?;
+            self.limited(candidate, &levels, &found, tally)
         })
+    }
+
+    /// Tests whether careless plays of a game without a time limit come to an end by its rules.
+    fn ends(&self, candidate: &Candidate, found: &[FoundLevel], seed: Seed) -> bool {
+        let share = |(number, found): (u64, &FoundLevel)| {
+            let win = found.report.witness.as_ref()?;
+            let seed = seed.child("ends", number);
+            Some(ended_share(&candidate.game, &found.level, win, &self.criteria.gates, seed))
+        };
+        let shares: Option<Vec<f64>> = (0..).zip(found).map(share).collect();
+        shares.is_some_and(|shares| shares.iter().sum::<f64>() >= ENDED_PLAYS * shares.len() as f64)
+    }
+
+    /// Judges a game with its time limit, or without one, on the levels that were found for it with another.
+    fn limited(
+        &self,
+        candidate: Candidate,
+        levels: &Levels<'_>,
+        found: &[FoundLevel],
+        tally: &mut Tally,
+    ) -> Option<MadeGame> {
+        let again = found.iter().map(|found| levels.again(&candidate.game, found, tally));
+        let Some(found) = again.collect::<Option<Vec<_>>>() else {
+            tally.game_rejected("time limit");
+            return None;
+        };
+        if mechanics(&candidate.game, &found) < self.order.least_mechanics {
+            tally.game_rejected(MEAGRE);
+            return None;
+        }
+        self.accept(candidate, levels, found, tally)
     }
 
     /// Judges a game over all its levels, by second judges too, and finishes it.
@@ -264,7 +303,6 @@ pub(super) mod tests {
         check(&|order| order.level_tries = 0, &[], "no level 0");
     }
 
-    /// Kernels of this kind leave the time limit to the gate.
     #[test]
     fn a_game_has_a_course_and_time_for_it() {
         let order = GameOrder { kinds: vec![Kind::Tending], ..order() };
@@ -275,11 +313,35 @@ pub(super) mod tests {
         };
         assert!(generator == "constructive" && patterns[0].starts_with("kernel/"), "{patterns:?}");
         assert!(made.card.levels.iter().all(|level| level.generator == "course"));
-        let limit =
-            made.game.description().terminations.iter().find(|line| line.class.text == "Timeout").unwrap();
-        let limit: usize = limit.params[0].value.text.parse().unwrap();
-        let wins = made.witnesses.iter().map(|witness| witness.actions.len());
-        assert_eq!(limit as u32, time_limit(wins.max().unwrap()));
+    }
+
+    /// Kernels of this kind leave the time limit to the gate.
+    #[test]
+    fn a_game_has_a_limit_by_its_wins_unless_it_ends_without() {
+        let variation = KernelVariation::new(&[Kind::Tending]);
+        let seed = Seed::from_text("limits");
+        let genomes = (0..40).filter_map(|number| variation.create(seed.child("game", number)));
+        let (mut clocks, mut others) = (0, 0);
+        for genome in genomes {
+            let Some(made) = judge(&order(), &[], &genome).0 else { continue };
+            let limit = made.game.description().terminations.iter().find(|line| line.class.text == "Timeout");
+            let wins = made.witnesses.iter().map(|witness| witness.actions.len());
+            match limit {
+                Some(limit) => {
+                    let limit: u32 = limit.params[0].value.text.parse().unwrap();
+                    assert_eq!(limit, time_limit(wins.max().unwrap()));
+                    clocks += 1;
+                }
+                None => {
+                    assert!(!genome.has_clock());
+                    others += 1;
+                }
+            }
+            if clocks > 0 && others > 0 {
+                return;
+            }
+        }
+        panic!("{clocks} games with a limit, {others} without");
     }
 
     #[test]

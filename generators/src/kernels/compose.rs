@@ -27,8 +27,8 @@ pub(crate) struct Choices<'a> {
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The ticks after which the game is lost, unless surviving them is the goal.
-    pub(crate) time: u32,
+    /// The ticks after which the game is lost, if there is a limit and surviving is not the goal.
+    pub(crate) time: Option<u32>,
 }
 
 /// A game without levels: rules, nouns, words, and what its levels are built of.
@@ -138,16 +138,27 @@ impl Choices<'_> {
         let traits = traits(&description);
         self.color(&mut description.sprites, &nouns);
         self.picture(&mut description.sprites, &nouns);
-        let declared = description.sprite_lines().iter().map(|(_, line)| line.name.text.clone()).collect();
+        let declared: BTreeSet<String> =
+            description.sprite_lines().iter().map(|(_, line)| line.name.text.clone()).collect();
         let sampler_of_names = &mut self.nouns.child("names", 0).sampler();
-        let names = naming::names(&nouns, self.roles(), declared, sampler_of_names);
+        let names = match self.habits.has_plain_names {
+            true => naming::plain(&nouns, &declared),
+            false => naming::names(&nouns, self.roles(), declared, sampler_of_names),
+        };
         let symbols = self.map_symbols(&mut description, &names);
         if let Some(line) = description.sprites.iter_mut().find(|line| line.name.text == "wall") {
             line.params.push(Param::new("img", format!("wall/{}", nouns["wall"])));
             line.params.push(Param::new("color", &self.scene.wall_color));
         }
         let description = description.renamed(&names);
-        let fill = |text: &str| phrase::fill(text, &nouns).map_err(GenerateError::Unsuitable);
+        // What is called by what it does is so in sentences, too; titles and pictures have the nouns of the scene.
+        let called = |(stype, noun): (&String, &String)| match stype.as_str() {
+            "hero" | "wall" | "floor" => (stype.clone(), noun.clone()),
+            _ => (stype.clone(), stype.clone()),
+        };
+        let words: Nouns =
+            if self.habits.has_plain_names { nouns.iter().map(called).collect() } else { nouns.clone() };
+        let fill = |text: &str| phrase::fill(text, &words).map_err(GenerateError::Unsuitable);
         let sentence = |text: &str| Ok::<String, GenerateError>(phrase::sentence(&fill(text)?));
         let can_be_said = |title: &&String| phrase::title(&self.fill_numbers(title), &nouns).is_ok();
         let titles = self.kernel.titles.iter().chain(&self.scene.titles);
@@ -160,7 +171,7 @@ impl Choices<'_> {
         let mut summary =
             sentences.map(|text| sentence(&self.fill_numbers(text))).collect::<Result<Vec<_>, _>>()?;
         for graft in self.grafts {
-            let noun = |(from, to): (&String, &String)| Some((from.clone(), nouns.get(to)?.clone()));
+            let noun = |(from, to): (&String, &String)| Some((from.clone(), words.get(to)?.clone()));
             let own: Nouns = graft.names.iter().filter_map(noun).collect();
             for fact in &graft.facts {
                 let fact = phrase::fill(fact, &own).map_err(GenerateError::Unsuitable)?;
@@ -180,7 +191,7 @@ impl Choices<'_> {
                 traits,
                 space: self.habits.space,
                 edge,
-                nouns: nouns.clone(),
+                nouns: words,
                 symbols,
             },
             description,
@@ -195,8 +206,12 @@ impl Choices<'_> {
     /// The rules as text, under the names of the kernel.
     fn rules(&self) -> String {
         let mut text = self.kernel.text(self.variants, self.values);
-        if !text.contains("Timeout") {
-            text.push_str(&format!("        Timeout limit={} win=False\n", self.time));
+        match self.time {
+            Some(time) if !text.contains("Timeout") => {
+                text.push_str(&format!("        Timeout limit={time} win=False\n"));
+            }
+            Some(_) => {}
+            None => text = text.split_inclusive('\n').filter(|line| !is_limit(line)).collect(),
         }
         text
     }
@@ -376,6 +391,11 @@ impl Palette<'_> {
         self.given.insert(name.to_owned(), color.clone());
         color
     }
+}
+
+/// Tests whether a line of rules is a limit of ticks after which the game is lost.
+fn is_limit(line: &str) -> bool {
+    line.contains("Timeout") && line.contains("win=False")
 }
 
 fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nouns: &Nouns) {

@@ -45,8 +45,8 @@ pub struct KernelGenome {
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The ticks after which the game is lost.
-    pub(crate) time: u32,
+    /// The ticks after which the game is lost, if there is a limit.
+    pub(crate) time: Option<u32>,
 }
 
 impl KernelGenome {
@@ -113,7 +113,8 @@ impl KernelGenome {
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
-        let habits = Habits { edge: self.habits.edge, ..Habits::draw(seed) };
+        let Habits { edge, has_clock, has_plain_names, .. } = self.habits;
+        let habits = Habits { edge, has_clock, has_plain_names, ..Habits::draw(seed) };
         KernelGenome { values, habits, ..self.clone() }
     }
 
@@ -150,7 +151,7 @@ impl KernelGenome {
             scene,
             nouns,
             habits: Habits::draw(nouns),
-            time: LONG,
+            time: Some(LONG),
         }
     }
 
@@ -228,9 +229,14 @@ impl KernelGenome {
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// The same game with another limit of ticks.
+    /// Whether the game has a limit of ticks in any case, or only where it would not end without one.
+    pub fn has_clock(&self) -> bool {
+        self.habits.has_clock
+    }
+
+    /// The same game with another limit of ticks, or none; a goal to last for some ticks stays.
     #[must_use]
-    pub fn timed(&self, ticks: u32) -> KernelGenome {
+    pub fn timed(&self, ticks: Option<u32>) -> KernelGenome {
         KernelGenome { time: ticks, ..self.clone() }
     }
 
@@ -335,7 +341,7 @@ pub fn preview(
         scene,
         nouns: seed,
         habits: Habits::draw(seed),
-        time: LONG,
+        time: Some(LONG),
     };
     let KernelGame { game, course } = genome.build()?;
     let mut description = game.rules.description().clone();

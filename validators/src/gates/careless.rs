@@ -67,6 +67,16 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
+/// The share of the plays of careless players on a level that the rules bring to an end, won or lost: in the others nothing happens
+/// any more. Cost: [`Gates::careless_plays`] plays, a call for each action and tick.
+pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
+    let players = (gates.careless_slips, 0..gates.careless_plays);
+    let plays = nearest_goal(game, (level, win.actions.len()), players, seed);
+    let ended =
+        plays.iter().filter(|episode| matches!(episode.outcome, Outcome::Won | Outcome::Lost)).count();
+    ended as f64 / plays.len().max(1) as f64
+}
+
 /// The share of plays that are won.
 pub(super) fn win_share(plays: &[Episode]) -> f64 {
     let won = plays.iter().filter(|episode| episode.outcome == Outcome::Won).count();

@@ -19,6 +19,7 @@ mod tight;
 pub(crate) use careless::CarelessPlays;
 
 pub use actors_matter::ActorsMatter;
+pub use careless::ended_share;
 pub use drama::Drama;
 pub use necessity::Necessity;
 pub use no_dead_time::NoDeadTime;

@@ -3,6 +3,7 @@
 mod embedding;
 mod furniture;
 mod room;
+mod stretch;
 
 use super::kernel::Kernel;
 use super::map::Map;
@@ -14,6 +15,11 @@ use std::collections::{BTreeMap, BTreeSet};
 const LARGEST: (usize, usize) = (24, 14);
 /// The number of layouts to draw for a map.
 const DRAWS: u64 = 24;
+
+/// The sizes of board that authors keep to; none as often as not.
+const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
+/// The share of the boards that are stretched, where any are.
+const STRETCHED: (usize, usize) = (3, 4);
 
 /// A cell, as column and row.
 pub(crate) type Cell = (usize, usize);
@@ -38,17 +44,20 @@ pub(crate) struct Space {
     pub(crate) spare: usize,
     /// Columns for each row, as far as rooms can be laid out so.
     pub(crate) shape: f64,
+    /// The columns and rows to which boards are stretched, as far as that goes.
+    pub(crate) board: Option<Cell>,
 }
 
 impl Default for Space {
     fn default() -> Space {
-        Space { spare: 0, shape: 1.6 }
+        Space { spare: 0, shape: 1.6, board: None }
     }
 }
 
 impl Space {
     pub(crate) fn draw(sampler: &mut Sampler) -> Space {
-        Space { spare: *sampler.choose(&[0, 0, 0, 1]), shape: *sampler.choose(&[1.0, 1.6, 1.6, 2.4]) }
+        let (spare, shape) = (*sampler.choose(&[0, 0, 0, 1]), *sampler.choose(&[1.0, 1.6, 1.6, 2.4]));
+        Space { spare, shape, board: *sampler.choose(&BOARDS) }
     }
 }
 
@@ -91,6 +100,17 @@ impl Board {
             }
         }
         inner
+    }
+
+    /// The board with its columns as rows.
+    fn transposed(&self) -> Board {
+        let mut turned = Board::walls(self.rows, self.columns);
+        for y in 0..self.rows {
+            for x in 0..self.columns {
+                turned.put((y, x), self.at((x, y)));
+            }
+        }
+        turned
     }
 
     /// The cells beside a cell, within the board.
@@ -141,6 +161,10 @@ pub(crate) fn lay_out(
         let mut board = Board::walls(embedding.columns, embedding.rows);
         let openings = room::build(map, kernel, traits, &embedding, &mut board, sampler)?;
         furniture::furnish(map, traits, &embedding, &openings, &mut board, sampler)?;
-        Some(board)
+        let size = space.board.filter(|_| sampler.ratio(STRETCHED.0, STRETCHED.1));
+        Some(match size {
+            None => board,
+            Some(size) => stretch::stretch(board, size, sampler),
+        })
     })
 }
