@@ -229,7 +229,7 @@ impl KernelGenome {
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// Whether the game has a limit of ticks in any case, or only where it would not end without one.
+    /// `true` if the game has a limit of ticks in any case, and not only where it would not end without one.
     pub fn has_clock(&self) -> bool {
         self.habits.has_clock
     }

@@ -18,7 +18,7 @@ pub(crate) struct Habits {
     pub(crate) space: Space,
     /// The player's colour, unless the floor or the walls have it.
     pub(crate) hero: &'static str,
-    /// Whether the game has a limit of ticks in any case, or only where it would not end without one.
+    /// `true` if the game has a limit of ticks in any case, and not only where it would not end without one.
     pub(crate) has_clock: bool,
 }
 
