@@ -131,6 +131,7 @@ impl Choices<'_> {
             description.sprites.extend(graft.sprites.iter().cloned());
             description.interactions.extend(graft.interactions.iter().cloned());
         }
+        let mut description = without_lone_groups(description);
         let edge = self.habits.apply(&mut description);
         ways::set_obstacles(&mut description);
         let mut sampler = self.nouns.sampler();
@@ -138,27 +139,16 @@ impl Choices<'_> {
         let traits = traits(&description);
         self.color(&mut description.sprites, &nouns);
         self.picture(&mut description.sprites, &nouns);
-        let declared: BTreeSet<String> =
-            description.sprite_lines().iter().map(|(_, line)| line.name.text.clone()).collect();
+        let declared = description.sprite_lines().iter().map(|(_, line)| line.name.text.clone()).collect();
         let sampler_of_names = &mut self.nouns.child("names", 0).sampler();
-        let names = match self.habits.has_plain_names {
-            true => naming::plain(&nouns, &declared),
-            false => naming::names(&nouns, self.roles(), declared, sampler_of_names),
-        };
+        let names = naming::names(&nouns, self.roles(), declared, sampler_of_names);
         let symbols = self.map_symbols(&mut description, &names);
         if let Some(line) = description.sprites.iter_mut().find(|line| line.name.text == "wall") {
             line.params.push(Param::new("img", format!("wall/{}", nouns["wall"])));
             line.params.push(Param::new("color", &self.scene.wall_color));
         }
         let description = description.renamed(&names);
-        // What is called by what it does is so in sentences, too; titles and pictures have the nouns of the scene.
-        let called = |(stype, noun): (&String, &String)| match stype.as_str() {
-            "hero" | "wall" | "floor" => (stype.clone(), noun.clone()),
-            _ => (stype.clone(), stype.clone()),
-        };
-        let words: Nouns =
-            if self.habits.has_plain_names { nouns.iter().map(called).collect() } else { nouns.clone() };
-        let fill = |text: &str| phrase::fill(text, &words).map_err(GenerateError::Unsuitable);
+        let fill = |text: &str| phrase::fill(text, &nouns).map_err(GenerateError::Unsuitable);
         let sentence = |text: &str| Ok::<String, GenerateError>(phrase::sentence(&fill(text)?));
         let can_be_said = |title: &&String| phrase::title(&self.fill_numbers(title), &nouns).is_ok();
         let titles = self.kernel.titles.iter().chain(&self.scene.titles);
@@ -171,7 +161,7 @@ impl Choices<'_> {
         let mut summary =
             sentences.map(|text| sentence(&self.fill_numbers(text))).collect::<Result<Vec<_>, _>>()?;
         for graft in self.grafts {
-            let noun = |(from, to): (&String, &String)| Some((from.clone(), words.get(to)?.clone()));
+            let noun = |(from, to): (&String, &String)| Some((from.clone(), nouns.get(to)?.clone()));
             let own: Nouns = graft.names.iter().filter_map(noun).collect();
             for fact in &graft.facts {
                 let fact = phrase::fill(fact, &own).map_err(GenerateError::Unsuitable)?;
@@ -191,7 +181,7 @@ impl Choices<'_> {
                 traits,
                 space: self.habits.space,
                 edge,
-                nouns: words,
+                nouns: nouns.clone(),
                 symbols,
             },
             description,
@@ -393,6 +383,31 @@ impl Palette<'_> {
     }
 }
 
+/// The same rules without groups of one type, which a form leaves of groups of several: the type stands for itself. A group that shares
+/// a line with its type stays.
+fn without_lone_groups(mut description: Description) -> Description {
+    let lone = |line: &SpriteLine| line.class.is_none() && line.params.is_empty() && line.children.len() == 1;
+    let groups: BTreeMap<String, String> = description
+        .sprites
+        .iter()
+        .filter(|line| lone(line))
+        .map(|line| (line.name.text.clone(), line.children[0].name.text.clone()))
+        .filter(|(group, only)| {
+            !description.interactions.iter().any(|line| {
+                let tells =
+                    |name: &String| line.second.iter().chain([&line.first]).any(|word| word.text == *name);
+                tells(group) && tells(only)
+            })
+        })
+        .collect();
+    for line in &mut description.sprites {
+        if groups.contains_key(&line.name.text) {
+            *line = line.children.remove(0);
+        }
+    }
+    description.renamed(&groups)
+}
+
 /// Tests whether a line of rules is a limit of ticks after which the game is lost.
 fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
@@ -450,4 +465,23 @@ fn traits(description: &Description) -> Traits {
         }
     }
     traits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_group_of_one_is_that_one_unless_a_line_has_both() {
+        let game = |rule: &str| {
+            format!(
+                "BasicGame\n    SpriteSet\n        foe >\n            cat > Chaser stype=hero\n        hero > MovingAvatar\n    InteractionSet\n        {rule}\n    TerminationSet\n        SpriteCounter stype=foe win=True\n"
+            )
+        };
+        let dissolved = |rule: &str| syntax::print_bare(&without_lone_groups(syntax::parse(&game(rule)).0));
+        let text = dissolved("hero foe > killSprite");
+        assert!(text.contains("hero cat > killSprite") && text.contains("stype=cat"), "{text}");
+        assert!(!text.contains("foe"), "{text}");
+        assert!(dissolved("foe cat > stepBack").contains("foe cat > stepBack"));
+    }
 }

@@ -113,8 +113,8 @@ impl KernelGenome {
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
-        let Habits { edge, has_clock, has_plain_names, .. } = self.habits;
-        let habits = Habits { edge, has_clock, has_plain_names, ..Habits::draw(seed) };
+        let Habits { edge, has_clock, .. } = self.habits;
+        let habits = Habits { edge, has_clock, ..Habits::draw(seed) };
         KernelGenome { values, habits, ..self.clone() }
     }
 

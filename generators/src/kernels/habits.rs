@@ -1,4 +1,4 @@
-//! Habits of a game's author: points, names, edges, sizes and clocks, which a kernel leaves open.
+//! Habits of a game's author: points, edges, sizes and clocks, which a kernel leaves open.
 
 use super::course::Space;
 use engine::syntax::{InteractionLine, Param, SpriteLine};
@@ -10,10 +10,6 @@ use std::collections::BTreeMap;
 pub(crate) struct Habits {
     /// All points are multiplied by this number.
     pub(crate) unit: u32,
-    /// Every gain is one point, and nothing costs any.
-    pub(crate) has_plain_points: bool,
-    /// Types are called by what they do, as the kernel calls them, and shown as what the scene has.
-    pub(crate) has_plain_names: bool,
     pub(crate) edge: Edge,
     pub(crate) space: Space,
     /// The player's colour, unless the floor or the walls have it.
@@ -48,24 +44,13 @@ impl Habits {
         let unit = *of("unit").choose(&[1, 1, 1, 2, 5, 10]);
         let edge = if of("edge").ratio(1, 4) { Edge::Screen } else { Edge::Walls };
         let hero = of("hero").choose(&HEROES);
-        Habits {
-            unit,
-            edge,
-            space: Space::draw(&mut of("space")),
-            hero,
-            has_clock: of("clock").ratio(1, 4),
-            has_plain_points: of("points").ratio(1, 2),
-            has_plain_names: of("names").ratio(1, 4),
-        }
+        Habits { unit, edge, space: Space::draw(&mut of("space")), hero, has_clock: of("clock").ratio(1, 4) }
     }
 
     /// Changes rules to these habits, and returns the edge that the levels have.
     pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
             drop_penalty_of_death(line);
-            if self.has_plain_points {
-                make_plain(line);
-            }
             for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
                 if let Ok(points) = param.value.text.parse::<i64>() {
                     param.value = (points * i64::from(self.unit)).to_string().as_str().into();
@@ -77,13 +62,6 @@ impl Habits {
             _ => Edge::Walls,
         }
     }
-}
-
-/// Every gain is one point, and nothing costs any.
-fn make_plain(line: &mut InteractionLine) {
-    let is_points = |param: &Param| param.key.text == "scoreChange";
-    line.params.retain(|param| !is_points(param) || !param.value.text.starts_with('-'));
-    line.params.iter_mut().filter(|param| is_points(param)).for_each(|param| param.value = "1".into());
 }
 
 /// A death costs no points: it ends the game. Other penalties are the price of what can be done again, and stay.
@@ -160,9 +138,7 @@ mod tests {
     const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    plum > Immovable\n    foe >\n      cat > Chaser stype=hero\n      dog > Chaser stype=plum\n    hero > ShootAvatar stype=shot\n    shot > Missile\n  LevelMapping\n    p > plum\n  InteractionSet\n    hero wall cat > stepBack\n    foe wall > stepBack\n    shot wall > killSprite\n    plum hero > killSprite scoreChange=2\n    hero foe > killSprite scoreChange=-1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n";
 
     fn habits(unit: u32, edge: Edge) -> Habits {
-        let (has_plain_points, has_plain_names, has_clock) = (false, false, true);
-        let (space, hero) = (Space::default(), HEROES[0]);
-        Habits { unit, edge, space, hero, has_clock, has_plain_points, has_plain_names }
+        Habits { unit, edge, space: Space::default(), hero: HEROES[0], has_clock: true }
     }
 
     fn applied(source: &str, habits: Habits) -> (String, Edge) {
@@ -212,12 +188,9 @@ mod tests {
             values.map(str::to_owned).collect::<Vec<_>>()
         };
         assert_eq!(points(habits(10, Edge::Walls)), ["20"]);
-        assert_eq!(points(Habits { has_plain_points: true, ..habits(5, Edge::Walls) }), ["5"]);
         let priced =
             GAME.replace("plum hero > killSprite scoreChange=2", "plum hero > stepBack scoreChange=-2");
         let text = applied(&priced, habits(1, Edge::Walls)).0;
         assert!(text.contains("plum hero > stepBack scoreChange=-2"), "{text}");
-        let text = applied(&priced, Habits { has_plain_points: true, ..habits(1, Edge::Walls) }).0;
-        assert!(!text.contains("scoreChange"), "{text}");
     }
 }

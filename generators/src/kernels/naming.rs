@@ -38,8 +38,8 @@ pub(crate) fn names<'a>(
     let mut names = Names { nouns, given: BTreeMap::new(), taken };
     let habit = sampler.below(3);
     names.give("floor", &[["floor", "floor", "ground"][habit]]);
-    // Authors call the player by its part in the story, or `avatar`.
-    if sampler.ratio(1, 2) && !names.taken.contains("avatar") {
+    // Authors call the player by its part in the story, some of them `avatar`.
+    if sampler.below(4) == 0 && !names.taken.contains("avatar") {
         names.give("hero", &["avatar"]);
     }
     for (stype, casting) in &castings {
@@ -54,13 +54,6 @@ pub(crate) fn names<'a>(
         }
     }
     names.given
-}
-
-/// The names of the types of a game that are called by what they do: those in the kernel, and `avatar` for the player.
-pub(crate) fn plain(nouns: &Nouns, declared: &BTreeSet<String>) -> BTreeMap<String, String> {
-    let hero = if declared.contains("avatar") { "hero" } else { "avatar" };
-    let name = |stype: &String| if stype == "hero" { hero.to_owned() } else { stype.clone() };
-    nouns.keys().filter(|stype| *stype != "wall").map(|stype| (stype.clone(), name(stype))).collect()
 }
 
 struct Names<'a> {
@@ -117,19 +110,6 @@ fn short(noun: &str) -> String {
 mod tests {
     use super::*;
     use engine::Seed;
-
-    #[test]
-    fn plain_names_are_those_of_the_kernel() {
-        let nouns = [("hero", "rat"), ("litLamp", "litCandle"), ("wall", "brick")];
-        let nouns = nouns.map(|(stype, noun)| (stype.to_owned(), noun.to_owned())).into();
-        let names =
-            |declared: &[&str]| plain(&nouns, &declared.iter().map(|&name| name.to_owned()).collect());
-        let named = |names: BTreeMap<String, String>| names.into_iter().collect::<Vec<_>>();
-        let pair = |stype: &str, name: &str| (stype.to_owned(), name.to_owned());
-        let lamp = pair("litLamp", "litLamp");
-        assert_eq!(named(names(&["hero", "litLamp"])), [pair("hero", "avatar"), lamp.clone()]);
-        assert_eq!(named(names(&["avatar", "hero", "litLamp"])), [pair("hero", "hero"), lamp]);
-    }
 
     #[test]
     fn names_are_short_and_differ() {

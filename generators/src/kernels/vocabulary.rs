@@ -21,7 +21,7 @@ const SUITING: &[(&[&str], &[&str])] = &[
     (&["patrol", "bomber", "stroller", "beast", "rival", "shooter"], &["LIGHTRED", "ORANGE", "PINK", "RED"]),
     (&["sleeper", "nest", "den", "bird", "dust"], &["GRAY", "DARKGRAY", "DARKGREEN"]),
     (&["friend", "cargo", "customer", "prey", "keeper"], &["PINK", "LIGHTYELLOW", "LIGHTORANGE"]),
-    (&["shot", "bolt", "blast", "charge", "embers"], &["ORANGE", "LIGHTORANGE"]),
+    (&["shot", "bolt", "blade", "blast", "charge", "embers"], &["ORANGE", "LIGHTORANGE"]),
     (&["plant", "seed", "food", "bait", "trail", "brush"], &["DARKGREEN", "LIGHTGREEN"]),
     (&["fuel", "lamp", "ward", "fireplace", "stove"], &["LIGHTYELLOW", "ORANGE", "YELLOW"]),
     (&["floater", "remedy", "armour", "disguise", "tool", "ammo", "lever"], &["WHITE", "BLUE", "LIGHTGRAY"]),
