@@ -31,7 +31,7 @@ const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
 const TIME_PER_WIN: f64 = 2.5;
 
 /// The share of careless plays that end by the rules, on average over the levels, for a game to go without a time limit.
-const ENDED_PLAYS: f64 = 0.25;
+const ENDED_PLAYS: f64 = 0.5;
 /// The judges, in tallies, of a game that goes without a time limit if it passes so.
 const NO_CLOCK: &str = "no time limit";
 
