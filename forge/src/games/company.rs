@@ -206,7 +206,7 @@ mod tests {
         let kernels = KernelGenome::kernels().count() as u32;
         check(8, 1, 2);
         check(kernels / 2, 1, 3);
-        check(kernels, 2, 6);
+        check(kernels, 2, 7);
         check(50, 3, 7);
     }
 

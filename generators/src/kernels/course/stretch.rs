@@ -46,11 +46,11 @@ fn between(board: &Board, x: usize) -> Option<Vec<Option<String>>> {
 
 fn with_column(board: &Board, at: usize, column: &[Option<String>]) -> Board {
     let mut wider = Board::walls(board.columns + 1, board.rows);
-    for y in 0..board.rows {
+    for (y, doubled) in column.iter().enumerate() {
         for x in 0..wider.columns {
             let stype = match x.cmp(&at) {
                 std::cmp::Ordering::Less => board.at((x, y)),
-                std::cmp::Ordering::Equal => column[y].as_deref(),
+                std::cmp::Ordering::Equal => doubled.as_deref(),
                 std::cmp::Ordering::Greater => board.at((x - 1, y)),
             };
             wider.put((x, y), stype);
