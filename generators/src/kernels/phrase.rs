@@ -57,11 +57,7 @@ fn phrase(inside: &str, nouns: &Nouns, headline: fn(&str) -> String) -> Option<S
             english::plural(&noun(nouns.keys().find(plural_of)?)?)
         }
     };
-    Some(match (capital, article) {
-        (true, false) => headline(&phrase),
-        (true, true) => english::capital(&phrase),
-        (false, _) => phrase,
-    })
+    Some(if capital { headline(&phrase) } else { phrase })
 }
 
 /// Tests whether a sentence names a type, in any form.
@@ -95,6 +91,7 @@ mod tests {
             "Otters swim; An otter is the otter of the iron keys",
         );
         assert_eq!(title("The Last <Key>", &nouns).as_deref(), Ok("The Last Iron Key"));
+        assert_eq!(title("<A key> for the <Wolf>", &nouns).as_deref(), Ok("An Iron Key for the Otter"));
         check("<A wolf> is after you", "An otter is after you");
         assert!(fill("<fox>", &nouns).is_err() && fill("<key", &nouns).is_err());
     }
