@@ -18,7 +18,7 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// Attempts games of each kernel under the criteria of a recipe, and counts those that are accepted and why the others fail.
 ///
 /// A kernel that seldom passes leaves its turns to others, so a release has many games of few kernels. Attempts are independent, and
-/// games of a kernel may be near to each other. Cost: about a second of one core an attempt.
+/// games of a kernel may be near to each other. Cost: one to 15 seconds of one core an attempt.
 ///
 /// Example: cargo xtask kernels seeds/2026-12.toml --kernel one-pull
 #[derive(clap::Args)]

@@ -57,7 +57,7 @@ impl<'a> GameGate<'a> {
         GameGate { order, known, canary, criteria, panel, first }
     }
 
-    /// Finds a course of levels for a game, sets its time limit by the wins found, and judges it; `None`, with the reason in
+    /// Finds a course of levels for a game, sets its time limit by the wins found if it needs one, and judges it; `None`, with the reason in
     /// the tally, if anything stands in its way. `number` is told in the card. A game that meets with an objection is refused
     /// before it costs a level.
     pub(super) fn judge(

@@ -74,7 +74,7 @@ pub trait Progress: Sync {
 impl Progress for () {}
 
 /// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
-/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
+/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
 /// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
 ///
 /// Games that could not be made are missing in the set.
@@ -112,7 +112,7 @@ pub fn make_one(
     (made, tally)
 }
 
-/// An attempt at a game of a kernel in one of the forms that are open, by its number: for authors of kernels. Cost: about a second of one
+/// An attempt at a game of a kernel in one of the forms that are open, by its number: for authors of kernels. Cost: one to 15 seconds of one
 /// core. None if there is no such kernel or form, or the attempt fails for a reason in the tally.
 pub fn attempt_kernel(
     order: &GameOrder,

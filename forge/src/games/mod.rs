@@ -1,7 +1,7 @@
 //! Whole games on request: for `arcade generate games`, and for the releases that are minted of them.
 //!
 //! Rules come from a generator, or from a search that is told how weak players fare on a few quick levels. Then levels are
-//! found, the time limit is set by their wins, and the panel has the last word, with dice of its own and with players that no
+//! found, a time limit is set by their wins where the game needs one, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
 
 mod archives;

@@ -16,7 +16,7 @@ const LARGEST: (usize, usize) = (24, 14);
 /// The number of layouts to draw for a map.
 const DRAWS: u64 = 24;
 
-/// The sizes of board that authors keep to; none as often as not.
+/// The sizes of board that authors keep to; two of three keep to none.
 const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
 /// The share of the boards that are stretched, where any are.
 const STRETCHED: (usize, usize) = (3, 4);
