@@ -1,11 +1,11 @@
 //! A level: a grid of characters, checked against one game's LevelMapping (`spec/01` §2).
 
 use crate::Digest;
-use crate::compile::{Outline, outline};
+use crate::compile::{Outline, missing_image, outline};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span};
 use crate::game::Game;
 use crate::limits::{MAX_ATTEMPTS, MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
-use crate::rules::SpriteType;
+use crate::rules::{Aliases, SpriteType};
 use crate::syntax::BYTE_ORDER_MARK;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -21,6 +21,8 @@ pub struct Level {
     columns: usize,
     rows: usize,
     cells: Vec<u8>,
+    /// The characters that some of the cells stand for.
+    aliases: Aliases,
     warnings: Vec<Diagnostic>,
     /// The number of messages that the reference logs when it builds the level.
     pub(crate) messages: u32,
@@ -37,7 +39,8 @@ impl Level {
         self.rows
     }
 
-    /// The characters, row-major, ASCII.
+    /// The characters, row-major, ASCII. In a game that is loaded as the reference does, some stand for characters beyond
+    /// ASCII: see [`Game::character`].
     pub fn cells(&self) -> &[u8] {
         &self.cells
     }
@@ -57,7 +60,16 @@ impl fmt::Display for Level {
     /// The canonical text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.cells.chunks(self.columns).try_for_each(|row| {
-            row.iter().try_for_each(|&symbol| write!(f, "{}", char::from(symbol)))?;
+            if self.aliases.0.is_empty() {
+                row.iter().try_for_each(|&symbol| write!(f, "{}", char::from(symbol)))?;
+            } else {
+                let unit =
+                    |&symbol: &u8| self.aliases.of_code(symbol).map_or(symbol.into(), |alias| alias.unit);
+                let units = row.iter().map(unit);
+                char::decode_utf16(units).try_for_each(|decoded| {
+                    write!(f, "{}", decoded.unwrap_or(char::REPLACEMENT_CHARACTER))
+                })?;
+            }
             writeln!(f)
         })
     }
@@ -67,6 +79,12 @@ impl Game {
     /// The sprites that a level character places, in order; empty for blanks and characters without a mapping.
     pub fn places(&self, symbol: u8) -> &[SpriteType] {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
+    }
+
+    /// The character of level texts that a cell's code stands for: the code's own, or one beyond ASCII in games that are
+    /// loaded as the reference does.
+    pub fn character(&self, symbol: u8) -> char {
+        self.0.aliases.of_code(symbol).map_or(char::from(symbol), |alias| alias.character)
     }
 
     /// Checks a level's text against this game.
@@ -86,7 +104,11 @@ impl Game {
             );
         }
         let lines = level_lines(text);
-        let columns = lines.first().map_or(0, |(_, line)| line.chars().count());
+        let length = |line: &str| match self.0.as_reference {
+            true => line.encode_utf16().count(),
+            false => line.chars().count(),
+        };
+        let columns = lines.first().map_or(0, |(_, line)| length(line));
         let rows = lines.len();
         if columns == 0 {
             let message = "the level's first line is empty; its length is the width of the level";
@@ -156,7 +178,7 @@ struct LevelReader<'a> {
     /// The characters that the LevelMapping has a line for.
     mapped: BTreeSet<char>,
     problems: Vec<Diagnostic>,
-    avatars: Vec<Span>,
+    avatars: Vec<(Span, SpriteType)>,
     sprites: usize,
     /// Characters without a mapping: the cell, the character, its place in the text.
     undefined: Vec<(usize, char, Span)>,
@@ -164,26 +186,39 @@ struct LevelReader<'a> {
 
 impl LevelReader<'_> {
     fn row(&mut self, start: usize, line: &str, columns: usize, cells: &mut Vec<u8>) {
-        let mut width = 0;
-        for (at, symbol) in line.char_indices().take(columns) {
-            width += 1;
+        let end = cells.len() + columns;
+        for (at, symbol) in line.char_indices() {
             let span = Span::new(start + at, start + at + symbol.len_utf8());
-            cells.push(self.cell(cells.len(), symbol, span));
+            // The reference reads code units, of which some characters have two.
+            let units = if self.game.0.as_reference { symbol.len_utf16() } else { 1 };
+            for &unit in symbol.encode_utf16(&mut [0; 2]).iter().take(units) {
+                if cells.len() == end {
+                    return;
+                }
+                cells.push(self.cell(cells.len(), (symbol, unit), span));
+            }
         }
-        cells.extend(std::iter::repeat_n(b' ', columns - width));
+        cells.resize(end, b' ');
     }
 
-    fn cell(&mut self, at: usize, symbol: char, span: Span) -> u8 {
+    fn cell(&mut self, at: usize, (symbol, unit): (char, u16), span: Span) -> u8 {
         let rules = &self.game.0;
-        let code = u8::try_from(symbol).unwrap_or(0);
+        let alias = rules.aliases.of_unit(unit);
+        let own = u8::try_from(unit).ok().filter(|code| code.is_ascii());
+        let own = own.filter(|&code| rules.aliases.of_code(code).is_none());
+        let code = alias.or(own).unwrap_or(UNMAPPED);
         let places = self.game.places(code);
         self.sprites += places.len();
         for &stype in places {
-            if rules.types[stype.index()].class.is_some_and(|class| class.is_avatar()) {
-                self.avatars.push(span);
+            let info = &rules.types[stype.index()];
+            if info.class.is_some_and(|class| class.is_avatar()) {
+                self.avatars.push((span, stype));
+            }
+            if info.lacks_image.is_some() && self.tells("missing-image") {
+                self.problems.push(missing_image(&info.name, span));
             }
         }
-        if rules.unusable.contains(&symbol) {
+        if rules.unusable.contains(&code) {
             if self.tells("unknown-sprite") {
                 let message =
                     format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
@@ -192,7 +227,8 @@ impl LevelReader<'_> {
             }
             return UNMAPPED;
         }
-        if self.mapped.contains(&symbol) || !places.is_empty() || symbol == ' ' {
+        let is_mapped = alias.is_some() || own.is_some() && self.mapped.contains(&symbol);
+        if is_mapped || !places.is_empty() || symbol == ' ' {
             return code;
         }
         if rules.as_reference {
@@ -312,6 +348,31 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
+    /// Reports avatars none of which the engine finds when the level starts.
+    fn report_lost_avatar(&mut self) {
+        let info = |stype: SpriteType| &self.game.0.types[stype.index()];
+        let Some(&(span, stype)) = self.avatars.first() else { return };
+        if self.avatars.iter().any(|&(_, stype)| info(stype).is_sought()) {
+            return;
+        }
+        let name = &info(stype).name;
+        let below = self.game.sprite_types().filter(|&other| {
+            let other = info(other);
+            other.leaf && other.name != *name && other.path.contains(&stype) && other.is_sought()
+        });
+        let below: Vec<&str> = below.map(|other| self.game.name(other)).take(MAX_REPEATS).collect();
+        let (reason, help) = match (info(stype).order, &below[..]) {
+            (None, []) => ("is a parent type", "make a subtype of it, and place that".to_owned()),
+            (None, _) => ("is a parent type", format!("place one of its subtypes: {}", below.join(", "))),
+            (Some(_), _) => (
+                "is declared before every other sprite, `wall` included",
+                format!("declare another sprite, such as `wall`, before `{name}`"),
+            ),
+        };
+        let message = format!("the level places no avatar that a player can control: `{name}` {reason}");
+        self.problems.push(Diagnostic::error("no-avatar", span, message).help(help));
+    }
+
     /// Advice for a LevelMapping in which no character places an avatar: the missing line.
     fn lacking_avatar(&self) -> String {
         let description = &self.game.0.description;
@@ -353,7 +414,7 @@ impl LevelReader<'_> {
             self.problems
                 .push(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
         }
-        if let [_, extra, ..] = self.avatars[..] {
+        if let [_, (extra, _), ..] = self.avatars[..] {
             let message = format!("the level places {} avatars", self.avatars.len());
             let problem = Diagnostic::error("extra-avatars", extra, message).label("not the first one");
             self.problems.push(problem.help("keep one; the reference engine would remove all but the first"));
@@ -369,11 +430,13 @@ impl LevelReader<'_> {
                 Diagnostic::error("no-avatar", Span::new(0, end.min(first)), "the level places no avatar");
             self.problems.push(problem.help(help));
         }
+        self.report_lost_avatar();
         let mut messages = 0;
         if self.game.0.as_reference {
             let undefined = |&&symbol: &&u8| symbol == UNMAPPED;
             messages = cells.iter().filter(undefined).count() as u32;
-            self.problems.retain(|problem| ["unknown-sprite", "too-large"].contains(&problem.code));
+            let fatal = ["unknown-sprite", "missing-image", "too-large"];
+            self.problems.retain(|problem| fatal.contains(&problem.code));
         }
         if !self.game.0.as_reference && !Diagnostics::has_errors(&self.problems) {
             self.problems.extend(crate::lint::over_at_start(self.game, &cells));
@@ -382,7 +445,8 @@ impl LevelReader<'_> {
         if Diagnostics::has_errors(&problems.0) {
             return Err(problems);
         }
-        Ok(Level { columns, rows, cells, warnings: problems.0, messages })
+        let aliases = self.game.0.aliases.clone();
+        Ok(Level { columns, rows, cells, aliases, warnings: problems.0, messages })
     }
 }
 

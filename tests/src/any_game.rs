@@ -126,6 +126,11 @@ impl Author<'_, '_> {
                 let kind = vocabulary::sprite_parameter(key).expect("every parameter has a kind");
                 if let Some(value) = vocabulary::value(kind, self.choices) {
                     line.params.push(Param::new(key, value));
+                    // Tiling chooses among images.
+                    let tiles = ["autotiling", "randomtiling"].contains(&key);
+                    if tiles && !line.params.iter().any(|param| param.key.text == "img") {
+                        line.params.push(Param::new("img", "dot"));
+                    }
                 } else if kind == ValueKind::Fixed {
                     let resource = matches!(class, Some(SpriteClass::Resource | SpriteClass::ResourcePack));
                     let avatar = class.is_some_and(SpriteClass::is_avatar);

@@ -96,7 +96,7 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
             continue;
         }
         let (name, cover) = (game.name(stype), game.name(cover));
-        let symbol = char::from(first);
+        let symbol = game.character(first);
         let text = format!("`{name}` has no symbol of its own: `{symbol}` shows the `{cover}` above it");
         let cell = level.cells().iter().position(|&cell| cell == first);
         let cell = cell.map(|at| (at % level.columns() + 1, at / level.columns() + 1));

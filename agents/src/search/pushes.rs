@@ -1,7 +1,7 @@
 //! A lower bound on the pushes that a state needs before it can be won; a box in a corner can never be pushed home.
 
 use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
-use engine::{Level, Seed, SpriteType, State};
+use engine::{Level, Seed, SpriteClass, SpriteType, State};
 use smallvec::SmallVec;
 
 /// The pushes that pushable sprites need, in one level.
@@ -72,7 +72,8 @@ impl Need {
 /// Computes the bounds; none if the rules cannot be modelled, so that nothing is certain.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
-    if analysis.pushables().is_empty() || analysis.has_timed_effects() || !steps_are_whole(analysis) {
+    let is_modelled = !analysis.has_timed_effects() && steps_are_whole(analysis);
+    if analysis.pushables().is_empty() || !is_modelled || has_other_avatar(analysis, level) {
         return None;
     }
     let reach = analysis.reach(level);
@@ -123,6 +124,17 @@ fn steps_are_whole(analysis: &Analysis) -> bool {
             encounter.does(|effect| matches!(effect, EffectSummary::Speed(_)))
                 || (of_avatar && encounter.does(displaces))
         })
+}
+
+/// Returns `true` if the level places an avatar that the analysis of the game leaves out, by a character that the game
+/// has no use for.
+fn has_other_avatar(analysis: &Analysis, level: &Level) -> bool {
+    let game = analysis.game();
+    let is_other = |stype: &SpriteType| {
+        let is_avatar = game.class(*stype).is_some_and(SpriteClass::is_avatar);
+        is_avatar && !analysis.avatars().iter().any(|avatar| avatar.stype == *stype)
+    };
+    level.cells().iter().any(|&symbol| game.places(symbol).iter().any(is_other))
 }
 
 struct Board<'a> {

@@ -118,10 +118,10 @@ impl<'a> Tree<'a> {
     ) -> Tree<'a> {
         let game = analysis.game();
         let abstraction = analysis.abstraction(start);
-        // All actions of any avatar, and waiting.
+        // All actions of any avatar, whatever the level starts with, and waiting.
         let mut actions = vec![Action::Nil];
-        for avatar in analysis.avatars() {
-            actions.extend(game.actions_of(avatar.stype));
+        for stype in game.sprite_types() {
+            actions.extend(game.actions_of(stype));
         }
         actions.sort_unstable();
         actions.dedup();

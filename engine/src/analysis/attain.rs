@@ -8,7 +8,7 @@ use super::goal::{Condition, Goal};
 use super::requirement::MAX_GOALS;
 use crate::limits::MAX_TICKS;
 use crate::rules::class::SpriteClass;
-use crate::rules::terminations::{Condition as Written, Decision, can_be_held_up};
+use crate::rules::terminations::can_be_held_up;
 use crate::rules::{Rules, SpriteType};
 use serde::Serialize;
 
@@ -50,15 +50,7 @@ pub(super) fn find_attainable(
     let changes = PopulationChanges::of(rules, facts, futures);
     let held_up = can_be_held_up(rules);
     for goal in goals.iter_mut().take(MAX_GOALS) {
-        let kinds = match rules.terminations[goal.line].condition {
-            Written::MultiSpriteCounterSubTypes { kinds, .. } => Some(kinds),
-            Written::SpriteCounter { .. }
-            | Written::SpriteCounterMore { .. }
-            | Written::MultiSpriteCounter { .. }
-            | Written::StopCounter { .. }
-            | Written::Timeout { .. } => None,
-        };
-        goal.attainable = match changes.attainability(&goal.condition, kinds) {
+        goal.attainable = match changes.attainability(&goal.condition, goal.kinds) {
             // A condition that holds from the start may end the game later, once a StopCounter lets it.
             Attainable::AtOnce | Attainable::FromStart
                 if held_up && !matches!(goal.condition, Condition::Tick(_)) =>
@@ -217,11 +209,9 @@ impl Analysis {
     /// Returns `true` if a termination with that result can be the first to hold; `holds` tells which goals, given with
     /// their indices, can hold.
     pub(super) fn can_end(&self, win: bool, holds: impl Fn(usize, &Goal) -> bool) -> bool {
-        let rules = &*self.game.0;
         for (at, goal) in self.goals.iter().enumerate() {
-            // A termination decided by the score or a counter may end either way.
-            let open = rules.terminations[goal.line].decided_by != Decision::Line;
-            if holds(at, goal) && (goal.win == win || open && !win) {
+            let ends = if win { goal.win } else { goal.can_lose() };
+            if holds(at, goal) && ends {
                 return true;
             }
             if goal.attainable == Attainable::AtOnce {

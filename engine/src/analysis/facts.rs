@@ -1,6 +1,6 @@
 //! Properties of a sprite type by itself: its movement, the sprites it makes, and whether it can occur.
 
-use super::encounter::{Encounter, Precondition};
+use super::encounter::{EffectSummary, Encounter, Precondition, timed_effects};
 use super::futures::{PossibleFutures, Start};
 use crate::geometry::Direction;
 use crate::rules::class::{ClassFamily, SpriteClass};
@@ -55,7 +55,7 @@ impl Steering {
     }
 }
 
-/// An avatar type that can occur.
+/// A type that the player's avatar can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Avatar {
     /// The type.
@@ -82,7 +82,8 @@ impl Avatar {
 pub struct Facts {
     /// It has a class, so sprites of it can exist.
     pub concrete: bool,
-    /// Such sprites can be on the board at some time: placed by a level, or made from existing ones.
+    /// Such sprites can be on the board at some time: placed by a level, or made from existing ones. Levels are taken to
+    /// use no character that the game leaves idle: see [`Analysis::can_exist`](super::Analysis::can_exist).
     pub possible: bool,
     /// The level characters that place it, those that place the fewest sprites first, then by code.
     pub symbols: Vec<u8>,
@@ -114,24 +115,27 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
         .map(|info| {
             let traits = &info.traits;
             let path = info.path.iter();
+            // Sprites of parent types are never updated, the player's avatar apart.
+            let updated = info.class.filter(|class| info.order.is_some() || class.is_avatar());
             Facts {
                 concrete: info.class.is_some(),
                 possible: false,
                 symbols: Vec::new(),
-                motion: info.class.map_or(Motion::Still, |class| motion(class, traits)),
-                pace: info.class.map_or(0.0, |class| pace(class, traits, block)),
-                makes: info.class.map_or(Vec::new(), |class| makes(class, traits)),
+                motion: updated.map_or(Motion::Still, |class| motion(class, traits)),
+                pace: updated.map_or(0.0, |class| pace(class, traits, block)),
+                makes: updated.map_or(Vec::new(), |class| makes(class, traits)),
                 span: traits.span(),
-                fleeting: info.class.is_some_and(|c| c.is_a(SpriteClass::Flicker))
-                    || traits.time_to_live >= 0,
+                fleeting: updated.is_some_and(|class| {
+                    class.is_a(SpriteClass::Flicker) || (traits.time_to_live >= 0 && !class.is_avatar())
+                }),
                 singleton: path.clone().any(|stype| rules.types[stype.index()].singleton),
                 is_resource: traits.is_resource,
                 hidden: traits.hidden || traits.invisible,
             }
         })
         .collect();
-    for (symbol, types) in (0u8..).zip(&rules.mapping) {
-        if is_idle_default(rules, encounters, symbol) {
+    for (symbol, types) in (0..=u8::MAX).zip(&rules.mapping) {
+        if is_idle_default(rules, symbol) {
             continue;
         }
         for stype in types {
@@ -151,12 +155,49 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     for (fact, possible) in facts.iter_mut().zip(possible) {
         fact.possible = possible;
     }
+    let played = played(rules, &facts, encounters);
+    for ((fact, info), played) in facts.iter_mut().zip(&rules.types).zip(played) {
+        // Without a player, an avatar is never updated.
+        if info.class.is_some_and(SpriteClass::is_avatar) && !played {
+            (fact.motion, fact.pace) = (Motion::Still, 0.0);
+            fact.makes.clear();
+        }
+    }
     facts
 }
 
+/// By type: the player's avatar can have it in some level, whatever characters that uses. The avatar is found when a level
+/// starts; from then on the player moves on to what an avatar becomes.
+fn played(rules: &Rules, facts: &[Facts], encounters: &[Encounter]) -> Vec<bool> {
+    let start = Start { held: None, ..Start::of_any_level(rules) };
+    let exists = PossibleFutures::of(rules, facts, encounters, start).exists;
+    let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
+    let mut played = vec![false; facts.len()];
+    for stype in rules.mapping.iter().flatten() {
+        played[stype.index()] |= rules.types[stype.index()].is_sought();
+    }
+    let any_avatar = |types: &[SpriteType]| types.iter().any(|stype| is_avatar(stype.index()));
+    let mut note = |written: Option<SpriteType>, effects: &[EffectSummary]| {
+        let tree = written.map_or(&[][..], |written| &*rules.types[written.index()].tree);
+        for effect in effects {
+            let turns = match effect {
+                EffectSummary::BecomeAll(from, _) => any_avatar(&[*from]),
+                EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => any_avatar(tree),
+                _ => false,
+            };
+            for to in effect.makes().iter().filter(|_| turns) {
+                played[to.index()] |= is_avatar(to.index());
+            }
+        }
+    };
+    encounters.iter().for_each(|encounter| note(Some(encounter.first), &encounter.effects));
+    timed_effects(rules).iter().for_each(|(target, effects)| note(*target, effects));
+    played
+}
+
 /// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does not use
-/// it: it has no such interaction, or another avatar.
-fn is_idle_default(rules: &Rules, encounters: &[Encounter], symbol: u8) -> bool {
+/// it: it has another avatar, or neither declares nor names a wall.
+fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
     let stype = match symbol {
         b'w' => SpriteType(0),
         b'A' => SpriteType(1),
@@ -168,11 +209,12 @@ fn is_idle_default(rules: &Rules, encounters: &[Encounter], symbol: u8) -> bool 
     let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| *other != symbol);
     let mut others = others.flat_map(|(types, _)| types);
     let is_avatar = |stype: SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
-    if is_avatar(stype) && (!rules.types[stype.index()].leaf || others.any(|&other| is_avatar(other))) {
-        return true;
+    if is_avatar(stype) {
+        return others.any(|&other| is_avatar(other));
     }
-    let touched = |encounter: &Encounter| encounter.first == stype || encounter.second == Some(stype);
-    !is_avatar(stype) && !encounters.iter().any(touched)
+    let name = &rules.types[stype.index()].name;
+    let is_declared = rules.description.sprite_lines().iter().any(|(_, line)| line.name.text == *name);
+    !is_declared && !rules.referenced[stype.index()]
 }
 
 fn motion(class: SpriteClass, traits: &Traits) -> Motion {
@@ -217,13 +259,16 @@ fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
-/// Returns the avatar types that can occur: those that levels place first, then by type.
+/// Returns the types that the player's avatar can have: those that levels place first, then by type. None if the engine
+/// finds none of those that levels place.
 pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     use ClassFamily as Family;
     use SpriteClass as C;
     let mut avatars: Vec<Avatar> = Vec::new();
     for (info, (fact, at)) in rules.types.iter().zip(facts.iter().zip(0u16..)) {
-        let Some(class) = info.class.filter(|class| class.is_avatar() && fact.possible) else { continue };
+        let plays =
+            |class: &SpriteClass| class.is_avatar() && fact.possible && fact.motion == Motion::Steered;
+        let Some(class) = info.class.filter(plays) else { continue };
         let steering = match (class, class.family()) {
             (C::HorizontalAvatar | C::FlakAvatar, _) => Steering::Horizontal,
             (C::VerticalAvatar, _) => Steering::Vertical,
@@ -243,8 +288,11 @@ pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
             steering,
             shots,
             ammo,
-            starts: !fact.symbols.is_empty(),
+            starts: info.is_sought() && !fact.symbols.is_empty(),
         });
+    }
+    if !avatars.iter().any(|avatar| avatar.starts) {
+        return Vec::new();
     }
     avatars.sort_by_key(|avatar| (!avatar.starts, avatar.stype));
     avatars

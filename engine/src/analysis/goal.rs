@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::attain::Attainable;
 use super::encounter::{EffectSummary, timed_effects};
-use crate::rules::terminations::Condition as Written;
+use crate::rules::terminations::{Condition as Written, Decision};
 use crate::rules::{Rules, SpriteType};
 use crate::state::State;
 
@@ -60,14 +60,30 @@ impl Condition {
 /// A termination, in order of priority: the first one that holds at the end of a tick ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Goal {
-    /// `true` if it wins the game.
+    /// `true` if it wins the game, or may win it: see [`Goal::is_open`].
     pub win: bool,
+    /// `true` if the score or the counters decide whether it wins or loses.
+    open: bool,
     /// Its condition.
     pub condition: Condition,
+    /// The number of types that must have the counted sprites, if it also counts these.
+    pub kinds: Option<i32>,
     /// Index of the line in [`Description::terminations`](crate::Description).
     pub line: usize,
     /// The conditions under which it can hold.
     pub attainable: Attainable,
+}
+
+impl Goal {
+    /// Returns `true` if the score or the counters decide whether it wins or loses the game.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Returns `true` if it loses the game, or may lose it.
+    pub fn can_lose(&self) -> bool {
+        self.open || !self.win
+    }
 }
 
 /// The demands of the terminations on the player, sorted by type.
@@ -83,7 +99,7 @@ pub struct Aims {
     pub prevent: Vec<SpriteType>,
     /// The tick at which surviving wins.
     pub survive: Option<i32>,
-    /// The latest tick at which the game is lost, the reference's own limit apart.
+    /// The first tick at which a Timeout loses the game, or may lose it, the reference's own limit apart.
     pub deadline: Option<i32>,
     /// `true` if the loss of the avatar loses the game.
     pub avatar_must_live: bool,
@@ -104,8 +120,17 @@ pub(super) fn goals(rules: &Rules) -> Vec<Goal> {
             Written::StopCounter { .. } => return None,
             Written::Timeout { limit } => Condition::Tick(limit),
         };
+        let kinds = match termination.condition {
+            Written::MultiSpriteCounterSubTypes { kinds, .. } => Some(kinds),
+            Written::SpriteCounter { .. }
+            | Written::SpriteCounterMore { .. }
+            | Written::MultiSpriteCounter { .. }
+            | Written::StopCounter { .. }
+            | Written::Timeout { .. } => None,
+        };
+        let (win, open) = (termination.win, termination.decided_by != Decision::Line);
         // `attain::find_attainable` determines `attainable` later.
-        Some(Goal { win: termination.win, condition, line, attainable: Attainable::InPlay })
+        Some(Goal { win, open, condition, kinds, line, attainable: Attainable::InPlay })
     };
     rules.terminations.iter().enumerate().filter_map(goal).collect()
 }
@@ -123,7 +148,8 @@ pub(super) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {
                 let earliest = |known: Option<i32>| Some(known.map_or(*limit, |tick| tick.min(*limit)));
                 if goal.win {
                     aims.survive = earliest(aims.survive);
-                } else {
+                }
+                if goal.can_lose() {
                     aims.deadline = earliest(aims.deadline);
                 }
                 continue;
@@ -166,10 +192,7 @@ impl Analysis {
         let all_of = |written: SpriteType| {
             game.sprite_types().filter(|stype| self.applies(written, *stype)).all(|stype| one_of(&stype))
         };
-        let is_made = |maker: SpriteType| {
-            let facts = self.facts(maker);
-            facts.possible && facts.makes.iter().any(one_of)
-        };
+        let is_made = |maker: SpriteType| self.can_exist(maker) && self.facts(maker).makes.iter().any(one_of);
         let adds = |effect: &EffectSummary, first: Option<SpriteType>| {
             if *effect == EffectSummary::Clone {
                 return first

@@ -68,6 +68,8 @@ pub struct Analysis {
     requirements: Vec<Requirement>,
     is_stochastic: bool,
     unseen: Vec<SpriteType>,
+    /// By type: see [`Analysis::can_exist`].
+    exists: Vec<bool>,
 }
 
 impl Analysis {
@@ -108,6 +110,7 @@ impl Analysis {
             game: game.clone(),
             is_stochastic,
             unseen,
+            exists: futures.exists.clone(),
             encounters,
             facts,
             goals,
@@ -189,7 +192,15 @@ impl Analysis {
         self.game.sprite_types().filter(move |&stype| self.role(stype) == role && self.facts(stype).possible)
     }
 
-    /// The avatar types that can occur, those that levels can place first.
+    /// Returns `false` only if it is proved that no level has a sprite of the type at any time. Unlike
+    /// [`Facts::possible`], it is `true` also for what only a level makes possible that uses `w` or `A` although the game
+    /// has no use for that character.
+    pub fn can_exist(&self, stype: SpriteType) -> bool {
+        self.exists[stype.index()]
+    }
+
+    /// The types that the player's avatar can have, those that levels can place first. None: the engine finds no avatar
+    /// when a level starts, and no key does anything.
     pub fn avatars(&self) -> &[Avatar] {
         &self.avatars
     }

@@ -18,13 +18,13 @@ pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Te
 pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
-use crate::diagnostic::{Diagnostic, Diagnostics, Edit, nearest};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span, nearest};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::Draws;
 use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::rules::traits::BLOCK_PAUSE;
-use crate::rules::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
+use crate::rules::{Alias, Aliases, NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
@@ -77,7 +77,10 @@ fn compile_with(
     let setting = Setting { policy, counters: header.counters };
     let (mut types, order) = sprites::types(description, policy, &mut problems);
     let names = Names { types: &types };
-    let (mapping, unusable) = mapping(description, names, &mut problems);
+    let aliases =
+        if policy == Policy::Reference { aliases(description, &mut problems) } else { Aliases::default() };
+    let (mapping, unusable) = mapping(description, names, &aliases, &mut problems);
+    report_missing_images(&types, &mapping, &mut problems);
     let mut program = interactions::program(description, names, setting, &mut problems);
     let (terminations, can_end) = terminations::terminations(description, names, setting, &mut problems);
     let obstacles = header.obstacles.iter().flatten();
@@ -142,6 +145,7 @@ fn compile_with(
         referenced,
         order,
         mapping,
+        aliases,
         unusable,
         draws: classes().any(SpriteClass::draws)
             || program.effects.iter().any(|info| info.summary.draws != Draws::Nothing),
@@ -301,13 +305,62 @@ fn report_sprites_that_never_exist(
     }
 }
 
-/// The sprites that each level character places, and the characters that name an undeclared sprite: a level that uses one
-/// of those does not load.
+/// Reports types whose images are chosen by a parameter although they have none, among those that levels can place.
+fn report_missing_images(
+    types: &[TypeInfo],
+    mapping: &[SmallVec<[SpriteType; 4]>],
+    problems: &mut Vec<Diagnostic>,
+) {
+    let placed: BTreeSet<SpriteType> = mapping.iter().flatten().copied().collect();
+    let mut reported = BTreeSet::new();
+    for info in placed.iter().map(|stype| &types[stype.index()]) {
+        let Some(span) = info.lacks_image.filter(|span| reported.insert(*span)) else { continue };
+        problems.push(missing_image(&info.name, span));
+    }
+}
+
+/// The problem of a sprite without an image, of which `autotiling` or `randomtiling` chooses one.
+pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
+    let message =
+        format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
+    let problem = Diagnostic::error("missing-image", span, message);
+    problem.help("add `img=` and the name of a picture, or remove `autotiling` and `randomtiling`")
+}
+
+/// The characters beyond ASCII that the LevelMapping maps, each with a code of ASCII that the game does not use.
+fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases {
+    let used: BTreeSet<char> = description.mapping.iter().map(|line| line.symbol).collect();
+    let defaults = ['w', 'A'];
+    let free = (1..b' ').chain([127]).chain(b'!'..=b'~').filter(|&code| {
+        let character = char::from(code);
+        !used.contains(&character) && !defaults.contains(&character)
+    });
+    let mut free = free.collect::<Vec<u8>>().into_iter();
+    let mut found = Aliases::default();
+    for line in description.mapping.iter().filter(|line| !line.symbol.is_ascii()) {
+        let unit = line.symbol.encode_utf16(&mut [0; 2])[0];
+        if found.of_unit(unit).is_some() {
+            continue;
+        }
+        let Some(code) = free.next() else {
+            let message = "the LevelMapping has more characters than can be told apart";
+            let problem = Diagnostic::error("too-large", line.span, message);
+            problems.push(problem.help("use fewer, or split the game into several"));
+            break;
+        };
+        found.0.push(Alias { code, unit, character: line.symbol });
+    }
+    found
+}
+
+/// The sprites that each level character places, by code, and the characters that name an undeclared sprite: a level that
+/// uses one of those does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
+    aliases: &Aliases,
     problems: &mut Vec<Diagnostic>,
-) -> (Vec<SmallVec<[SpriteType; 4]>>, BTreeSet<char>) {
+) -> (Vec<SmallVec<[SpriteType; 4]>>, BTreeSet<u8>) {
     let mut unusable = BTreeSet::new();
     let mut mapping = vec![SmallVec::new(); 128];
     // Present in every game unless it maps these characters itself (`spec/01` §1.7).
@@ -320,9 +373,15 @@ fn mapping(
             let problem = Diagnostic::error("duplicate-mapping", line.span, message);
             problems.push(problem.help("remove one of the two lines, or give it another character"));
         }
-        unusable.remove(&line.symbol);
-        if line.names.iter().any(|name| names.find(&name.text).is_none()) {
-            unusable.insert(line.symbol);
+        let code = match u8::try_from(line.symbol) {
+            Ok(code @ ..128) => Some(code),
+            _ => aliases.of_unit(line.symbol.encode_utf16(&mut [0; 2])[0]),
+        };
+        if let Some(code) = code {
+            unusable.remove(&code);
+            if line.names.iter().any(|name| names.find(&name.text).is_none()) {
+                unusable.insert(code);
+            }
         }
         let types = line.names.iter().filter_map(|name| {
             let stype = names.resolve(name, problems)?;
@@ -331,10 +390,8 @@ fn mapping(
             Some(stype)
         });
         let types = types.collect();
-        if let Some(entry) =
-            u8::try_from(line.symbol).ok().and_then(|code| mapping.get_mut(usize::from(code)))
-        {
-            *entry = types;
+        if let Some(code) = code {
+            mapping[usize::from(code)] = types;
         }
     }
     (mapping, unusable)

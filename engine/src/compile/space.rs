@@ -4,7 +4,7 @@ use super::Policy;
 use super::interactions::COMMON;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::sampler::Sampler;
-use crate::syntax::{Description, Param, ParameterLine, SpriteLine, print_bare};
+use crate::syntax::{Description, Literal, Param, ParameterLine, SpriteLine, literal, print_bare};
 use crate::{Digest, Seed};
 use std::borrow::Cow;
 
@@ -95,6 +95,15 @@ impl<'a> Space<'a> {
             problems.push(problem.help("write three numbers, the step leading from the first to the last"));
             return Values::Int(1);
         };
+        // The reference draws none of no values, and needs none where `value=` settles the parameter.
+        let is_drawn = policy == Policy::Strict || given("value").is_none();
+        if range.count() <= 0 && is_drawn {
+            let span = given("values").map_or(line.name.span, Param::span);
+            let message = format!("the values of `{}` are none: its step does not lead on", line.name.text);
+            let problem = Diagnostic::error("bad-parameter-values", span, message);
+            problems.push(problem.help("let the step lead from the first value to the last"));
+            return Values::Int(1);
+        }
         let Some(value) = given("value") else {
             if policy == Policy::Strict {
                 let message = format!("`{}` has no `value=`, so the game is not settled", line.name.text);
@@ -106,7 +115,7 @@ impl<'a> Space<'a> {
         let text = value.value.text.as_str();
         let found = match range {
             Values::Ints { .. } => text.parse().ok().map(Values::Int),
-            Values::Doubles { .. } => text.parse().ok().map(Values::Double),
+            Values::Doubles { .. } => double(text).map(Values::Double),
             _ => boolean(text).map(Values::Bool),
         };
         found.unwrap_or_else(|| {
@@ -166,7 +175,8 @@ impl Values {
     }
 }
 
-/// Parses `min:step:max`: integers, decimals if one has a point, or two booleans.
+/// Parses `min:step:max`: integers, decimals if one has a point, or two booleans. The number of values is that of the
+/// reference: 1 for no step on no way, and below 1 if the step leads elsewhere or nowhere.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
     let range = match parts[..] {
@@ -175,19 +185,31 @@ fn range(text: &str) -> Option<Values> {
             Values::Bools { first, count: if first == last { 1 } else { 2 } }
         }
         [first, step, last] if text.contains('.') => {
-            let (first, step, last): (f64, f64, f64) =
-                (first.parse().ok()?, step.parse().ok()?, last.parse().ok()?);
-            Values::Doubles { first, step, count: (((last - first) / step) as i32).saturating_add(1) }
+            let (first, step, last) = (double(first)?, double(step)?, double(last)?);
+            Values::Doubles { first, step, count: count((last - first) / step) }
         }
         [first, step, last] => {
             let (first, step, last): (i32, i32, i32) =
                 (first.parse().ok()?, step.parse().ok()?, last.parse().ok()?);
-            let steps = last.wrapping_sub(first).checked_div(step)?;
-            Values::Ints { first, step, count: steps.saturating_add(1) }
+            Values::Ints { first, step, count: count(f64::from(last.wrapping_sub(first)) / f64::from(step)) }
         }
         _ => return None,
     };
-    (range.count() > 0).then_some(range)
+    Some(range)
+}
+
+/// The number of values, given the number of steps: an integer of 32 bits, of which none but NaN and numbers in range are
+/// more than 0.
+fn count(steps: f64) -> i32 {
+    (steps as i32).wrapping_add(1)
+}
+
+fn double(text: &str) -> Option<f64> {
+    match literal(text) {
+        Literal::Int(value) => Some(value.into()),
+        Literal::Double(value) => Some(value),
+        Literal::Bool(_) | Literal::Text => None,
+    }
 }
 
 fn boolean(text: &str) -> Option<bool> {
@@ -243,12 +265,33 @@ mod tests {
         assert_eq!(range("1:2:6"), Some(Values::Ints { first: 1, step: 2, count: 3 }));
         assert_eq!(range("0.5:0.25:1").map(Values::count), Some(3));
         assert_eq!(range("true:False"), Some(Values::Bools { first: true, count: 2 }));
-        for bad in ["", "1", "1:2", "1:0:5", "5:1:1", "a:b:c", "1:2:3:4", "1.0:0:5"] {
-            let codes = settle(&GAME.replace("values=2:3:9", &format!("values={bad}x")), Policy::Strict).1;
-            assert_eq!(codes, ["bad-parameter-values"], "{bad}");
+        assert_eq!(range("5:-2:1").map(Values::count), Some(3));
+        let codes = |values: &str, policy| {
+            settle(&GAME.replace("values=2:3:9", &format!("values={values}")), policy).1
+        };
+        for bad in ["1", "1:2", "a:b:c", "1:2:3:4", "1.0:x:5", "1.0:inf:5", "1:0.5:x"] {
+            for policy in [Policy::Strict, Policy::Reference] {
+                assert_eq!(codes(bad, policy), ["bad-parameter-values"], "{bad}");
+            }
         }
-        assert_eq!(range("1:0:5"), None);
-        assert_eq!(range("5:1:1"), None);
+        // No step on no way is one value.
+        for one in ["5:0:5", "5:1:5", "5:-1:5", "0:0:0"] {
+            assert_eq!(range(one).map(Values::count), Some(1), "{one}");
+            assert_eq!(codes(one, Policy::Strict), [] as [&str; 0], "{one}");
+            let drawn = GAME.replace("values=2:3:9 value=5", &format!("values={one}"));
+            assert_eq!(settle(&drawn, Policy::Reference).1, [] as [&str; 0], "{one}");
+        }
+        assert_eq!(range("0.5:0.0:0.5").map(Values::count), Some(1));
+        assert_eq!(range("0.5:NaN:0.9").map(Values::count), Some(1));
+        // A step that leads elsewhere or nowhere gives none, and the reference draws none where `value=` is given.
+        for none in ["1:0:5", "5:1:1", "1:-1:5", "1.0:0:5.0", "0.5:0.0:1.0", "1.0:0.5:0.0"] {
+            assert!(range(none).is_some_and(|range| range.count() <= 0), "{none}");
+            let given = GAME.replace("values=0.1:0.3:1.0 value=0.4", &format!("values={none} value=1"));
+            assert_eq!(settle(&given, Policy::Strict).1, ["bad-parameter-values"], "{none}");
+            assert_eq!(settle(&given, Policy::Reference).1, [] as [&str; 0], "{none}");
+            let drawn = given.replace(" value=1", "");
+            assert_eq!(settle(&drawn, Policy::Reference).1, ["bad-parameter-values"], "{none}");
+        }
     }
 
     #[test]

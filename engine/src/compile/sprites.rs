@@ -1,6 +1,6 @@
 //! The SpriteSet: registry, inheritance, update order (`spec/01` §1.6).
 
-use super::params::{set_trait, takes, unknown_parameter};
+use super::params::{Value, convert, set_trait, takes, unknown_parameter};
 use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
@@ -297,6 +297,7 @@ fn type_info<'a>(
         leaf: sprite.descendants.is_empty(),
         counted: false,
         given_speed: false,
+        lacks_image: lacks_image(&sprite.params),
         incomplete: false,
         unknown_parameters,
         first_differs: scales || unknown_parameters > 0 || class == Some(SpriteClass::OngoingTurningAvatar),
@@ -304,6 +305,24 @@ fn type_info<'a>(
         actions,
         ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
+}
+
+/// The parameter that chooses an image, of a sprite that has none: `spec/01` §2.3.
+fn lacks_image(params: &[&Param]) -> Option<Span> {
+    let chooses = |param: &Param| match (param.key.text.as_str(), convert(&param.key.text, &param.value.text))
+    {
+        ("autotiling", Value::Bool(chooses)) => chooses,
+        ("randomtiling", Value::Int(chance)) => chance >= 0,
+        ("randomtiling", Value::Double(chance)) => chance >= 0.0,
+        _ => false,
+    };
+    // A value that reads as anything but a text is lost.
+    let is_image = |param: &Param| {
+        let names = ["img", "orientedImg"].contains(&param.key.text.as_str());
+        names && matches!(convert(&param.key.text, &param.value.text), Value::Text(_))
+    };
+    let chooser = params.iter().find(|param| chooses(param))?;
+    (!params.iter().any(|param| is_image(param))).then(|| chooser.span())
 }
 
 fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClass> {

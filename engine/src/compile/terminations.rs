@@ -153,7 +153,9 @@ impl<'a> Reader<'a> {
         });
         match (used, compared, self.setting.counters) {
             (false, ..) => None,
-            (true, true, counters) => Some((counters > 1, Decision::Difference)),
+            // A single counter differs from no other one.
+            (true, true, 0 | 1) => Some((false, Decision::Line)),
+            (true, true, _) => Some((true, Decision::Difference)),
             (true, false, 1) => Some((true, Decision::Value(value))),
             // Unless there are as many counters as players, nobody wins.
             (true, false, _) => Some((false, Decision::Line)),

@@ -36,7 +36,8 @@ fn impossible_goals(
     let impossible_goals =
         reach.impossible_goals().iter().filter(|impossible_goal| about(impossible_goal.goal));
     let sentence = |ImpossibleGoal { goal, cause }: &ImpossibleGoal| {
-        let ending = rules::goal(analysis, &analysis.goals()[*goal]);
+        let goal = &analysis.goals()[*goal];
+        let ending = rules::goal(analysis, goal, goal.win);
         let but = match cause {
             Cause::Permanent(sprites) => format!("nothing can ever end {}", placed(analysis, level, sprites)),
             Cause::AtMost(0) => "there can never be any".to_owned(),

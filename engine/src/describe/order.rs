@@ -158,29 +158,38 @@ fn lingers(analysis: &Analysis) -> bool {
 /// The outcome of a tick in which several terminations hold.
 fn tie(analysis: &Analysis) -> Option<String> {
     let goals = analysis.goals();
-    let is_at = |win: bool| goals.iter().position(|goal| goal.win == win);
-    let last = |win: bool| goals.iter().rposition(|goal| goal.win == win);
-    let (first_win, last_win) = (is_at(true)?, last(true)?);
-    let (first_loss, last_loss) = (is_at(false)?, last(false)?);
+    let decided_by = |goal: &Goal| analysis.game().0.terminations[goal.line].decided_by;
+    // The score and the counters decide alike between two terminations that they decide.
+    let alike = |one: &Goal, two: &Goal| one.is_open() && decided_by(one) == decided_by(two);
+    let pairs =
+        || goals.iter().enumerate().flat_map(|(at, one)| goals[at + 1..].iter().map(move |two| (one, two)));
+    let pairs = || pairs().filter(|(one, two)| !alike(one, two));
+    let wins_first = pairs().any(|(one, two)| one.win && two.can_lose());
+    let loses_first = pairs().any(|(one, two)| one.can_lose() && two.win);
     let told = |goals: &[Goal], word: &str| {
-        let ways: Vec<String> =
-            goals.iter().map(|goal| ending(analysis, &goal.condition, goal.win)).collect();
+        let ways: Vec<String> = goals.iter().map(|goal| ending(analysis, goal, goal.win)).collect();
         list(&ways, word)
     };
-    Some(if last_loss < first_win {
-        Phrase::TieLost.with(&[])
-    } else if last_win < first_loss {
-        Phrase::TieWon.with(&[])
-    } else if goals[first_win..=last_win].iter().all(|goal| goal.win) {
-        Phrase::TieMixed.with(&[("ways", &told(&goals[..first_win], "or"))])
-    } else {
-        let each: Vec<String> = goals
-            .iter()
-            .map(|goal| {
-                let verb = if goal.win { "you win" } else { "you lose" };
-                format!("{verb} {}", ending(analysis, &goal.condition, goal.win))
-            })
-            .collect();
-        Phrase::TieOrder.with(&[("ways", &each.join("; "))])
+    let first_win = goals.iter().position(|goal| goal.win)?;
+    let last_win = goals.iter().rposition(|goal| goal.win)?;
+    let is_run = goals[first_win..=last_win].iter().all(|goal| goal.win);
+    Some(match (wins_first, loses_first) {
+        (false, false) => return None,
+        (false, true) => Phrase::TieLost.with(&[]),
+        (true, false) => Phrase::TieWon.with(&[]),
+        (true, true) if is_run && !goals.iter().any(Goal::is_open) => {
+            Phrase::TieMixed.with(&[("ways", &told(&goals[..first_win], "or"))])
+        }
+        (true, true) => {
+            let each = goals.iter().map(|goal| {
+                let verb = match (goal.win, goal.can_lose()) {
+                    (true, true) => "you win or lose",
+                    (true, false) => "you win",
+                    (false, _) => "you lose",
+                };
+                format!("{verb} {}", ending(analysis, goal, goal.win))
+            });
+            Phrase::TieOrder.with(&[("ways", &each.collect::<Vec<String>>().join("; "))])
+        }
     })
 }

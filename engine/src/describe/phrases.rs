@@ -75,6 +75,7 @@ phrases! {
     Hidden: "cannot be seen",
     Stands: "The {names} only {stand} there.",
     // The player.
+    NoAvatar: "You control nothing: the engine finds no avatar when a level starts, so no key does anything, and the game stops without a winner at the first rule that counts points.",
     Shoots: "; the use key puts {made} ahead of you{cost}",
     Drops: "; the use key puts {made} where you are{cost}",
     Leaves: "; you leave {made} behind",
@@ -102,9 +103,13 @@ phrases! {
     Exactly: "when there {are} exactly {limit} {name}",
     Survive: "if you last until tick {tick}",
     Reached: "when tick {tick} is reached",
+    OfKinds: ", of exactly {kinds}",
     UnlessZero: ", if your score is not 0",
+    AndZero: " and your score is 0",
     UnlessEqual: ", if the counters are not all the same",
+    AndEqual: " and the counters are all the same",
     IfCounter: ", if the counter is at {value}",
+    AndCounter: " and the counter is not at {value}",
 }
 
 impl Phrase {

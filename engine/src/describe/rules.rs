@@ -123,25 +123,37 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     game.sprite_types().filter_map(group).collect()
 }
 
-/// One sentence for each termination with that sign, in order of priority.
+/// One sentence for each termination that can win, or lose, in order of priority.
 pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
-    let goals = analysis.goals().iter().filter(|goal| goal.win == win);
-    goals.map(|one| format!("{}.", goal(analysis, one))).collect()
+    let goals = analysis.goals().iter().filter(|goal| if win { goal.win } else { goal.can_lose() });
+    goals.map(|one| format!("{}.", goal(analysis, one, win))).collect()
 }
 
-/// A termination as a sentence, without its full stop.
-pub(super) fn goal(analysis: &Analysis, goal: &Goal) -> String {
-    let provided = match analysis.game().0.terminations[goal.line].decided_by {
-        Decision::Line => String::new(),
-        Decision::Score => Phrase::UnlessZero.with(&[]),
-        Decision::Difference => Phrase::UnlessEqual.with(&[]),
-        Decision::Value(value) => Phrase::IfCounter.with(&[("value", &value.to_string())]),
+/// A termination as a sentence about winning or losing, without its full stop.
+pub(super) fn goal(analysis: &Analysis, goal: &Goal, win: bool) -> String {
+    let provided = match (analysis.game().0.terminations[goal.line].decided_by, win) {
+        (Decision::Line, _) => String::new(),
+        (Decision::Score, true) => Phrase::UnlessZero.with(&[]),
+        (Decision::Score, false) => Phrase::AndZero.with(&[]),
+        (Decision::Difference, true) => Phrase::UnlessEqual.with(&[]),
+        (Decision::Difference, false) => Phrase::AndEqual.with(&[]),
+        (Decision::Value(value), true) => Phrase::IfCounter.with(&[("value", &value.to_string())]),
+        (Decision::Value(value), false) => Phrase::AndCounter.with(&[("value", &value.to_string())]),
     };
-    let verb = if goal.win { "win" } else { "lose" };
-    format!("You {verb} {}{provided}", ending(analysis, &goal.condition, goal.win))
+    let verb = if win { "win" } else { "lose" };
+    format!("You {verb} {}{provided}", ending(analysis, goal, win))
 }
 
-pub(super) fn ending(analysis: &Analysis, condition: &Condition, win: bool) -> String {
+/// The condition of a termination, as the end of a sentence about winning or losing.
+pub(super) fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
+    let when = condition(analysis, &goal.condition, win);
+    match goal.kinds {
+        None => when,
+        Some(kinds) => when + &Phrase::OfKinds.with(&[("kinds", &count(kinds.into(), "kind"))]),
+    }
+}
+
+fn condition(analysis: &Analysis, condition: &Condition, win: bool) -> String {
     let one = counted(analysis, condition.types(), str::to_owned);
     let limited = |phrase: Phrase, limit: i32| {
         let many = counted(analysis, condition.types(), plural).name;
@@ -150,9 +162,7 @@ pub(super) fn ending(analysis: &Analysis, condition: &Condition, win: bool) -> S
     };
     match condition {
         Condition::AtMost(_, 0) | Condition::Exactly(_, 0) if one.you => Phrase::Gone.with(&[]),
-        Condition::AtMost(_, i32::MIN..=0) | Condition::Exactly(_, 0) => {
-            Phrase::NoneLeft.with(&[("name", &one.name)])
-        }
+        Condition::AtMost(_, 0) | Condition::Exactly(_, 0) => Phrase::NoneLeft.with(&[("name", &one.name)]),
         Condition::AtMost(_, limit) => limited(Phrase::AtMost, *limit),
         Condition::AtLeast(_, limit) => limited(Phrase::AtLeast, *limit),
         // What begins with more and never grows.
@@ -169,12 +179,15 @@ pub(super) fn ending(analysis: &Analysis, condition: &Condition, win: bool) -> S
     }
 }
 
-/// The types of a condition, by name, those that can occur.
+/// The types of a condition, by name, those that can occur. They are the player if they are all that the player can be.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();
     let all: &[SpriteType] = if possible.is_empty() { types } else { &possible };
-    let you = !all.is_empty() && all.iter().all(|stype| analysis.avatars().iter().any(|a| a.stype == *stype));
+    let forms = analysis.avatars();
+    let you = !forms.is_empty()
+        && forms.iter().all(|form| all.contains(&form.stype))
+        && all.iter().all(|stype| forms.iter().any(|form| form.stype == *stype));
     let mut names: Vec<String> = Vec::new();
     for &stype in all {
         let name = named(analysis.game().name(stype));

@@ -37,10 +37,12 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
     let traits = &info.traits;
+    // Sprites of parent types never do anything by themselves.
+    let updated = info.class.filter(|class| info.order.is_some() && !class.is_avatar());
     let name = |stype: SpriteType| analysis.game().name(stype);
     let mut parts: Vec<String> =
         motion(analysis, stype).or_else(|| facing(analysis, stype)).into_iter().collect();
-    if matches!(info.class, Some(SpriteClass::RandomAltChaser | SpriteClass::RandomPathAltChaser)) {
+    if matches!(updated, Some(SpriteClass::RandomAltChaser | SpriteClass::RandomPathAltChaser)) {
         parts.push(Phrase::Strays.with(&[("chance", &percent(traits.epsilon))]));
     }
     if let (Some(class), false) = (info.class, facts.makes.is_empty()) {
@@ -56,10 +58,10 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
         let each = if traits.value == 1 { String::new() } else { Phrase::Each.with(&[("value", &value)]) };
         parts.push(Phrase::Held.with(&[("limit", &info.resource_limit.to_string()), ("each", &each)]));
     }
-    if info.class.is_some_and(|class| class.is_a(SpriteClass::Flicker)) {
+    if updated.is_some_and(|class| class.is_a(SpriteClass::Flicker)) {
         parts.extend(vanishing(analysis, stype, i64::from(traits.limit) - i64::from(traits.age) + 2));
     }
-    if traits.time_to_live >= 0 {
+    if updated.is_some() && traits.time_to_live >= 0 {
         parts.extend(vanishing(analysis, stype, i64::from(traits.time_to_live) + 1));
     }
     if traits.health != 0 {
@@ -262,6 +264,9 @@ fn direction_name(direction: Direction) -> Option<&'static str> {
 
 /// One line for each avatar: its place in the game, and its keys.
 pub(super) fn controls(analysis: &Analysis) -> Vec<String> {
+    if analysis.avatars().is_empty() {
+        return vec![Phrase::NoAvatar.with(&[])];
+    }
     let single = analysis.avatars().len() == 1;
     analysis.avatars().iter().map(|avatar| control(analysis, avatar, single)).collect()
 }
@@ -367,7 +372,7 @@ pub(super) fn legend(analysis: &Analysis) -> Vec<String> {
     };
     let line = |symbol: u8| {
         let names: Vec<&str> = game.places(symbol).iter().map(|&stype| game.name(stype)).collect();
-        format!("{}  {}", char::from(symbol), names.join(", "))
+        format!("{}  {}", game.character(symbol), names.join(", "))
     };
-    (b'!'..=b'~').filter(used).map(line).collect()
+    (0..128).filter(used).map(line).collect()
 }

@@ -69,6 +69,13 @@ fn limit_of(line: &TerminationLine) -> Span {
     limit.map_or(line.class.span, Param::span)
 }
 
+/// Returns `true` if a termination may lose a level in its first tick although no play changes its count: it holds while
+/// some of the sprites are there.
+fn may_lose_from_start(goal: &Goal) -> bool {
+    let some = matches!(goal.condition, Counted::AtMost(_, 1..) | Counted::Exactly(_, 1..));
+    goal.can_lose() && some && goal.attainable == Attainable::FromStart
+}
+
 impl Linter<'_> {
     /// Reports terminations that hold at the start or never, and the lack of one that can become true.
     pub(super) fn terminations(&self, problems: &mut Vec<Diagnostic>) {
@@ -126,7 +133,7 @@ impl Linter<'_> {
                 None => self.report_unreachable(true, "the game cannot be won", problems),
             }
         }
-        if !self.analysis.can_lose() {
+        if !self.analysis.can_lose() && !self.analysis.goals().iter().any(may_lose_from_start) {
             self.report_unreachable(false, "the game cannot be lost before its last tick", problems);
         }
     }
@@ -134,7 +141,8 @@ impl Linter<'_> {
     fn report_unreachable(&self, win: bool, fault: &str, problems: &mut Vec<Diagnostic>) {
         let code = if win { "no-win" } else { "no-lose" };
         let lines = &self.game.description().terminations;
-        let mut goals = self.analysis.goals().iter().filter(|goal| goal.win == win).peekable();
+        let ends = |goal: &&Goal| if win { goal.win } else { goal.can_lose() };
+        let mut goals = self.analysis.goals().iter().filter(ends).peekable();
         let (line, reason, help) = if goals.peek().is_some() {
             let reported = goals.find_map(|goal| Some((&lines[goal.line], self.unattained(goal)?)));
             let Some((line, (reason, help))) = reported else { return };

@@ -9,7 +9,7 @@ pub(crate) mod terminations;
 pub(crate) mod traits;
 
 use crate::Digest;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::flat::bytes_of_wrapper;
 use crate::syntax::Description;
 pub use action::Action;
@@ -63,6 +63,9 @@ pub(crate) struct TypeInfo {
     pub(crate) counted: bool,
     /// `true` if some effect can give speed to sprites that have none.
     pub(crate) given_speed: bool,
+    /// The parameter that chooses among the images of its sprites, if they have none: the reference crashes on a level that
+    /// places one.
+    pub(crate) lacks_image: Option<Span>,
     /// `true` if a parameter is missing without which the reference crashes when it makes such a sprite.
     pub(crate) incomplete: bool,
     /// The number of messages that the reference logs when it makes the first sprite: one for each parameter that the
@@ -94,6 +97,12 @@ impl TypeInfo {
     /// Tests whether its sprites are taken for avatars when a level starts.
     pub(crate) fn is_like_avatar(&self) -> bool {
         self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
+    }
+
+    /// Tests whether the player's avatar is sought among its sprites when a level starts: not among those of a parent
+    /// type, nor of the type that is drawn first (`spec/01` §4.2). `wall` and `avatar` are in the update order always.
+    pub(crate) fn is_sought(&self) -> bool {
+        self.is_like_avatar() && self.order.is_some_and(|order| order > 0)
     }
 
     /// Tests whether the tree names a type twice, as it does for a type that is declared below itself (`spec/01` §1.6.3).
@@ -239,6 +248,30 @@ pub(crate) struct Pass {
     pub(crate) either_side: bool,
 }
 
+/// The characters of a LevelMapping beyond ASCII. The reference looks up UTF-16 code units. Each of those that it maps has
+/// a code of ASCII that stands for nothing else in the game, so that a cell of a level is a code of ASCII in every game.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Aliases(pub(crate) Vec<Alias>);
+
+/// A character beyond ASCII and the code that stands for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Alias {
+    pub(crate) code: u8,
+    /// The first code unit of the character, by which the reference knows it.
+    pub(crate) unit: u16,
+    pub(crate) character: char,
+}
+
+impl Aliases {
+    pub(crate) fn of_unit(&self, unit: u16) -> Option<u8> {
+        self.0.iter().find(|alias| alias.unit == unit).map(|alias| alias.code)
+    }
+
+    pub(crate) fn of_code(&self, code: u8) -> Option<Alias> {
+        self.0.iter().find(|alias| alias.code == code).copied()
+    }
+}
+
 /// The resolved contents of a game file.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
@@ -269,8 +302,10 @@ pub(crate) struct Rules {
     pub(crate) fixtures: Vec<bool>,
     /// The sprites that each character places, by ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
-    /// Level characters that stand for an undeclared sprite: the reference crashes on a level that uses one.
-    pub(crate) unusable: BTreeSet<char>,
+    /// The codes of the characters beyond ASCII that the LevelMapping maps, as the reference reads it.
+    pub(crate) aliases: Aliases,
+    /// Level characters, by code, that stand for an undeclared sprite: the reference crashes on a level that uses one.
+    pub(crate) unusable: BTreeSet<u8>,
     pub(crate) effects: Vec<EffectInfo>,
     /// Edge-of-screen passes, repeats expanded: the type and the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,

@@ -139,3 +139,101 @@ fn the_start_of_a_spawner_is_no_parameter() {
         }
     }
 }
+
+/// A game whose hero is `hero` in levels.
+fn named_by(hero: &str) -> String {
+    GAME.replace("    LevelMapping\n", &format!("    LevelMapping\n        {hero} > avatar\n"))
+}
+
+/// The reference looks up UTF-16 code units: those of a level's rows, and the first one of a line of the LevelMapping.
+#[test]
+fn characters_beyond_ascii_are_code_units() {
+    for hero in ["ö", "中", "\u{a0}", "ﬀ"] {
+        let source = named_by(hero);
+        assert!(Game::from_source(&source).is_err());
+        let text = format!("{hero}  g\n");
+        let (game, level, mut state) = load(&source, &text);
+        assert_eq!((level.columns(), state.messages()), (4, 0), "{hero}");
+        assert_eq!(level.to_string(), text);
+        assert!(level.cells().is_ascii());
+        let symbol = level.cells()[0];
+        assert_eq!((game.character(symbol).to_string().as_str(), game.character(b'g')), (hero, 'g'));
+        for _ in 0..3 {
+            game.step(&mut state, Action::Right);
+        }
+        assert_eq!(state.outcome(), Outcome::Won, "{hero}");
+        let guide = engine::describe::Guide::of(&game);
+        assert!(guide.legend.contains(&format!("{hero}  avatar")), "{:?}", guide.legend);
+        // The code that stands for it is no other name of it.
+        let (_, _, state) = load(&source, &format!("{}  g\n", char::from(symbol)));
+        assert_eq!((state.avatar_id(), state.messages()), (None, 3));
+    }
+    // One that is not mapped is a message, whatever its place in Latin-1.
+    let (_, level, state) = load(&named_by("ö"), "öé g\n");
+    assert_eq!((level.columns(), state.messages()), (4, 1));
+}
+
+/// A character beyond the first plane is two code units, of which the first is what the LevelMapping maps.
+#[test]
+fn characters_of_two_code_units_are_two_cells() {
+    let (game, level, state) = load(&named_by("😀"), "😀g\n");
+    assert_eq!((level.columns(), state.messages(), state.avatar_id()), (3, 1, Some(0)));
+    assert!(game.places(level.cells()[1]).is_empty());
+    // Another one with the same first unit is the same to the reference.
+    assert_eq!(load(&named_by("😀"), "😁g\n").2.avatar_id(), Some(0));
+    // The width is that of the first row, in units.
+    let (_, level, _) = load(&named_by("😀"), "ab\n😀g\n");
+    assert_eq!((level.columns(), level.rows()), (2, 2));
+    assert_eq!(level.digest(), load(&named_by("😀"), "ab\n😀\n").1.digest());
+}
+
+/// A line that maps nothing takes its character, too, and the last of two lines counts.
+#[test]
+fn lines_of_characters_beyond_ascii_follow_the_rules_of_others() {
+    let nothing = "é b\n        ö > gold\n        ö";
+    let (game, level, state) = load(&named_by(nothing), "öé g\n");
+    assert_eq!((state.messages(), game.places(level.cells()[0]).len()), (0, 1));
+    assert_eq!(state.avatar_id(), Some(0));
+    // An undeclared sprite is fatal to the levels that use it.
+    let unknown = named_by("ö > ghost\n        é");
+    let game = Game::from_source_as_reference(&unknown).unwrap();
+    assert!(game.level("é g\n").is_ok());
+    assert_eq!(game.level("éög\n").unwrap_err().0[0].code, "unknown-sprite");
+    // More than there are codes for are refused.
+    let many: String =
+        (0..140u32).map(|at| format!("        {} > gold\n", char::from_u32(0x400 + at).unwrap())).collect();
+    let crowded = GAME.replace("        g > gold\n", &many);
+    assert_eq!(Game::from_source_as_reference(&crowded).unwrap_err().0[0].code, "too-large");
+}
+
+/// The reference chooses among the images of such a sprite when it has built a level.
+#[test]
+fn tiling_without_an_image_is_fatal() {
+    for (params, is_fatal) in [
+        ("autotiling=True", true),
+        ("autotiling=true img=5", true),
+        ("autotiling=False", false),
+        ("autotiling=True img=bush", false),
+        ("autotiling=1", false),
+        ("randomtiling=0.9", true),
+        ("randomtiling=0", true),
+        ("randomtiling=-1", false),
+        ("randomtiling=0.5 img=bush", false),
+    ] {
+        let source = GAME.replace("gold > Immovable", &format!("gold > Immovable {params}"));
+        let game = Game::from_source_as_reference(&source).unwrap();
+        let codes = |level: &str| {
+            game.level(level).err().map_or(Vec::new(), |problems| problems.0.iter().map(|p| p.code).collect())
+        };
+        let expected = if is_fatal { vec!["missing-image"] } else { Vec::new() };
+        assert_eq!(codes("Ag \n"), expected, "{params}");
+        assert!(codes("A  \n").is_empty(), "{params}");
+        let strict = Game::from_source(&source).err().map_or(Vec::new(), |all| all.0);
+        assert_eq!(strict.iter().any(|problem| problem.code == "missing-image"), is_fatal, "{params}");
+    }
+    // Parents pass both on, and need none for themselves.
+    let family = "gold > Immovable autotiling=True\n            coin > img=coin\n            bar >";
+    let family = GAME.replace("gold > Immovable", family);
+    assert!(Game::from_source(&family.replace("g > gold", "g > coin")).is_ok());
+    assert!(Game::from_source(&family.replace("g > gold", "g > bar")).is_err());
+}

@@ -1,7 +1,7 @@
 //! Guides to games.
 
 use engine::describe::{self, Guide};
-use engine::{Analysis, Game};
+use engine::{Action, Analysis, Game, Seed, SpriteRecord};
 
 /// A game in which most kinds of sentences occur.
 const ORCHARD: &str = "
@@ -251,4 +251,158 @@ fn lines_are_in_the_order_in_which_they_count() {
             "When the gem touches the nut, a gem appears there.",
         ]
     );
+}
+
+/// A squire who becomes a king, or a frog, lives on: the count of one form is no matter of life.
+#[test]
+fn a_form_of_the_player_is_not_the_player() {
+    let endings = |forms: &str, start: &str, ends: &str| {
+        let source = format!(
+            "BasicGame\n  SpriteSet\n    crown > Immovable\n    me >\n      squire > MovingAvatar\n{forms}  LevelMapping\n    c > \
+             crown\n    A > squire\n  InteractionSet\n    {start}\n    me EOS > stepBack\n  TerminationSet\n    {ends}\n"
+        );
+        let guide = Guide::of(&Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}")));
+        [guide.winning, guide.losing].concat()
+    };
+    let king = "      king > MovingAvatar\n";
+    let turns = "squire crown > transformTo stype=king";
+    assert_eq!(
+        endings(king, turns, "SpriteCounter stype=squire win=True"),
+        ["You win when no squire is left."]
+    );
+    assert_eq!(endings(king, turns, "SpriteCounter stype=squire"), ["You lose when no squire is left."]);
+    assert_eq!(endings(king, turns, "SpriteCounter stype=me"), ["You lose when you are gone."]);
+    let both = "MultiSpriteCounter stype1=squire stype2=king";
+    assert_eq!(endings(king, turns, both), ["You lose when you are gone."]);
+    // Nobody becomes a king, or there is none.
+    let alone = "squire crown > killSprite";
+    assert_eq!(endings(king, alone, "SpriteCounter stype=squire"), ["You lose when you are gone."]);
+    assert_eq!(endings("", alone, "SpriteCounter stype=squire"), ["You lose when you are gone."]);
+}
+
+/// Terminations that the score or the counters decide win or lose, whatever their `win`.
+#[test]
+fn endings_that_are_decided_late_win_or_lose() {
+    let guide = |header: &str, ends: &str| {
+        let source = format!(
+            "BasicGame {header}\n  SpriteSet\n    pear > Immovable\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    \
+             p > pear\n    o > pit\n  InteractionSet\n    pear pit avatar > killSprite scoreChange=1\n  TerminationSet\n    {ends}\n"
+        );
+        Guide::of(&Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}")))
+    };
+    for (ends, when) in [
+        ("SpriteCounter stype=pit", "when no pit is left"),
+        ("SpriteCounterMore stype=pit limit=2", "when there are at least 2 pits"),
+        ("MultiSpriteCounter stype1=pit limit=3", "when there are exactly 3 pits"),
+        (
+            "MultiSpriteCounterSubTypes stype1=pit limit=3 subTypesNum=1",
+            "when there are exactly 3 pits, of exactly 1 kind",
+        ),
+    ] {
+        for win in ["", " win=True", " win=False"] {
+            let guide = guide("", &format!("{ends} count_score=True{win}"));
+            assert_eq!(guide.winning, [format!("You win {when}, if your score is not 0.")]);
+            assert_eq!(guide.losing, [format!("You lose {when} and your score is 0.")]);
+        }
+    }
+    let timed = guide("", "Timeout limit=9 count_score=True");
+    assert_eq!(timed.winning, ["You win if you last until tick 10, if your score is not 0."]);
+    assert_eq!(timed.losing, ["You lose when tick 10 is reached and your score is 0."]);
+    let compared = guide("no_counters=2", "Timeout limit=9 use_counter=True compare=True");
+    assert_eq!(compared.losing, ["You lose when tick 10 is reached and the counters are all the same."]);
+    let counted = guide("no_counters=1", "Timeout limit=9 use_counter=True limits=5,0");
+    assert_eq!(counted.winning, ["You win if you last until tick 10, if the counter is at 5."]);
+    assert_eq!(counted.losing, ["You lose when tick 10 is reached and the counter is not at 5."]);
+    // One counter differs from no other.
+    let one = guide("no_counters=1", "Timeout limit=9 use_counter=True compare=True");
+    assert_eq!((one.winning.len(), &*one.losing), (0, &["You lose when tick 10 is reached.".to_owned()][..]));
+    // A count below 0 is none at all.
+    let below = guide("", "SpriteCounter stype=pit limit=-1 win=True");
+    assert_eq!(below.winning, ["You win when at most -1 pits are left."]);
+
+    let tie = |ends: &str| guide("", ends).order.pop().unwrap();
+    let score = "SpriteCounter stype=pit count_score=True";
+    assert!(!tie(&format!("{score}\n    Timeout limit=9 count_score=True")).starts_with("A tick"));
+    assert_eq!(
+        tie(&format!("{score}\n    SpriteCounter stype=pear win=True")),
+        "A tick that both wins and loses is lost."
+    );
+    assert_eq!(
+        tie(&format!("SpriteCounter stype=pear win=True\n    {score}")),
+        "A tick that both wins and loses is won."
+    );
+    assert_eq!(
+        tie(&format!("{score}\n    Timeout limit=9\n    SpriteCounter stype=pear win=True")),
+        "Of several ways to win or lose in one tick, the first of these counts: you win or lose when no pit is left; you \
+         lose when tick 10 is reached; you win when no pear is left."
+    );
+}
+
+/// Sprites of parent types are never updated: whatever their class does, they do not.
+#[test]
+fn sprites_of_parent_types_do_nothing_by_themselves() {
+    let source = "BasicGame\n  SpriteSet\n    boat > Missile orientation=RIGHT\n      ferry >\n    spark > Flicker limit=3\n      ember >\n    \
+                  hive > SpawnPoint stype=boat\n      nest >\n    avatar > MovingAvatar\n  LevelMapping\n    b > boat\n    s > spark\n    \
+                  h > hive\n  InteractionSet\n    avatar boat > killSprite\n  TerminationSet\n    SpriteCounter stype=avatar\n";
+    let still = ["The boat, spark and hive only stand there."];
+    let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
+    assert_eq!(Guide::of(&game).sprites, still);
+    let leaves =
+        source.replace("      ferry >\n", "").replace("      ember >\n", "").replace("      nest >\n", "");
+    assert_eq!(Guide::of(&Game::from_source(&leaves).unwrap()).sprites.len(), 3);
+    let level = game.level("bshA  \n").unwrap();
+    let mut state = game.start(&level, Seed::from_text("parents"));
+    let first = game.records(&state);
+    for _ in 0..9 {
+        game.step(&mut state, Action::Nil);
+    }
+    let place =
+        |records: &[SpriteRecord]| records.iter().map(|one| (one.stype, one.rect)).collect::<Vec<_>>();
+    assert_eq!(place(&game.records(&state)), place(&first));
+}
+
+/// The engine looks for the avatar among leaf types, and `avatar`: no key moves another parent type.
+#[test]
+fn avatars_that_are_never_found_are_not_the_player() {
+    let source = "BasicGame\n  SpriteSet\n    pear > Immovable\n    hero > MovingAvatar\n      young >\n      old >\n  LevelMapping\n    \
+                  p > pear\n    H > hero\n  InteractionSet\n    pear hero > killSprite\n    hero EOS > stepBack\n  TerminationSet\n    \
+                  SpriteCounter stype=pear win=True\n    SpriteCounter stype=hero\n";
+    for load in [Game::from_source, Game::from_source_as_reference] {
+        let guide = Guide::of(&load(source).unwrap_or_else(|problems| panic!("{problems}")));
+        assert_eq!(guide.controls.len(), 1);
+        assert!(guide.controls[0].starts_with("You control nothing"), "{:?}", guide.controls);
+        assert_eq!(guide.losing, ["You lose when no hero is left."]);
+        assert_eq!(guide.sprites, ["The pear and hero only stand there."]);
+        assert!(guide.meetings.iter().all(|line| !line.contains("you")), "{:?}", guide.meetings);
+    }
+    // What an avatar turns into is played, parent type or not.
+    let turned = source
+        .replace("H > hero", "H > young")
+        .replace("    hero EOS", "    young pear > transformTo stype=hero\n    hero EOS");
+    let guide = Guide::of(&Game::from_source(&turned).unwrap());
+    assert_eq!(guide.controls.len(), 2, "{:?}", guide.controls);
+    assert_eq!(guide.losing, ["You lose when you are gone."]);
+    // What a spawner makes is not.
+    let made =
+        source.replace("pear > Immovable", "pear > SpawnPoint stype=old").replace("H > hero", "H > young");
+    let guide = Guide::of(&Game::from_source(&made).unwrap());
+    assert!(
+        guide.controls.len() == 1 && guide.controls[0].starts_with("You are the young"),
+        "{:?}",
+        guide.controls
+    );
+}
+
+/// `A` and `w` stand for `avatar` and `wall` in every game: a line that says so changes nothing.
+#[test]
+fn default_characters_are_told_like_written_ones() {
+    let source = "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n      calm >\n      cross >\n    block > Immovable\n      wall >\n      \
+                  stone >\n    pear > Immovable\n  LevelMapping\n    p > pear\n    s > stone\n  InteractionSet\n    pear avatar > \
+                  killSprite\n    avatar block > stepBack\n  TerminationSet\n    SpriteCounter stype=pear win=True\n    SpriteCounter stype=avatar\n";
+    let written = source.replace("    p > pear\n", "    p > pear\n    A > avatar\n    w > wall\n");
+    let [own, written] = [source, &written].map(|source| Guide::of(&Game::from_source(source).unwrap()));
+    assert_eq!(own, written);
+    assert!(own.controls[0].starts_with("You are the avatar: the arrow keys move you"), "{:?}", own.controls);
+    assert_eq!(own.groups, ["Any block means the wall or stone."]);
+    assert!(own.legend.contains(&"w  wall".to_owned()));
 }

@@ -19,3 +19,16 @@ fn a_game_space_plays_and_prints() {
 fn parameters_belong_to_game_spaces() {
     assert!(Game::from_source(&GAME.replace("GameSpace", "BasicGame")).is_err());
 }
+
+/// A range of one value plays, and a step that leads nowhere is a fault that `value=` makes up for in the reference.
+#[test]
+fn a_range_of_one_value_plays() {
+    let one = GAME.replace("values=2:3:9 value=5", "values=5:0:5 value=5");
+    let game = Game::from_source(&one).unwrap_or_else(|problems| panic!("{problems}"));
+    assert_eq!(game.digest(), Game::from_source(GAME).unwrap().digest());
+    let drawn = GAME.replace("values=2:3:9 value=5", "values=5:0:5");
+    assert_eq!(Game::from_source_as_reference(&drawn).unwrap().digest(), game.digest());
+    let none = GAME.replace("values=2:3:9", "values=9:3:2");
+    assert!(Game::from_source(&none).is_err());
+    assert_eq!(Game::from_source_as_reference(&none).unwrap().digest(), game.digest());
+}

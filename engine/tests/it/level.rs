@@ -85,3 +85,34 @@ fn the_canonical_text_is_rectangular() {
     assert_eq!(level.warnings()[0].code, "ragged-level");
     assert_eq!(game.level("wAg\nw  \n").unwrap().digest(), level.digest());
 }
+
+/// The engine looks for the avatar among leaf types, `avatar` included, and not in the first of them.
+#[test]
+fn levels_need_an_avatar_that_is_found() {
+    let check = |sprites: &str, symbol: &str, level: &str, expected: &str| {
+        let source = GAME.replace("avatar > MovingAvatar", sprites).replace("A > avatar", symbol);
+        let source = source.replace("avatar wall", "hero wall").replace("gold avatar", "gold hero");
+        let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}"));
+        let problems = game.level(level).err().map_or(Vec::new(), |problems| problems.0);
+        let told = problems.iter().map(|problem| {
+            format!("{}: {}; {}", problem.code, problem.message, problem.help.as_deref().unwrap_or_default())
+        });
+        assert_eq!(told.collect::<Vec<_>>().join("\n"), expected);
+        let game = Game::from_source_as_reference(&source).unwrap();
+        assert!(game.level(level).is_ok());
+    };
+    let parent = "hero > MovingAvatar\n      young >\n      old >";
+    let lost = "no-avatar: the level places no avatar that a player can control:";
+    let below = format!("{lost} `hero` is a parent type; place one of its subtypes: young, old");
+    check(parent, "H > hero", "wHg\n", &below);
+    check(parent, "H > young", "wHg\n", "");
+    check(&parent.replace("hero", "avatar").replace("young", "hero"), "p > hero", "wAg\n", "");
+    let first = "hero > MovingAvatar";
+    check(first, "H > hero", "wHg\n", "");
+    let source = GAME
+        .replace("    wall > Immovable\n", "")
+        .replace("    gold >", "    hero > MovingAvatar\n    wall > Immovable\n    gold >");
+    let game = Game::from_source(&source.replace("A > avatar", "H > hero")).unwrap();
+    let problems = game.level("wHg\n").unwrap_err().0;
+    assert!(problems[0].message.contains("`hero` is declared before every other sprite"), "{problems:?}");
+}

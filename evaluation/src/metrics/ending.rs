@@ -194,7 +194,10 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         Condition::Tick(_) => return ending(EndingKind::OutOfTime),
         Condition::AtLeast(..) => EndingKind::Appeared,
         Condition::Exactly(_, limit) if limit > 0 => EndingKind::Appeared,
-        _ if avatars().any(|avatar| types.contains(&avatar)) => EndingKind::Died,
+        // An avatar that has become another one lives.
+        _ if last.avatar_type().is_none() && avatars().any(|avatar| types.contains(&avatar)) => {
+            EndingKind::Died
+        }
         _ => EndingKind::Lost,
     };
     if kind == EndingKind::Appeared {

@@ -68,7 +68,7 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let tile = on_top.map(|&stype| tiles.number(&render::sprite_tile(looks, stype)));
         let names: Vec<&str> = types.iter().map(|&stype| game.name(stype)).collect();
         let label = on_top.map_or("", |&stype| looks.meaning(stype));
-        json!({ "symbol": char::from(symbol), "types": names, "label": label, "tile": tile })
+        json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile })
     };
     // Those that the game maps, in its order, then those that are mapped by default.
     let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());

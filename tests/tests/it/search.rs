@@ -257,3 +257,57 @@ fn bounded_searches_keep_limits_and_are_unknown() {
     let small = a_star(&analysis, &pushes, &start, SearchLimits { calls: 1_000_000, bytes: 4_000 });
     assert_eq!(small.answer, Answer::OutOfMemory);
 }
+
+/// The characters `A` and `w` stand for `avatar` and `wall` in every game: a level that relies on that is searched like
+/// one of a game that says so, whatever else the game has in mind.
+#[test]
+fn default_characters_are_searched_like_written_ones() {
+    let ends = "SpriteCounter stype=pear win=True\nSpriteCounter stype=avatar win=False";
+    let rules = "pear avatar > killSprite\navatar EOS wall > stepBack";
+    for sprites in [
+        "avatar > MovingAvatar\n  calm >\n  cross >\npear > Immovable\nhero > MovingAvatar",
+        "pear > Immovable\nhero > MovingAvatar",
+        "pear > Immovable\nhero > HorizontalAvatar\navatar > MovingAvatar",
+    ] {
+        let searched = [
+            "p > pear",
+            "p > pear\nA > avatar\nw > wall",
+            "p > pear\nH > hero",
+            "p > pear\nH > hero\nA > avatar",
+        ]
+        .map(|mapping| {
+            let game = game(sprites, mapping, rules, ends);
+            let analysis = Analysis::of(&game);
+            let level = game.level("A  w\n   p\n").unwrap();
+            let start = game.start(&level, Seed::from_text("default"));
+            let searched =
+                a_star(&analysis, &Pushes::of(&analysis, &level), &start, SearchLimits::calls(5000));
+            assert!(
+                analysis.reach(&level).can_win() && analysis.reach(&level).avatar_reaches(7),
+                "{mapping}"
+            );
+            match searched.answer {
+                Answer::Won { actions, shortest } => (actions.len(), shortest),
+                answer => panic!("{answer:?}: {sprites}, {mapping}"),
+            }
+        });
+        assert_eq!(searched, [(4, true); 4], "{sprites}");
+    }
+}
+
+/// Crates are pushed by an avatar that the game did not have in mind, too.
+#[test]
+fn crates_are_pushed_by_any_avatar() {
+    let game = game(
+        "crate > Passive\ndrain > Immovable\nhero > HorizontalAvatar",
+        "c > crate\no > drain\nH > hero",
+        "crate hero avatar > bounceForward\ncrate wall crate > undoAll\ncrate drain > killSprite\navatar drain > stepBack",
+        "SpriteCounter stype=crate win=True",
+    );
+    let analysis = Analysis::of(&game);
+    let level = game.level("A  \n c \n   \n o \n").unwrap();
+    let start = game.start(&level, Seed::from_text("default"));
+    let pushes = Pushes::of(&analysis, &level);
+    let searched = a_star(&analysis, &pushes, &start, SearchLimits::calls(50_000));
+    assert!(matches!(searched.answer, Answer::Won { shortest: true, .. }), "{:?}", searched.answer);
+}

@@ -51,6 +51,7 @@ use crate::Seed;
 use crate::level::Level;
 use crate::limits::MAX_SPRITES;
 use crate::rules::SpriteType;
+use crate::rules::class::SpriteClass;
 use cells::{Board, Cells};
 use chain::Chains;
 pub use chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
@@ -271,7 +272,9 @@ impl Analysis {
         impossible_goals: Vec<ImpossibleGoal>,
         coarse: bool,
     ) -> Reach {
-        let avatars = self.avatars.iter().map(|avatar| avatar.stype).collect();
+        // A level may place another avatar than the game has in mind.
+        let is_avatar = |stype: &SpriteType| self.game.class(*stype).is_some_and(SpriteClass::is_avatar);
+        let avatars = self.game.sprite_types().filter(is_avatar).collect();
         let hindered =
             |goal: usize| impossible_goals.iter().any(|impossible_goal| impossible_goal.goal == goal);
         let can_end = |win: bool| {

@@ -60,6 +60,15 @@ fn ends_that_never_come() {
     assert_eq!(game.warnings().iter().map(|warning| &warning.message).collect::<Vec<_>>(), [free]);
     // A score of 0 loses.
     check_ends(rule, "Timeout limit=100 count_score=True", &[]);
+    check_ends(rule, "SpriteCounter stype=stone count_score=True win=False", &[]);
+    // What no play changes may hold from the start of a level.
+    let score =
+        "SpriteCounter stype=stone limit=0 win=True\n        SpriteCounter stype=avatar limit=2 win=False";
+    check_ends(rule, score, &[]);
+    check_ends(rule, &format!("{score} count_score=True"), &[]);
+    let reason = "the game cannot be lost before its last tick: nothing lowers the number of `fence`";
+    let score = "SpriteCounter stype=stone win=True\n        SpriteCounter stype=fence count_score=True";
+    check_ends(rule, score, &[reason]);
 }
 
 #[test]
