@@ -348,11 +348,12 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    /// Reports avatars none of which the engine finds when the level starts.
+    /// Reports avatars of a parent type, which the engine does not find when the level starts. (Those of the type that is
+    /// drawn first, which it does not find either, are a warning about the game.)
     fn report_lost_avatar(&mut self) {
         let info = |stype: SpriteType| &self.game.0.types[stype.index()];
         let Some(&(span, stype)) = self.avatars.first() else { return };
-        if self.avatars.iter().any(|&(_, stype)| info(stype).is_sought()) {
+        if self.avatars.iter().any(|&(_, stype)| info(stype).order.is_some()) {
             return;
         }
         let name = &info(stype).name;
@@ -361,15 +362,12 @@ impl LevelReader<'_> {
             other.leaf && other.name != *name && other.path.contains(&stype) && other.is_sought()
         });
         let below: Vec<&str> = below.map(|other| self.game.name(other)).take(MAX_REPEATS).collect();
-        let (reason, help) = match (info(stype).order, &below[..]) {
-            (None, []) => ("is a parent type", "make a subtype of it, and place that".to_owned()),
-            (None, _) => ("is a parent type", format!("place one of its subtypes: {}", below.join(", "))),
-            (Some(_), _) => (
-                "is declared before every other sprite, `wall` included",
-                format!("declare another sprite, such as `wall`, before `{name}`"),
-            ),
+        let help = match &below[..] {
+            [] => "place a type that has no subtypes".to_owned(),
+            _ => format!("place one of its subtypes: {}", below.join(", ")),
         };
-        let message = format!("the level places no avatar that a player can control: `{name}` {reason}");
+        let message =
+            format!("the level places no avatar that a player can control: `{name}` is a parent type");
         self.problems.push(Diagnostic::error("no-avatar", span, message).help(help));
     }
 

@@ -290,19 +290,28 @@ fn endings_that_are_decided_late_win_or_lose() {
         );
         Guide::of(&Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}")))
     };
-    for (ends, when) in [
-        ("SpriteCounter stype=pit", "when no pit is left"),
-        ("SpriteCounterMore stype=pit limit=2", "when there are at least 2 pits"),
-        ("MultiSpriteCounter stype1=pit limit=3", "when there are exactly 3 pits"),
+    for (ends, win, loss) in [
+        ("SpriteCounter stype=pit", "when no pit is left", "when no pit is left"),
+        (
+            "SpriteCounterMore stype=pit limit=2",
+            "when there are at least 2 pits",
+            "when there are at least 2 pits",
+        ),
+        (
+            "MultiSpriteCounter stype1=pit limit=3",
+            "when there are exactly 3 pits",
+            "when only 3 pits are left",
+        ),
         (
             "MultiSpriteCounterSubTypes stype1=pit limit=3 subTypesNum=1",
             "when there are exactly 3 pits, of exactly 1 kind",
+            "when only 3 pits are left, of exactly 1 kind",
         ),
     ] {
-        for win in ["", " win=True", " win=False"] {
-            let guide = guide("", &format!("{ends} count_score=True{win}"));
-            assert_eq!(guide.winning, [format!("You win {when}, if your score is not 0.")]);
-            assert_eq!(guide.losing, [format!("You lose {when} and your score is 0.")]);
+        for written in ["", " win=True", " win=False"] {
+            let guide = guide("", &format!("{ends} count_score=True{written}"));
+            assert_eq!(guide.winning, [format!("You win {win}, if your score is not 0.")]);
+            assert_eq!(guide.losing, [format!("You lose {loss} and your score is 0.")]);
         }
     }
     let timed = guide("", "Timeout limit=9 count_score=True");
