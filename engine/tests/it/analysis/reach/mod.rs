@@ -135,7 +135,8 @@ fn missiles_turn_wrap_and_end() {
 
 #[test]
 fn shots_spawns_and_their_transformations() {
-    let sprites = "hero > ShootAvatar stype=arrow\narrow > Missile\nnest > SpawnPoint stype=egg\n\
+    // The first type of all is not searched for the avatar.
+    let sprites = "floor > Immovable\nhero > ShootAvatar stype=arrow\narrow > Missile\nnest > SpawnPoint stype=egg\n\
                    egg > Passive\nduck > Missile orientation=DOWN";
     let rules = "hero wall EOS > stepBack\nhero EOS > stepBack\narrow wall > killSprite\narrow EOS > killSprite\n\
                  egg arrow > transformTo stype=duck\nduck EOS > killSprite";
@@ -158,7 +159,7 @@ fn shots_spawns_and_their_transformations() {
         level,
         &[("arrow", ".....\n.....\n.....\n....."), ("duck", ".....\n.....\n.....\n.....")],
     );
-    let flak = "hero > FlakAvatar stype=arrow\narrow > Missile orientation=UP";
+    let flak = "floor > Immovable\nhero > FlakAvatar stype=arrow\narrow > Missile orientation=UP";
     let rules = "hero wall > stepBack\nhero EOS > stepBack\narrow wall > killSprite\narrow EOS > killSprite";
     check(
         flak,
