@@ -115,19 +115,16 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
         .map(|info| {
             let traits = &info.traits;
             let path = info.path.iter();
-            // Sprites of parent types are never updated, the player's avatar apart.
-            let updated = info.class.filter(|class| info.order.is_some() || class.is_avatar());
             Facts {
                 concrete: info.class.is_some(),
                 possible: false,
                 symbols: Vec::new(),
-                motion: updated.map_or(Motion::Still, |class| motion(class, traits)),
-                pace: updated.map_or(0.0, |class| pace(class, traits, block)),
-                makes: updated.map_or(Vec::new(), |class| makes(class, traits)),
+                motion: info.class.map_or(Motion::Still, |class| motion(class, traits)),
+                pace: info.class.map_or(0.0, |class| pace(class, traits, block)),
+                makes: info.class.map_or(Vec::new(), |class| makes(class, traits)),
                 span: traits.span(),
-                fleeting: updated.is_some_and(|class| {
-                    class.is_a(SpriteClass::Flicker) || (traits.time_to_live >= 0 && !class.is_avatar())
-                }),
+                fleeting: info.class.is_some_and(|c| c.is_a(SpriteClass::Flicker))
+                    || traits.time_to_live >= 0,
                 singleton: path.clone().any(|stype| rules.types[stype.index()].singleton),
                 is_resource: traits.is_resource,
                 hidden: traits.hidden || traits.invisible,
@@ -155,11 +152,15 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     for (fact, possible) in facts.iter_mut().zip(possible) {
         fact.possible = possible;
     }
-    let played = played(rules, &facts, encounters);
-    for ((fact, info), played) in facts.iter_mut().zip(&rules.types).zip(played) {
-        // Without a player, an avatar is never updated.
-        if info.class.is_some_and(SpriteClass::is_avatar) && !played {
-            (fact.motion, fact.pace) = (Motion::Still, 0.0);
+    let start = Start { held: None, ..Start::of_any_level(rules) };
+    let exists = PossibleFutures::of(rules, &facts, encounters, start).exists;
+    let played = played(rules, &exists, encounters);
+    for (at, (fact, info)) in facts.iter_mut().zip(&rules.types).enumerate() {
+        // Sprites of parent types are never updated, and of the avatars only that of the player, parent type or not.
+        let updated =
+            if info.class.is_some_and(SpriteClass::is_avatar) { played[at] } else { info.order.is_some() };
+        if exists[at] && !updated {
+            (fact.motion, fact.pace, fact.fleeting) = (Motion::Still, 0.0, false);
             fact.makes.clear();
         }
     }
@@ -168,11 +169,9 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
 
 /// By type: the player's avatar can have it in some level, whatever characters that uses. The avatar is found when a level
 /// starts; from then on the player moves on to what an avatar becomes.
-fn played(rules: &Rules, facts: &[Facts], encounters: &[Encounter]) -> Vec<bool> {
-    let start = Start { held: None, ..Start::of_any_level(rules) };
-    let exists = PossibleFutures::of(rules, facts, encounters, start).exists;
+fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
     let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
-    let mut played = vec![false; facts.len()];
+    let mut played = vec![false; exists.len()];
     for stype in rules.mapping.iter().flatten() {
         played[stype.index()] |= rules.types[stype.index()].is_sought();
     }
@@ -249,7 +248,8 @@ fn pace(class: SpriteClass, traits: &Traits, block: f64) -> f64 {
     speed / f64::from(traits.cooldown.max(1))
 }
 
-fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
+/// The types that sprites of a class make, if they are updated.
+pub(super) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     use SpriteClass as C;
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);

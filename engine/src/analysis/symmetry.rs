@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::abstraction::changes_afar;
 use super::encounter::{EffectSummary, Encounter};
-use super::facts::Motion;
+use super::facts::{Motion, makes};
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{OrientationRead, Provided};
 use crate::rules::{EffectInfo, Rules, SpriteType, TypeInfo};
@@ -20,8 +20,9 @@ impl Analysis {
             return vec![false; types];
         }
         let mut interchangeable: Vec<bool> = rules.types.iter().map(is_by_itself).collect();
-        for (info, facts) in rules.types.iter().zip(&self.facts) {
-            for named in info.traits.stypes.iter().filter(|named| !facts.makes.contains(named)) {
+        for info in &rules.types {
+            let makes = info.class.map_or(Vec::new(), |class| makes(class, &info.traits));
+            for named in info.traits.stypes.iter().filter(|named| !makes.contains(named)) {
                 let Some(named) = rules.types.get(named.index()) else { continue };
                 for stype in &named.tree {
                     interchangeable[stype.index()] = false;

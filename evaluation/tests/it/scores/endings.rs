@@ -73,6 +73,19 @@ fn causes() {
     check(2, &[Right], (EndingKind::Appeared, "lost when weed appeared", rule, "1 of 1 gem left"));
 }
 
+/// An avatar that takes another form lives: what is lost is the form that a termination counts.
+#[test]
+fn another_form_is_no_death() {
+    let forms = "me >\n            avatar > MovingAvatar\n            frog > MovingAvatar";
+    let source = GAME
+        .replace("avatar > MovingAvatar", forms)
+        .replace("avatar pit >   killSprite   # it is deep", "avatar pit > transformTo stype=frog");
+    let level = "wwwwwwwww\nwgApg  fw\nwwwwwwwww".to_owned();
+    let subject = Subject::read("pond", &source, &[(0, level, None)], SubjectFacts::default()).unwrap();
+    let found = EpisodeMetrics::of(&subject, &log(&subject, 0, &[Right], 9)).unwrap().ending.unwrap();
+    assert_eq!((found.kind, found.words().as_str()), (EndingKind::Lost, "lost avatar to pit"));
+}
+
 /// Of several interactions that could have killed in the last tick, the one that did is named, not the last one: a dead avatar
 /// goes on touching things, and conditions hold or not.
 #[test]
