@@ -214,8 +214,12 @@ impl LevelReader<'_> {
             if info.class.is_some_and(|class| class.is_avatar()) {
                 self.avatars.push((span, stype));
             }
-            if info.lacks_image.is_some() && self.tells("missing-image") {
-                self.problems.push(missing_image(&info.name, span));
+            if info.lacks_image.is_some() {
+                let problem = missing_image(&info.name, span);
+                // Each type is reported at its first place.
+                if self.problems.iter().all(|other| other.message != problem.message) {
+                    self.problems.push(problem);
+                }
             }
         }
         if rules.unusable.contains(&code) {

@@ -159,7 +159,9 @@ impl Linter<'_> {
                     | EffectSummary::Undo(_)
             )
         };
+        // Avatars that no player controls have a problem of their own.
         facts.motion != Motion::Still
+            || info.class.is_some_and(SpriteClass::is_avatar)
             || info.traits.width_factor != 1.0
             || info.traits.height_factor != 1.0
             || self.game.sprite_types().any(|maker| self.analysis.facts(maker).makes.contains(&stype))
