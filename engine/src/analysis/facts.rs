@@ -179,11 +179,12 @@ fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool>
     let mut note = |written: Option<SpriteType>, effects: &[EffectSummary]| {
         let tree = written.map_or(&[][..], |written| &*rules.types[written.index()].tree);
         for effect in effects {
-            let turns = match effect {
-                EffectSummary::BecomeAll(from, _) => any_avatar(&[*from]),
-                EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => any_avatar(tree),
-                _ => false,
+            let turned = if let EffectSummary::BecomeAll(from, _) = effect {
+                std::slice::from_ref(from)
+            } else {
+                tree
             };
+            let turns = !matches!(effect, EffectSummary::Make(_)) && any_avatar(turned);
             for to in effect.makes().iter().filter(|_| turns) {
                 played[to.index()] |= is_avatar(to.index());
             }
