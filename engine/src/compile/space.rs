@@ -176,7 +176,7 @@ impl Values {
 }
 
 /// Parses `min:step:max`: integers, decimals if one has a point, or two booleans. The number of values is that of the
-/// reference: 1 for no step on no way, and below 1 if the step does not lead to the last one.
+/// reference: 1 for no step on no way, and below 1 if the step does not lead towards the last one.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
     let range = match parts[..] {
@@ -283,7 +283,7 @@ mod tests {
         }
         assert_eq!(range("0.5:0.0:0.5").map(Values::count), Some(1));
         assert_eq!(range("0.5:NaN:0.9").map(Values::count), Some(1));
-        // A step that does not lead to the last value gives none, and the reference draws none where `value=` is given.
+        // A step that does not lead towards the last value gives none, and the reference draws none where `value=` is given.
         for none in ["1:0:5", "5:1:1", "1:-1:5", "1.0:0:5.0", "0.5:0.0:1.0", "1.0:0.5:0.0"] {
             assert!(range(none).is_some_and(|range| range.count() <= 0), "{none}");
             let given = GAME.replace("values=0.1:0.3:1.0 value=0.4", &format!("values={none} value=1"));
