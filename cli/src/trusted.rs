@@ -131,7 +131,7 @@ pub(crate) fn digest(text: &str) -> Result<Digest, String> {
 /// The place of a release's signatures, unless another one is named.
 pub(crate) fn signatures_of(release: &Path) -> PathBuf {
     if !release.is_file() {
-        return release.join(SIGNATURES);
+        return paths::release(release.to_owned()).join(SIGNATURES);
     }
     let name = release.file_name().unwrap_or_default().to_string_lossy();
     let name = name.strip_suffix(".zst").unwrap_or(&name);

@@ -25,10 +25,10 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The earlier snapshot's folder or .tar.zst
-    #[arg(value_name = "BEFORE")]
+    #[arg(value_name = "BEFORE", value_parser = crate::paths::release_parser())]
     before: PathBuf,
     /// The later snapshot's folder or .tar.zst
-    #[arg(value_name = "AFTER")]
+    #[arg(value_name = "AFTER", value_parser = crate::paths::release_parser())]
     after: PathBuf,
     /// Nearest pairs of games to list
     #[arg(long, value_name = "N", default_value_t = 5)]

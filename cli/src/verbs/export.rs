@@ -28,7 +28,7 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     /// The format to write
     #[arg(long, value_enum, value_name = "FORMAT")]

@@ -23,7 +23,7 @@ use studio::{Gallery, Studio};
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The release: a folder or an archive
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     /// The folder of the page: absent or empty
     #[arg(long, value_name = "DIR")]

@@ -1,6 +1,6 @@
 //! `arcade log check`: the judgement of a log, or of a proof about it.
 
-use super::{absent, append, checkpoint, counted, public_key, read_text, row, rules};
+use super::{absent, append, checkpoint, counted, line, public_key, read_text, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::verbs::release::in_pool;
@@ -38,7 +38,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "MONTH", value_parser = month, conflicts_with_all = ["proof", "growth"])]
     month: Option<String>,
     /// Releases that have to be in the log, in folders or archives
-    #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
+    #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"], value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
     /// Results folders whose rows have to be in the log; every episode is replayed, and its games are compared with those
     /// of the --release
@@ -124,7 +124,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "problems": problems,
     }))?;
     for (number, entry) in entries.iter().enumerate() {
-        console.say(format_args!("{number:>5}  {}", entry.line()));
+        console.say(format_args!("{number:>5}  {}", line(entry, &entries)));
     }
     for name in &unkept {
         console.say(format_args!("`{name}` was committed to, and has no root yet"));

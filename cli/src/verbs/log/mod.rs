@@ -54,6 +54,19 @@ fn counted(size: u64) -> String {
     if size == 1 { "1 entry".to_owned() } else { format!("{size} entries") }
 }
 
+/// A line about an entry, for people. A release is shown with the release before it.
+fn line(entry: &Entry, all: &[Entry]) -> String {
+    let (Entry::Commitment { parent, .. } | Entry::Root { parent, .. }) = entry else { return entry.line() };
+    let named = |parent: &Digest| {
+        let name = all.iter().find_map(|entry| match entry {
+            Entry::Root { release, root, .. } if root == parent => Some(release),
+            _ => None,
+        });
+        name.map_or_else(|| format!("after the root {}", parent.short()), |name| format!("after `{name}`"))
+    };
+    format!("{}, {}", entry.line(), parent.as_ref().map_or_else(|| "after none".to_owned(), named))
+}
+
 /// The failure of a folder without a log.
 fn absent(folder: &Path) -> Failure {
     malformed!(

@@ -19,7 +19,7 @@ use crate::shell;
 use crate::threads::bound_searches;
 pub(crate) use crate::threads::in_pool;
 pub(crate) use progress::ProgressBars;
-pub(crate) use sealed::{check_beacon, read as read_secret_file};
+pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Minted, Plan, Shard, lay_out, make_jobs};
 use snapshots::version::CURRENT;
@@ -60,7 +60,7 @@ pub(crate) struct Args {
     #[arg(long)]
     dry_run: bool,
     /// The folder of the previous release: nothing that it, or one before it, holds is minted again
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
     /// The secret of a sealed release, as made by --commit
     #[arg(long, value_name = "FILE")]

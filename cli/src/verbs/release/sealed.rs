@@ -23,7 +23,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         follow(&mut recipe, parent)?;
     }
     let name = &recipe.name;
-    let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
+    let out = out.map_or_else(|| secret_file(name), Path::to_path_buf);
     protected::check(&out)?;
     let chance =
         entropy().map_err(|error| Failure::environment(error, "the system provides no random bytes"))?;
@@ -65,6 +65,11 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         "keep {shown} private and do not lose it: the release cannot be minted without it",
     ));
     Ok(true)
+}
+
+/// Returns the file that a secret is written to by default.
+pub(crate) fn secret_file(name: &str) -> PathBuf {
+    PathBuf::from(format!("{name}.secret.json"))
 }
 
 /// Returns random bytes of the operating system.

@@ -39,7 +39,7 @@ use trust::Signed;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst; with --proof, the item's file or the game's folder
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     /// Snapshots, or folders of snapshots, to search for the releases before this one
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "proof")]
