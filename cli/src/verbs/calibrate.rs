@@ -336,9 +336,12 @@ mod tests {
 
     #[test]
     fn releases_are_named_after_their_folders() {
-        for (subject, name) in
-            [("releases/2026-12", "2026-12"), ("r/2027-01/public", "2027-01"), ("a/month.tar.zst", "month"), ("corpus", "corpus")]
-        {
+        for (subject, name) in [
+            ("releases/2026-12", "2026-12"),
+            ("r/2027-01/public", "2027-01"),
+            ("a/month.tar.zst", "month"),
+            ("corpus", "corpus"),
+        ] {
             assert_eq!(default_name(&[subject.to_owned()]), name);
         }
     }

@@ -37,7 +37,7 @@ pub(crate) struct Args {
     /// The release's folder or .tar.zst, revealed
     #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     release: PathBuf,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }

@@ -172,7 +172,9 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
 fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let found = Signatures::read(folder)?;
-    let Some(before) = set.version.checked_sub(1).and_then(|version| found.set(version)) else { return Ok(()) };
+    let Some(before) = set.version.checked_sub(1).and_then(|version| found.set(version)) else {
+        return Ok(());
+    };
     let Err(problems) = before.admits(set, found.of(&set.file())) else { return Ok(()) };
     let [verb, flag] = ["keys", "--secret"].map(OsStr::new);
     bail!(
@@ -213,7 +215,9 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     };
     check_beacon(&recipe)?;
     let earlier = known.iter().rev().find_map(|entry| match entry {
-        Entry::Root { release, .. } | Entry::Commitment { release, .. } if *release != recipe.name => Some(release),
+        Entry::Root { release, .. } | Entry::Commitment { release, .. } if *release != recipe.name => {
+            Some(release)
+        }
         _ => None,
     });
     if let (Some(earlier), None, false) = (earlier, recipe.parent, args.first) {
@@ -281,7 +285,10 @@ fn reveal(place: &Path) -> Result<Entry, Failure> {
         let [verb, reveal, out] = ["release", "--reveal", "--out"].map(OsStr::new);
         let held = place.join("held");
         let join = shell::command([verb, public.as_os_str(), reveal, held.as_os_str(), out]);
-        bail!("`{}` holds a release that is not revealed: join its two parts with `{join} DIR`, and name DIR", place.display());
+        bail!(
+            "`{}` holds a release that is not revealed: join its two parts with `{join} DIR`, and name DIR",
+            place.display()
+        );
     }
     let manifest = sound(place)?;
     let file = place.join(SECRET_FILE);

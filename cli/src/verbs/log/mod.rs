@@ -5,6 +5,7 @@ mod check;
 mod cosign;
 mod prove;
 mod row;
+mod show;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -30,6 +31,7 @@ pub(crate) struct Args {
 #[derive(clap::Subcommand)]
 enum What {
     Append(Box<append::Args>),
+    Show(show::Args),
     Prove(Box<prove::Args>),
     Check(Box<check::Args>),
     Cosign(Box<cosign::Args>),
@@ -38,6 +40,7 @@ enum What {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match &args.what {
         What::Append(args) => append::run(args, console),
+        What::Show(args) => show::run(args, console),
         What::Prove(args) => prove::run(args, console),
         What::Check(args) => check::run(args, console),
         What::Cosign(args) => cosign::run(args, console),
