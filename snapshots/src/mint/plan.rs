@@ -100,11 +100,15 @@ const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 const PLAIN: f64 = 2.0;
 const PLAIN_BUDGET: f64 = 3e6;
 /// The part of that cost which does not depend on the budget.
-const FIXED: f64 = 0.1;
+const FIXED: f64 = 0.15;
+/// The mean cost of measuring the difficulty of a level without gates. With gates, few levels get that far.
+const LADDER: f64 = 0.8;
 /// The spread of the cost of a job from one seed to another: the standard deviation as a multiple of the mean. Without gates, a few
 /// searches in vain decide; with gates, every candidate is searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
-const SPREAD_GATED: f64 = 1.0;
+const SPREAD_GATED: f64 = 0.7;
+/// An archive makes several games.
+const SPREAD_ARCHIVE: f64 = 0.4;
 const SPREAD_FIXED_RULES: f64 = 0.8;
 /// The standard normal deviate of the 95th percentile.
 const NINETY_FIVE: f64 = 1.645;
@@ -256,10 +260,10 @@ impl<'a> Plan<'a> {
         let is_gated = |criteria: &Criteria| GATES.iter().any(|gate| criteria.includes(gate));
         let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
             let budget = criteria.budget as f64;
-            let (base, share) = match is_gated(criteria) {
+            let (base, share, ladder) = match is_gated(criteria) {
                 // Where gates are asked, three quarters of the cost are searches for a win, most of them in vain.
-                true => (gated, 0.25 + 0.75 * budget / GATED_BUDGET),
-                false => (plain, FIXED + (1.0 - FIXED) * budget / PLAIN_BUDGET),
+                true => (gated, 0.25 + 0.75 * budget / GATED_BUDGET, skill - gated),
+                false => (plain, FIXED + (1.0 - FIXED) * budget / PLAIN_BUDGET, LADDER),
             };
             // Decisions cost about a third of what the other judges cost.
             let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
@@ -267,7 +271,7 @@ impl<'a> Plan<'a> {
                 true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
                 false => 0.0,
             };
-            f64::from(levels) * (base * share * thought + (skill - gated) * played)
+            f64::from(levels) * (base * share * thought + ladder * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
         let puzzle_levels = |kind: PuzzleKind| kind.part(self.recipe).map_or(0, |part| part.levels);
@@ -290,6 +294,7 @@ impl<'a> Plan<'a> {
         };
         let spread = match job {
             Job::Corpus(_) | Job::Puzzle(..) => SPREAD_FIXED_RULES,
+            Job::Archive(_) => SPREAD_ARCHIVE,
             _ if is_gated(criteria) => SPREAD_GATED,
             _ => SPREAD_PLAIN,
         };

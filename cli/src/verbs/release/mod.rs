@@ -355,3 +355,23 @@ pub(crate) fn find_recipe(
     };
     read(&text).map_err(|error| malformed!("{shown}: {error}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+
+    #[test]
+    fn a_resumed_mint_keeps_all_flags() {
+        let line =
+            "release my.toml --parent p --secret s --beacon b --shard 1/2 --out o --jobs 2 --memory 2GiB";
+        let Line { args } = Line::parse_from(line.split(' '));
+        assert_eq!(args.resumed(Path::new("o")), format!("arcade {line} --resume"));
+    }
+}

@@ -89,7 +89,6 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
         console.say(format_args!("this machine takes {times:.2} times as long as the one that was measured"));
     }
     console.say(format_args!("into {place}"));
-    recipe.caveats().iter().for_each(|caveat| console.say(format_args!("note: {caveat}")));
     match taken {
         Some(SnapshotError::Occupied(_)) => {
             console.say(format_args!("which exists: choose another --out, or remove it"));
@@ -102,6 +101,7 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
         }
         None => {}
     }
+    recipe.caveats().iter().for_each(|caveat| console.say(format_args!("note: {caveat}")));
     Ok(true)
 }
 
@@ -146,15 +146,19 @@ fn duration(seconds: f64) -> String {
 pub(super) fn without_secret(recipe: &Recipe, corpus: &Corpus, console: &Console) -> Answer {
     // The number of games that can be made hardly depends on the seed.
     let open = Recipe { seed: Some(recipe.name.clone()), commitment: None, beacon: None, ..recipe.clone() };
-    check_supply(&Plan::new(&open, None, corpus)?, console)?;
+    let plan = Plan::new(&open, None, corpus)?;
+    check_supply(&plan, console)?;
+    let (forecast, _) = forecast(&plan, plan.jobs(), corpus);
     let caveats = recipe.caveats();
-    console.document(&json!({ "recipe": recipe, "caveats": caveats }))?;
+    let seconds = [forecast.median, forecast.tail];
+    console.document(&json!({ "recipe": recipe, "core_seconds": seconds, "caveats": caveats }))?;
     let games = recipe.games();
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     console.say(format_args!(
         "would mint {games} games with {} levels, sealed; give --secret FILE for the plan",
         recipe.levels()
     ));
+    console.say(format_args!("in {}", words(forecast)));
     caveats.iter().for_each(|caveat| console.say(format_args!("note: {caveat}")));
     Ok(true)
 }
