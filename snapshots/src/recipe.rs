@@ -1,9 +1,11 @@
 //! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
 use crate::beacon::BeaconPart;
+use crate::cited::Cited;
 use crate::known::Known;
 use crate::marks::MarksPart;
 use crate::memory::MemoryPart;
+use crate::placement::placement;
 use crate::sealed::{self, Secret};
 use crate::tiers::{PuzzlePart, PuzzleSection, Tiers};
 use engine::{Digest, Seed};
@@ -243,65 +245,6 @@ pub enum RecipeError {
 /// The error of a value that is out of its range.
 pub(crate) fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
     Err(RecipeError::Value { key, message: message.into() })
-}
-
-/// Keys of the recipe as a whole, which stand above its first table.
-const HEAD: [&str; 7] = ["name", "description", "authors", "publisher", "seed", "commitment", "parent"];
-/// Tables of a recipe.
-const TABLES: [&str; 14] = [
-    "beacon",
-    "board",
-    "corpus",
-    "criteria",
-    "difficulty",
-    "generated",
-    "locks",
-    "marks",
-    "memory",
-    "puzzles",
-    "strays",
-    "taxonomy",
-    "tiers",
-    "yards",
-];
-
-/// Returns advice on a key that is known, but not where it stands: a line that is appended to a file belongs to its last table.
-fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
-    let key = error.message().strip_prefix("unknown field `")?.split('`').next()?;
-    let recipe: toml::Table = toml::from_str(text).ok()?;
-    let holds = |value: &toml::Value| value.as_table().is_some_and(|table| table.contains_key(key));
-    if let Some((table, _)) = recipe.iter().find(|(_, value)| holds(value)) {
-        if HEAD.contains(&key) {
-            return Some(format!(
-                "`{key}` stands in the table [{table}] here, and belongs to the recipe as a whole: move it above the first [table]"
-            ));
-        }
-        if TABLES.contains(&key) {
-            return Some(format!("`{key}` is a table of its own: write [{key}] instead of [{table}.{key}]"));
-        }
-    }
-    if !recipe.contains_key(key) && !recipe.values().any(holds) {
-        return None;
-    }
-    let known = [
-        ("generated", keys_of(&GeneratedPart { kinds: vec![Kind::KeyAndDoor], ..GeneratedPart::default() })),
-        ("corpus", keys_of(&CorpusPart::default())),
-        ("criteria", keys_of(&Criteria::default())),
-        ("board", keys_of(&Board::default())),
-    ];
-    let tables: Vec<String> = known
-        .iter()
-        .filter(|(_, keys)| keys.iter().any(|known| known == key))
-        .map(|(table, _)| format!("[{table}]"))
-        .collect();
-    (!tables.is_empty())
-        .then(|| format!("`{key}` belongs in {}: move it below that line", tables.join(" or ")))
-}
-
-/// Returns the keys of a table.
-fn keys_of(table: &impl Serialize) -> Vec<String> {
-    let value = serde_json::to_value(table).expect("a part of a recipe is plain data");
-    value.as_object().map_or_else(Vec::new, |keys| keys.keys().cloned().collect())
 }
 
 impl Recipe {
@@ -600,51 +543,6 @@ impl Recipe {
     /// The puzzles, of pushed things, of locks, of yards and of strays.
     fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
         self.puzzles.iter().chain(&self.locks).chain(&self.yards).chain(&self.strays)
-    }
-}
-
-/// The names to cite a release by.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Cited<'a> {
-    name: &'a str,
-    authors: &'a [String],
-    publisher: Option<&'a str>,
-}
-
-impl<'a> Cited<'a> {
-    /// The names of a release.
-    pub(crate) fn of(name: &'a str, authors: &'a [String], publisher: Option<&'a str>) -> Cited<'a> {
-        Cited { name, authors, publisher }
-    }
-
-    /// The title of the release.
-    pub(crate) fn title(&self) -> String {
-        match (self.publisher, self.authors) {
-            (Some(publisher), _) => format!("{publisher} {}", self.name),
-            (None, []) => format!("Infinite Arcade {}", self.name),
-            (None, _) => format!("{}, made with Infinite Arcade", self.name),
-        }
-    }
-
-    /// The authors: people, else the publisher, else those of the programs.
-    pub(crate) fn authors(&self) -> Vec<&str> {
-        match (self.authors, self.publisher) {
-            ([], Some(publisher)) => vec![publisher],
-            ([], None) => vec!["The Infinite Arcade authors"],
-            (authors, _) => authors.iter().map(String::as_str).collect(),
-        }
-    }
-
-    /// A sentence about the publisher and the authors; `None` if the recipe names neither.
-    pub(crate) fn sentence(&self) -> Option<String> {
-        match (self.publisher, self.authors) {
-            (None, []) => None,
-            (Some(publisher), []) => Some(format!("Published by {publisher}.")),
-            (None, authors) => Some(format!("By {}.", authors.join(", "))),
-            (Some(publisher), authors) => {
-                Some(format!("By {}. Published by {publisher}.", authors.join(", ")))
-            }
-        }
     }
 }
 

@@ -7,12 +7,14 @@
 
 mod card;
 mod folder;
+mod forecast;
 mod job;
 mod job_store;
 mod plan;
 mod puzzles;
 mod select;
 mod shard;
+mod supply;
 
 use crate::manifest::Manifest;
 use crate::recipe::RecipeError;
@@ -21,11 +23,12 @@ use crate::{Digest, SnapshotError};
 pub use card::{Novelty, ReleaseCard, Rung};
 pub(crate) use card::{counted, generator};
 pub use folder::{RELEASE_CARD_FILE, Sink};
+pub use forecast::Forecast;
 use forge::Tally;
 use forge::card::Card;
 pub use job::{FrozenGame, JobResult};
 pub use job_store::{JobFolder, JobStore, Memory};
-pub use plan::{Forecast, Job, Plan};
+pub use plan::{Job, Plan};
 pub use puzzles::PuzzleKind;
 use rayon::prelude::*;
 pub use select::Bin;

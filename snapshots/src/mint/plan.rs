@@ -25,7 +25,7 @@ use generators::levels::{Examples, LevelConfig};
 use report::canonical::canonical_digest;
 use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
-use validators::{Criteria, GATES, Panel};
+use validators::{Criteria, Panel};
 
 /// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
@@ -46,22 +46,6 @@ pub struct Plan<'a> {
     players: Option<&'a dyn MarkPlayers>,
 }
 
-/// The cost to expect of some jobs, in seconds of one core.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Forecast {
-    /// The median over all seeds.
-    pub median: f64,
-    /// The 95th percentile over all seeds: one mint in twenty costs more.
-    pub tail: f64,
-}
-
-impl Forecast {
-    /// The forecast for a machine that takes so many times as long.
-    pub fn times(self, slowness: f64) -> Forecast {
-        Forecast { median: self.median * slowness, tail: self.tail * slowness }
-    }
-}
-
 /// A job: a part of the work that depends on no other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Job {
@@ -79,43 +63,11 @@ pub enum Job {
 
 /// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
 /// are never smaller, so that an archive keeps its games if a recipe asks for more candidates.
-const ISLAND: u32 = 4;
-
-/// The number of games for which the first sets of all kernels suffice, without counting them.
-const FEW: usize = 40;
+pub(super) const ISLAND: u32 = 4;
 
 /// The further judges of a game ([`GameEffort::judges`]): fewer than `arcade generate games` has. The candidates of a month are few more
 /// than its games.
 const JUDGES: u64 = 3;
-
-/// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
-/// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
-/// `skill` are guesses.
-const ARCHIVE: [f64; 3] = [PLAIN, 3.0, 3.0];
-const SEARCH: [f64; 3] = [PLAIN, 4.5, 4.5];
-const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.0];
-const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
-/// The mean cost of a level without gates where a search for a win may take [`PLAIN_BUDGET`] calls, the default. Most of it are
-/// searches in vain, whose cost is in proportion to the calls that they may take.
-const PLAIN: f64 = 2.0;
-const PLAIN_BUDGET: f64 = 3e6;
-/// The part of that cost which does not depend on the budget.
-const FIXED: f64 = 0.15;
-/// The mean cost of measuring the difficulty of a level without gates. With gates, few levels get that far.
-const LADDER: f64 = 0.8;
-/// The spread of the cost of a job from one seed to another: the standard deviation as a multiple of the mean. Without gates, a few
-/// searches in vain decide; with gates, every candidate is searched many times.
-const SPREAD_PLAIN: f64 = 1.9;
-const SPREAD_GATED: f64 = 0.7;
-/// An archive makes several games.
-const SPREAD_ARCHIVE: f64 = 0.4;
-const SPREAD_FIXED_RULES: f64 = 0.8;
-/// The standard normal deviate of the 95th percentile.
-const NINETY_FIVE: f64 = 1.645;
-/// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
-const SECOND_WINS: f64 = 1.2;
-/// The calls of a search for a win for which the costs with gates hold.
-const GATED_BUDGET: f64 = 1e6;
 
 impl<'a> Plan<'a> {
     /// Makes the plan of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of
@@ -170,138 +122,6 @@ impl<'a> Plan<'a> {
     pub fn histogram(&self) -> Vec<(String, i64)> {
         let histogram = super::select::histogram(self.recipe).into_iter();
         histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
-    }
-
-    /// Checks that there are rules for as many games as the recipe asks for. Returns the maximum number of new games if the recipe asks
-    /// for most of them: some candidates fail, so that fewer may pass than are asked for. Cost: up to some seconds where the recipe asks
-    /// for more games than there are kernels.
-    ///
-    /// # Errors
-    /// There are fewer sets of rules than games.
-    pub fn supply(&self) -> Result<Option<usize>, MintError> {
-        if !self.before.is_empty() {
-            PuzzleKind::ALL.into_iter().try_for_each(|kind| self.puzzle_supply(kind))?;
-        }
-        let part = &self.recipe.generated;
-        let asked = part.games as usize;
-        if asked == 0 || (asked <= FEW && part.kinds.is_empty() && self.before.is_empty()) {
-            return Ok(None);
-        }
-        let count = |is: fn(&Job) -> bool| self.jobs.iter().filter(|job| is(job)).count();
-        let ways = [
-            (Method::Constructive, count(|job| matches!(job, Job::Constructive(_)))),
-            (Method::Search, count(|job| matches!(job, Job::Search(_)))),
-            (Method::Evolutionary, count(|job| matches!(job, Job::Archive(_))) * ISLAND as usize),
-        ];
-        let ways = ways.into_iter().filter(|(_, games)| *games > 0);
-        let most: usize = ways.map(|(method, games)| self.rule_sets().count(method, games)).sum();
-        if most >= asked {
-            return Ok((most < asked + asked / 4).then_some(most));
-        }
-        let kinds = part.kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ");
-        let (of, more) = match part.kinds.is_empty() {
-            true => (String::new(), ""),
-            false => (format!(" of the kinds {kinds}"), ", or name more kinds"),
-        };
-        let new = if self.before.is_empty() { "" } else { " that no earlier release has used" };
-        Err(MintError::Unfillable {
-            part: "generated",
-            asked,
-            most,
-            why: format!("no two games share their rules, and there are {most} sets of rules{of}{new}"),
-            advice: format!("lower `generated.games` to {most} or less{more}"),
-        })
-    }
-
-    /// Checks that earlier releases have left enough rules for the puzzles of a kind.
-    fn puzzle_supply(&self, kind: PuzzleKind) -> Result<(), MintError> {
-        let asked = kind.part(self.recipe).map_or(0, |part| part.games as usize);
-        let is_open = |job: &&Job| match **job {
-            Job::Puzzle(of, number) => {
-                let form = || kind.form(number as usize % kind.rules());
-                of == kind && !self.before.iter().any(|known| known.is_near(&form()))
-            }
-            _ => false,
-        };
-        let most = self.jobs.iter().filter(is_open).count();
-        if most >= asked {
-            return Ok(());
-        }
-        let part = kind.section();
-        Err(MintError::Unfillable {
-            part,
-            asked,
-            most,
-            why: "earlier releases have used the other sets of rules".to_owned(),
-            advice: format!(
-                "lower `{part}.games`, leave the section out, or begin a new chain without --parent"
-            ),
-        })
-    }
-
-    /// The expected total cost of jobs on the machine that docs/recipes.md describes. The sum of the jobs is taken as log-normal
-    /// with the mean and the variance of the sum (L. F. Fenton, 1960): few jobs have a long tail, many have none.
-    pub fn forecast(&self, jobs: &[Job]) -> Forecast {
-        let costs = jobs.iter().map(|&job| self.cost(job));
-        let (mean, variance) = costs.fold((0.0, 0.0), |(mean, variance), (cost, spread)| {
-            (mean + cost, variance + cost * cost * spread * spread)
-        });
-        if mean <= 0.0 {
-            return Forecast { median: 0.0, tail: 0.0 };
-        }
-        let relative = 1.0 + variance / (mean * mean);
-        let median = mean / relative.sqrt();
-        Forecast { median, tail: median * libm::exp(NINETY_FIVE * libm::log(relative).sqrt()) }
-    }
-
-    /// The mean cost of a job in seconds of one core, and its spread.
-    fn cost(&self, job: Job) -> (f64, f64) {
-        let usual = Criteria::default();
-        let is_gated = |criteria: &Criteria| GATES.iter().any(|gate| criteria.includes(gate));
-        let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
-            let budget = criteria.budget as f64;
-            let (base, share, ladder) = match is_gated(criteria) {
-                // Where gates are asked, three quarters of the cost are searches for a win, most of them in vain.
-                true => (gated, 0.25 + 0.75 * budget / GATED_BUDGET, skill - gated),
-                false => (plain, FIXED + (1.0 - FIXED) * budget / PLAIN_BUDGET, LADDER),
-            };
-            // Decisions cost about a third of what the other judges cost.
-            let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
-            let played = match criteria.includes("skill") {
-                true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
-                false => 0.0,
-            };
-            f64::from(levels) * (base * share * thought + ladder * played)
-        };
-        let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
-        let puzzle_levels = |kind: PuzzleKind| kind.part(self.recipe).map_or(0, |part| part.levels);
-        let (levels, is_certain) = match job {
-            Job::Archive(_) => (ISLAND * new, false),
-            Job::Search(_) | Job::Constructive(_) => (new, false),
-            Job::Corpus(_) => (old, false),
-            Job::Puzzle(kind, _) => (puzzle_levels(kind), true),
-        };
-        let criteria = match job {
-            Job::Corpus(_) => self.corpus_criteria(),
-            _ => &self.recipe.criteria,
-        };
-        let made = match job {
-            Job::Archive(_) => of(ARCHIVE, levels, criteria),
-            Job::Search(_) => of(SEARCH, levels, criteria),
-            Job::Constructive(_) => of(CONSTRUCTIVE, levels, criteria),
-            Job::Corpus(_) => of(CORPUS, levels, criteria),
-            Job::Puzzle(kind, _) => of([kind.seconds(); 3], levels, criteria),
-        };
-        let spread = match job {
-            Job::Corpus(_) | Job::Puzzle(..) => SPREAD_FIXED_RULES,
-            Job::Archive(_) => SPREAD_ARCHIVE,
-            _ if is_gated(criteria) => SPREAD_GATED,
-            _ => SPREAD_PLAIN,
-        };
-        let tossed = if self.recipe.memory.is_some_and(|part| part.witnesses) { SECOND_WINS } else { 1.0 };
-        let marks =
-            f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain));
-        (tossed * made + marks, spread)
     }
 
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
@@ -471,7 +291,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The criteria for levels of corpus games.
-    fn corpus_criteria(&self) -> &Criteria {
+    pub(super) fn corpus_criteria(&self) -> &Criteria {
         self.recipe.corpus.criteria.as_ref().unwrap_or(&self.recipe.criteria)
     }
 
@@ -491,7 +311,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The rules of new games: jobs know nothing of each other, so what they make has to differ beforehand.
-    fn rule_sets(&self) -> &RuleSets {
+    pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
             let kinds = self.order(Method::Constructive, 1).kinds;

@@ -8,11 +8,11 @@
 mod datasheet;
 
 use crate::SnapshotError;
+use crate::cited::Cited;
 use crate::folder::{self, Entry, Limits, Listing};
 use crate::manifest::{Manifest, ReleaseKind};
 use crate::mint::Minted;
 use crate::problem::{Flaw, Problem};
-use crate::recipe::Cited;
 use crate::sealed::Reveal;
 use serde::Deserialize;
 use std::path::Path;
