@@ -24,7 +24,7 @@ impl Plan<'_> {
         if asked == 0 || (asked <= FEW && part.kinds.is_empty() && self.before.is_empty()) {
             return Ok(None);
         }
-        let count = |is: fn(&Job) -> bool| self.jobs.iter().filter(|job| is(job)).count();
+        let count = |is: fn(&Job) -> bool| self.jobs().iter().filter(|job| is(job)).count();
         let ways = [
             (Method::Constructive, count(|job| matches!(job, Job::Constructive(_)))),
             (Method::Search, count(|job| matches!(job, Job::Search(_)))),
@@ -60,7 +60,7 @@ impl Plan<'_> {
             }
             _ => false,
         };
-        let most = self.jobs.iter().filter(is_open).count();
+        let most = self.jobs().iter().filter(is_open).count();
         if most >= asked {
             return Ok(());
         }
