@@ -87,6 +87,11 @@ impl Console {
         self.json
     }
 
+    /// Returns `true` if the answer is wanted in as few lines as possible.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// Prints the answer for people; nothing if JSON is wanted.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {

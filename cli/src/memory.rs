@@ -1,5 +1,6 @@
 //! Sizes of memory, as flags take them.
 
+use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 /// A number of bytes, such as `2GiB` or `1500MB`.
@@ -36,6 +37,19 @@ impl FromStr for Bytes {
     }
 }
 
+impl Display for Bytes {
+    /// The size as [`from_str`](Bytes::from_str) takes it: a power of two divides without a remainder.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let bytes = self.0 as f64;
+        match self.0 {
+            size if size.is_multiple_of(1_000_000) => write!(f, "{}MB", size / 1_000_000),
+            size if size >= 1 << 30 => write!(f, "{}GiB", bytes / f64::from(1 << 30)),
+            size if size >= 1 << 20 => write!(f, "{}MiB", bytes / f64::from(1 << 20)),
+            _ => write!(f, "{}KiB", bytes / 1024.0),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,6 +60,7 @@ mod tests {
             [("2GiB", 2 << 30), ("1.5 gib", 3 << 29), ("1500MB", 1_500_000_000), ("64kib", 65_536)]
         {
             assert_eq!(text.parse(), Ok(Bytes(bytes)), "{text}");
+            assert_eq!(Bytes(bytes).to_string().parse(), Ok(Bytes(bytes)), "{text}");
         }
         for text in ["", "2", "GiB", "-1GiB", "NaNMB", "infGiB", "1e300GB", "2 TiBs", "0MB"] {
             let error = text.parse::<Bytes>().unwrap_err();

@@ -1,10 +1,12 @@
 //! Paths: their text form, and the lookup of files and folders.
 
 use crate::failure::Failure;
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use snapshots::MANIFEST_FILE;
 use std::borrow::Cow;
 use std::fs::{self, Metadata};
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Returns the path for a JSON document: bytes that are not UTF-8 become U+FFFD. `json!` panics on a path that is not
 /// UTF-8, so that no path goes into a document directly.
@@ -19,6 +21,21 @@ pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
         Ok(found) => Ok(Some(found)),
         Err(error) => absent_or_failed(path, error),
     }
+}
+
+/// Returns the folder of a release: `place` itself, or its folder `public` if `place` holds the two parts of a sealed
+/// release.
+pub(crate) fn release(place: PathBuf) -> PathBuf {
+    let public = place.join("public");
+    match !place.join(MANIFEST_FILE).exists() && public.join(MANIFEST_FILE).is_file() {
+        true => public,
+        false => place,
+    }
+}
+
+/// Returns a parser of arguments that name a release ([`release`]).
+pub(crate) fn release_parser() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(release)
 }
 
 fn absent_or_failed<T>(path: &Path, error: std::io::Error) -> Result<Option<T>, Failure> {

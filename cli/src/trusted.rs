@@ -58,14 +58,25 @@ impl TrustArgs {
         let anchor = anchor(file)?;
         let folder = self.signatures.clone().unwrap_or_else(|| signatures_of(place));
         if !paths::metadata(&folder)?.is_some_and(|found| found.is_dir()) {
+            let copy =
+                if place.is_file() { "copy the release's papers/signatures to that folder, " } else { "" };
             let problem = format!(
-                "there are no signatures at `{}`: sign the release with `arcade sign`, or name their folder with \
+                "there are no signatures at `{}`: {copy}sign the release with `arcade sign`, or name their folder with \
                  --signatures",
                 folder.display()
             );
             return Ok(Some(Signed { problems: vec![problem], ..Signed::default() }));
         }
-        Ok(Some(Signatures::read(&folder)?.judge(name, root, &anchor)))
+        let mut signed = Signatures::read(&folder)?.judge(name, root, &anchor);
+        if let Anchor::Key(key) = &anchor {
+            // People know a key by its file.
+            let (id, file) = (key.id(), file.display());
+            let named = |problem: &String| {
+                problem.replace(&format!("the key {id}"), &format!("the key in {file} ({id})"))
+            };
+            signed.problems = signed.problems.iter().map(named).collect();
+        }
+        Ok(Some(signed))
     }
 }
 
@@ -131,7 +142,7 @@ pub(crate) fn digest(text: &str) -> Result<Digest, String> {
 /// The place of a release's signatures, unless another one is named.
 pub(crate) fn signatures_of(release: &Path) -> PathBuf {
     if !release.is_file() {
-        return release.join(SIGNATURES);
+        return paths::release(release.to_owned()).join(SIGNATURES);
     }
     let name = release.file_name().unwrap_or_default().to_string_lossy();
     let name = name.strip_suffix(".zst").unwrap_or(&name);

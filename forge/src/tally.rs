@@ -168,10 +168,10 @@ impl Tally {
             "judge",
             "asked",
             "said no",
-            "calls, millions",
-            "on what was accepted",
-            "refused",
-            "lost",
+            "simulator calls (millions)",
+            "on accepted levels",
+            "on rejected levels",
+            "on levels of rejected games",
             "calls a game",
         ];
         let note = "Calls of the forward model by the fate of what was judged: let in, refused by this judge or a later one, or let in as a \
@@ -208,17 +208,50 @@ pub(crate) fn add_rejections(rejections: &mut BTreeMap<String, u64>, others: &BT
     }
 }
 
-/// Rejections in words, the most frequent first.
+/// Returns the words for a reason, which records keep by its short name: that of a criterion, or a few words.
+fn words(why: &str) -> String {
+    match why {
+        "less than an earlier level" => "easier than the level before".to_owned(),
+        "second judges" | "further judges" => "failed the re-check".to_owned(),
+        criterion if !criterion.contains(' ') => format!("failed `{criterion}`"),
+        other => match other.strip_prefix("no level ") {
+            Some(number) => format!("without level {number}"),
+            None => format!("({other})"),
+        },
+    }
+}
+
+/// Rejections in words, the most frequent first: `29 easier than the level before, 4 failed the re-check`.
 pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
-    let mut reasons: Vec<(&String, &u64)> = rejections.iter().collect();
-    reasons.sort_by_key(|(why, count)| (std::cmp::Reverse(**count), *why));
-    let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{why} {count}")).collect();
+    let mut told: BTreeMap<String, u64> = BTreeMap::new();
+    for (why, count) in rejections {
+        *told.entry(words(why)).or_default() += count;
+    }
+    let mut reasons: Vec<(String, u64)> = told.into_iter().collect();
+    reasons.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{count} {why}")).collect();
     words.join(", ")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A number before the name of a criterion would read as praise: `96 winnable`.
+    #[test]
+    fn rejections_are_sentences() {
+        let counts = [
+            ("less than an earlier level", 29),
+            ("second judges", 3),
+            ("further judges", 1),
+            ("winnable", 2),
+            ("no level 0", 2),
+        ];
+        let rejections = counts.map(|(why, count)| (why.to_owned(), count)).into();
+        let expect =
+            "29 easier than the level before, 4 failed the re-check, 2 failed `winnable`, 2 without level 0";
+        assert_eq!(reasons(&rejections), expect);
+    }
 
     #[test]
     fn calls_are_told_by_the_fate_of_what_was_judged() {

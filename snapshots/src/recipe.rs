@@ -1,9 +1,11 @@
 //! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
 use crate::beacon::BeaconPart;
+use crate::cited::Cited;
 use crate::known::Known;
 use crate::marks::MarksPart;
 use crate::memory::MemoryPart;
+use crate::placement::placement;
 use crate::sealed::{self, Secret};
 use crate::tiers::{PuzzlePart, PuzzleSection, Tiers};
 use engine::{Digest, Seed};
@@ -14,7 +16,7 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::game_measures::{AvatarKind, GoalKind};
-use validators::{Criteria, CriteriaError, Difficulty};
+use validators::{Criteria, CriteriaError, Difficulty, GATES};
 
 /// The maximum size of a recipe, in bytes.
 pub const MAX_RECIPE: usize = 1 << 16;
@@ -27,6 +29,12 @@ pub struct Recipe {
     pub name: String,
     /// A description of the release, for its README.
     pub description: String,
+    /// The people to cite, in their order. The authors of Infinite Arcade if neither they nor a publisher are named.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub authors: Vec<String>,
+    /// The laboratory or the project that publishes the release; it begins the title of the release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub publisher: Option<String>,
     /// The text that the seed is derived from. It is public, so the release is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<String>,
@@ -175,6 +183,14 @@ pub enum RecipeError {
     /// The recipe is not TOML, or not of this shape. The message names line, column and key.
     #[error("{0}")]
     Syntax(Box<toml::de::Error>),
+    /// A key that belongs to another table, or to none.
+    #[error("{}\n{help}", .source.to_string().trim_end())]
+    Misplaced {
+        /// The error, with its position.
+        source: Box<toml::de::Error>,
+        /// The place where the key belongs.
+        help: String,
+    },
     /// A value is out of its range.
     #[error("`{key}` {message}")]
     Value {
@@ -247,7 +263,13 @@ impl Recipe {
         if text.len() > MAX_RECIPE {
             return Err(RecipeError::TooLarge);
         }
-        toml::from_str(text).map_err(|error| RecipeError::Syntax(Box::new(error)))
+        toml::from_str(text).map_err(|error| {
+            let source = Box::new(error);
+            match placement(&source, text) {
+                Some(help) => RecipeError::Misplaced { source, help },
+                None => RecipeError::Syntax(source),
+            }
+        })
     }
 
     /// Reads and checks a recipe that is to be committed to: its `seed` and `commitment` are dropped.
@@ -276,6 +298,14 @@ impl Recipe {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
             return wrong("name", "takes 1 to 40 lower-case letters, digits and `-`");
+        }
+        let names =
+            |text: &str| !text.trim().is_empty() && text.len() <= 200 && !text.chars().any(char::is_control);
+        if self.authors.len() > 100 || !self.authors.iter().all(|author| names(author)) {
+            return wrong("authors", "takes at most 100 names of 1 to 200 bytes on one line each");
+        }
+        if self.publisher.as_ref().is_some_and(|publisher| !names(publisher)) {
+            return wrong("publisher", "takes a name of 1 to 200 bytes on one line");
         }
         match (&self.seed, self.commitment) {
             (Some(seed), None) if seed.trim().is_empty() || seed.len() > 200 => {
@@ -449,6 +479,34 @@ impl Recipe {
         }
     }
 
+    /// What a release of this recipe does not promise, in sentences. Empty if it follows another, and asks for gates and for
+    /// `skill`.
+    pub fn caveats(&self) -> Vec<&'static str> {
+        let mut caveats = Vec::new();
+        if self.parent.is_none() && self.new_games() > 0 {
+            caveats.push(
+                "It follows no earlier release (`--parent`), so its games are not compared with those of other releases, which may \
+                 have the same rules, and even the same levels, under other names.",
+            );
+        }
+        if self.generated.games > 0 && !GATES.iter().any(|gate| self.criteria.includes(gate)) {
+            caveats.push(
+                "Its recipe asks for no gates, so its new games are not tested for being worth playing (`arcade docs gates`).",
+            );
+        }
+        if self.tiers.is_empty() && !self.criteria.includes("skill") {
+            caveats.push(
+                "Its recipe does not ask for `skill`, so difficulty is not measured (`arcade docs recipes`).",
+            );
+        }
+        caveats
+    }
+
+    /// The names to cite the release by.
+    pub(crate) fn cited(&self) -> Cited<'_> {
+        Cited::of(&self.name, &self.authors, self.publisher.as_deref())
+    }
+
     /// The minimum and maximum number of games with each goal.
     pub fn goal_quotas(&self) -> Vec<(GoalKind, (i64, i64))> {
         self.taxonomy.goals.iter().map(|(&goal, &share)| (goal, self.quota(share))).collect()
@@ -546,6 +604,38 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn a_recipe_says_what_it_does_not_promise() {
+        let bare = Recipe::from_toml(GOOD).unwrap();
+        assert_eq!(bare.caveats().len(), 3, "{:?}", bare.caveats());
+        let ask = "['not-idle', 'not-random', 'winnable', 'skill', 'tight']";
+        let mut full = Recipe::from_toml(&format!("{GOOD}[criteria]\nask = {ask}")).unwrap();
+        full.parent = Some(Digest::of(b"parent"));
+        assert_eq!(full.caveats(), Vec::<&str>::new());
+    }
+
+    #[test]
+    fn releases_are_cited_by_their_own_authors() {
+        let cited = |more: &str| {
+            let recipe = Recipe::from_toml(&format!("{more}{GOOD}")).unwrap();
+            let authors: Vec<String> = recipe.cited().authors().into_iter().map(str::to_owned).collect();
+            (recipe.cited().title(), authors.join("; "), recipe.cited().sentence().unwrap_or_default())
+        };
+        let told = |title: &str, authors: &str, sentence: &str| {
+            (title.to_owned(), authors.to_owned(), sentence.to_owned())
+        };
+        assert_eq!(cited(""), told("Infinite Arcade small", "The Infinite Arcade authors", ""));
+        assert_eq!(cited("publisher = 'Lab'\n"), told("Lab small", "Lab", "Published by Lab."));
+        assert_eq!(
+            cited("authors = ['Ada', 'Bo']\n"),
+            told("small, made with Infinite Arcade", "Ada; Bo", "By Ada, Bo.")
+        );
+        assert_eq!(
+            cited("authors = ['Ada']\npublisher = 'Lab'\n"),
+            told("Lab small", "Ada", "By Ada. Published by Lab.")
+        );
+    }
+
+    #[test]
     fn commitments_are_complete() {
         assert!(Recipe::to_commit(&GOOD.replace("seed = 'x'\n", "")).is_ok());
         let error = Recipe::to_commit(&GOOD.replace("= 2", "= 0")).unwrap_err().to_string();
@@ -588,6 +678,19 @@ pub(crate) mod tests {
         check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
         check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");
         check(&format!("{GOOD}[board]\ncolumns = [9, 4]"), "`board.columns`");
+        // A line that is appended to a file belongs to its last table.
+        check(
+            &format!("{}commitment = '{}'\n", GOOD.replace("seed = 'x'\n", ""), Digest::of(b"")),
+            "`commitment` stands in the table [generated] here, and belongs to the recipe as a whole: move it above the first [table]",
+        );
+        check(&format!("{GOOD}authors = ['Ada']"), "move it above the first [table]");
+        check(
+            &format!("{GOOD}[generated.board]\nrows = [9, 9]"),
+            "write [board] instead of [generated.board]",
+        );
+        check(&format!("games = 6\n{GOOD}"), "`games` belongs in [generated] or [corpus]");
+        check(&format!("authors = ['']\n{GOOD}"), "`authors` takes");
+        check(&format!("publisher = ' '\n{GOOD}"), "`publisher` takes");
         check("name = ", "expected");
         check(&"#".repeat(MAX_RECIPE + 1), "larger than");
     }

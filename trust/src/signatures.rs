@@ -306,7 +306,20 @@ impl Signatures {
             None => (set.clone(), Vec::new()),
         };
         let signers = counting.signers(&message, self.of(file));
-        if (signers.names.len() as u32) < set.threshold {
+        if let (Anchor::Key(key), true) = (anchor, signers.names.is_empty()) {
+            let others: Vec<String> =
+                self.of(file).iter().filter_map(|text| crate::key::signer_of(text)).collect();
+            let others = match others.as_slice() {
+                [] => "no signature lies beside it".to_owned(),
+                ids => format!("the signatures beside it are of {}", ids.join(", ")),
+            };
+            problems.push(format!(
+                "{file}: not signed by the key {}; {others}{}{}",
+                key.id(),
+                signers.excuse(),
+                gone.iter().map(|gone| format!("; {gone}")).collect::<String>()
+            ));
+        } else if (signers.names.len() as u32) < set.threshold {
             problems.push(format!(
                 "{file}: signed by {}, and {} of {} have to{}{}",
                 signers.listed(),

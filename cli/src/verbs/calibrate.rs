@@ -268,6 +268,8 @@ fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<Ga
 /// Returns the name of the folder of the first subject.
 fn default_name(subjects: &[String]) -> String {
     let path = Path::new(&subjects[0]);
+    // The published part of a sealed release lies in the folder that is named after the release.
+    let path = if path.ends_with("public") { path.parent().unwrap_or(path) } else { path };
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
     name.unwrap_or_else(|| subjects[0].clone()).trim_end_matches(".tar.zst").to_owned()
 }
@@ -334,9 +336,12 @@ mod tests {
 
     #[test]
     fn releases_are_named_after_their_folders() {
-        for (subject, name) in
-            [("releases/2026-12", "2026-12"), ("a/month.tar.zst", "month"), ("corpus", "corpus")]
-        {
+        for (subject, name) in [
+            ("releases/2026-12", "2026-12"),
+            ("r/2027-01/public", "2027-01"),
+            ("a/month.tar.zst", "month"),
+            ("corpus", "corpus"),
+        ] {
             assert_eq!(default_name(&[subject.to_owned()]), name);
         }
     }

@@ -35,9 +35,9 @@ pub(crate) struct Args {
     #[arg(value_name = "RESULTS")]
     results: Vec<PathBuf>,
     /// The release's folder or .tar.zst, revealed
-    #[arg(long, value_name = "SNAPSHOT")]
+    #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     release: PathBuf,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }

@@ -3,19 +3,26 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::Answer;
+use crate::shell;
 use crate::trusted::{TrustArgs, refuse};
 use crate::verbs::export::unsound;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::remark_unreplayed;
 use report::Quantiles;
-use snapshots::diff::{Change, Changes, Diff, Neighbours, NumberShift, Share, Shift, Side, Status};
+use snapshots::diff::{
+    Change, Changes, Diff, Neighbours, NumberShift, Order, Share, Shift, Side, Status, Unmeasured,
+};
 use snapshots::marks::MarkDifference;
 use snapshots::released::Released;
 use snapshots::rungs::RungDifference;
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 /// Compares two snapshots, the earlier first: new, kept, changed and removed items; differences of difficulties,
 /// kinds, mechanics and win rates; and the distance between the games.
+///
+/// The first line is the verdict: whether difficulty was measured and differs, how many levels return, and how near the
+/// nearest two games are. With --quiet, it is the only line.
 ///
 /// Every figure is explained in `arcade docs diff`. --json has all of them, item by item.
 ///
@@ -25,17 +32,17 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The earlier snapshot's folder or .tar.zst
-    #[arg(value_name = "BEFORE")]
+    #[arg(value_name = "BEFORE", value_parser = crate::paths::release_parser())]
     before: PathBuf,
     /// The later snapshot's folder or .tar.zst
-    #[arg(value_name = "AFTER")]
+    #[arg(value_name = "AFTER", value_parser = crate::paths::release_parser())]
     after: PathBuf,
     /// Nearest pairs of games to list
     #[arg(long, value_name = "N", default_value_t = 5)]
     closest: usize,
     #[command(flatten)]
     trust: TrustArgs,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }
@@ -62,17 +69,27 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let diff = in_pool(args.jobs, || Diff::of(&sides[0], &sides[1], args.closest))?;
     console.document(&diff)?;
-    say(&diff, console);
+    console.say(&diff.verdict);
+    if diff.order == Order::Reversed {
+        let swapped = [OsStr::new("diff"), args.after.as_os_str(), args.before.as_os_str()];
+        console.say(format_args!(
+            "the order is reversed: `{}` follows `{}`, and the earlier one comes first: {}",
+            diff.before.name,
+            diff.after.name,
+            shell::command(swapped)
+        ));
+    }
+    if !console.is_quiet() {
+        say(&diff, console);
+    }
     Ok(true)
 }
 
 fn say(diff: &Diff, console: &Console) {
-    let Diff { before, after, games, items, shifts, numbers, rungs, marks, neighbours } = diff;
+    let Diff { before, after, games, items, shifts, numbers, rungs, marks, neighbours, .. } = diff;
+    console.say("");
     console.say(side("before", before));
     console.say(side("after ", after));
-    if before.root == after.root {
-        console.say("the two have the same root: they are one release");
-    }
     if before.semantics != after.semantics {
         console.say("the two were minted under different semantics: measurements of play are not comparable");
     }
@@ -112,16 +129,24 @@ fn counts(changes: &Changes) -> String {
     format!("{new} new, {kept} kept, {changed} kept with another theme, {gone} gone")
 }
 
-/// Describes a distance, and whether it may be due to chance.
-fn verdict(distance: Option<f64>, p: Option<f64>) -> String {
+/// Describes a distance, and whether it may be due to chance. Without values on both sides there is neither.
+fn verdict(distance: Option<f64>, p: Option<f64>, unmeasured: Unmeasured) -> String {
+    let partly = match unmeasured {
+        Unmeasured { before: 0, after: 0 } => String::new(),
+        Unmeasured { before, after } => format!("; levels not measured: {before} → {after}"),
+    };
     match (distance, p) {
-        (Some(distance), Some(p)) => format!("{distance:.2} apart, p = {p:.3}"),
+        (Some(distance), Some(p)) if p < 0.05 => {
+            format!("{distance:.2} apart, more than by chance (p = {p:.3}){partly}")
+        }
+        (Some(distance), Some(p)) => format!("{distance:.2} apart, which may be chance (p = {p:.3}){partly}"),
+        _ if !unmeasured.is_none() => format!("not compared{partly}"),
         _ => "nothing to compare".to_owned(),
     }
 }
 
 fn shift(shift: &Shift, console: &Console) {
-    console.say(format_args!("\n{}: {}", shift.name, verdict(shift.distance, shift.p)));
+    console.say(format_args!("\n{}: {}", shift.name, verdict(shift.distance, shift.p, shift.unmeasured)));
     let mut shares: Vec<_> = shift.shares.iter().collect();
     shares.sort_by_key(|share| std::cmp::Reverse(share.before + share.after));
     let total = |of: fn(&Share) -> usize| shift.shares.iter().map(of).sum::<usize>().max(1) as f64;
@@ -142,8 +167,19 @@ fn number(shift: &NumberShift, console: &Console) {
         }
         None => "–".to_owned(),
     };
+    if shift.before.is_none() && shift.after.is_none() {
+        return console.say(format_args!(
+            "{}: {}",
+            shift.name,
+            verdict(shift.distance, shift.p, shift.unmeasured)
+        ));
+    }
     let (before, after) = (told(&shift.before), told(&shift.after));
-    console.say(format_args!("{}: {before} → {after}; {}", shift.name, verdict(shift.distance, shift.p)));
+    console.say(format_args!(
+        "{}: {before} → {after}; {}",
+        shift.name,
+        verdict(shift.distance, shift.p, shift.unmeasured)
+    ));
 }
 
 /// Rounds a figure to three digits, or to all digits before its point, without trailing zeros.

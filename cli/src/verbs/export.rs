@@ -4,7 +4,8 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::protected;
-use crate::trusted::{OriginArgs, refuse};
+use crate::shell;
+use crate::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
 use crate::verbs::release::in_pool;
 use crate::verbs::verify;
 use serde_json::json;
@@ -28,7 +29,7 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     /// The format to write
     #[arg(long, value_enum, value_name = "FORMAT")]
@@ -44,7 +45,7 @@ pub(crate) struct Args {
     solutions: bool,
     #[command(flatten)]
     origin: OriginArgs,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }
@@ -159,6 +160,14 @@ fn archive(args: &Args, console: &Console) -> Answer {
     if papers > 0 {
         let papers = count(papers, "file");
         console.say(format_args!("papers/ ({papers}) is not in the archive: publish that folder beside it"));
+        let (signed, beside) = (args.snapshot.join(SIGNATURES), signatures_of(&args.out));
+        if signed.is_dir() && !beside.exists() {
+            console.say(format_args!(
+                "`arcade verify --key` looks for the signatures of the archive beside it:  cp -r {} {}",
+                shell::quoted(&signed),
+                shell::quoted(&beside)
+            ));
+        }
     }
     Ok(true)
 }

@@ -23,12 +23,12 @@ use studio::{Gallery, Studio};
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The release: a folder or an archive
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     /// The folder of the page: absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }

@@ -19,7 +19,7 @@ pub(crate) struct Args {
     /// The snapshot's folder: absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
     /// The secret of a sealed release

@@ -3,18 +3,18 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::embedded;
-use crate::failure::Answer;
+use crate::failure::{Answer, Failure};
 use crate::interrupt;
 use crate::marks;
 use crate::memory::Bytes;
 use crate::protected;
 use crate::shell;
 use crate::threads::{bound_searches, in_pool};
-use crate::verbs::release::{LONG, ProgressBars, commit};
+use crate::verbs::release::{LONG, ProgressBars, commit, forecast, forecast_words, threads_and_memory};
 use serde_json::json;
-use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
+use snapshots::mint::{Job, JobFolder, JobStore, Memory, Plan, make_jobs};
 use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
-use std::ffi::OsStr;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The snapshot's folder
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     /// Also write the new snapshot to this folder
     #[arg(long, value_name = "DIR")]
@@ -36,10 +36,10 @@ pub(crate) struct Args {
     /// Resume an interrupted run with the same --out
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Threads; all cores if not given
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. Changes no byte
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
 }
@@ -47,8 +47,11 @@ pub(crate) struct Args {
 impl Args {
     /// Returns the command that resumes after an interruption.
     fn resumed(&self, out: &Path) -> String {
-        let [verb, to, resume] = ["regenerate", "--out", "--resume"].map(OsStr::new);
-        shell::command([verb, self.snapshot.as_os_str(), to, out.as_os_str(), resume])
+        let mut command: Vec<OsString> = vec!["regenerate".into(), self.snapshot.as_os_str().to_owned()];
+        command.extend(["--out".into(), out.as_os_str().to_owned()]);
+        command.extend(threads_and_memory(self.jobs, self.memory));
+        command.push("--resume".into());
+        shell::command(command)
     }
 }
 
@@ -86,7 +89,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         ),
     };
     interrupt::watch(|| (), hint);
-    if plan.seconds(plan.jobs()) >= LONG {
+    let left = left(&plan, &*store)?;
+    let (cost, _) = in_pool(args.jobs, || forecast(&plan, &left, &corpus))?;
+    console.remark(format_args!("minting it again takes {}", forecast_words(cost)));
+    if cost.median >= LONG {
         console.remark(told);
     }
     let bars = ProgressBars::new(console);
@@ -105,6 +111,17 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         commit(draft, &minted, str::to_owned)?;
     }
     answer(args, &Answered { manifest: &minted.manifest, compared: &compared, minted: true }, console)
+}
+
+/// Returns the jobs that an interrupted run has left.
+fn left(plan: &Plan<'_>, store: &dyn JobStore) -> Result<Vec<Job>, Failure> {
+    let mut left = Vec::new();
+    for &job in plan.jobs() {
+        if store.get(&plan.name(job))?.is_none() {
+            left.push(job);
+        }
+    }
+    Ok(left)
 }
 
 /// A regenerated release, and its comparison with the original.

@@ -32,7 +32,7 @@ pub(crate) struct Args {
     /// The published root of the release that all results have to be on
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }

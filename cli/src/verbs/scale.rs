@@ -26,7 +26,7 @@ pub(crate) struct Args {
     /// The scale, as `arcade calibrate` writes it
     #[arg(long, value_name = "FILE")]
     scale: PathBuf,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }

@@ -21,7 +21,7 @@ use trust::{Anchor, Disk, KeySet, KeysInForce, Provenance, Signatures, Statement
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     #[command(flatten)]
     secrets: SecretArgs,

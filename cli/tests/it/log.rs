@@ -106,6 +106,22 @@ fn a_sealed_month_waits_for_its_beacon() {
         0,
         "sound; 4 entries",
     );
+    check(
+        &["--month", "2027-01", "--release", "out"],
+        0,
+        "the release of 2027-01 is entry 2\n`out/public`: `2027-01` is entry 2",
+    );
+    says(
+        folder,
+        &["log", "show", "log"],
+        0,
+        "    3  reveal       2027-01\nexample.org/arcade: 4 entries, not checked",
+    );
+    append(
+        &["--reveal", "out"],
+        2,
+        "join its two parts with `arcade release out/public --reveal out/held --out DIR`",
+    );
     check(&["--month", "2027-02"], 1, "the log has no release of 2027-02 or later");
     check(&["--month", "2027-13"], 2, "it is no month: write a year and a month, such as 2027-03");
     check(&["--proof", "proof", "--entry", "entry"], 2, "cannot be used with");
@@ -173,6 +189,80 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &copy, 1, "the log is NOT sound");
     fs::remove_file(&entries).unwrap();
     says(folder, &copy, 1, "the log is cut");
+}
+
+/// A commitment cannot be taken back, so what would make the root of its release impossible is refused.
+#[test]
+fn a_commitment_that_leads_nowhere_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let append = |more: &[&str], status: i32, words: &str| {
+        says(folder, &[&["log", "append", "log", "--secret", "log.key"], more].concat(), status, words);
+    };
+    run(folder, &["keygen", "log", "--no-password"], 0);
+    copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
+    let february = |commitment: &str| {
+        RECIPE
+            .replace("2027-01", "2027-02")
+            .replace("COMMITMENT", commitment)
+            .split("[beacon]")
+            .next()
+            .unwrap()
+            .to_owned()
+    };
+    fs::write(folder.join("2027-02.toml"), february(&"0".repeat(64))).unwrap();
+    let said = text(&run(folder, &["release", "2027-02.toml", "--commit", "--parent", "tiny"], 0).stdout);
+    let line = |words: &str| said.lines().find_map(|line| line.trim().strip_prefix(words)).unwrap().trim();
+    let commitment = line("commitment =").trim_matches('"').to_owned();
+    assert!(said.contains("in place of `seed` or else above the first [table]"), "{said}");
+    fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
+
+    // The parent is not in the log: neither could the release be.
+    let first = ["--commitment", "2027-02.toml", "--parent", "tiny", "--origin", "example.org/arcade"];
+    append(&first, 2, "which is not in the log, so its own root could not be entered later");
+    append(&["--release", "tiny", "--origin", "example.org/arcade"], 0, "after none");
+    // The parent was forgotten; it was left out on purpose, but not so committed to; another recipe.
+    append(
+        &["--commitment", "2027-02.toml"],
+        2,
+        "the log has `tiny` already: name the release before this one with --parent DIR",
+    );
+    append(&["--commitment", "2027-02.toml", "--first"], 2, "did you forget --parent?");
+    let changed = february(&commitment).replace("candidates = 2.0", "candidates = 3.0");
+    fs::write(folder.join("2027-02.toml"), changed).unwrap();
+    append(
+        &["--commitment", "2027-02.toml", "--parent", "tiny"],
+        2,
+        "more than its `commitment` was changed",
+    );
+    fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
+    assert!(text(&run(folder, &["log", "show", "log"], 0).stdout).contains("1 entry, not checked"));
+
+    // The command that `--commit` printed works as printed.
+    let command = shlex::split(line("if you keep a log, enter it before:")).unwrap();
+    let arguments: Vec<&str> = command.iter().skip(1).map(String::as_str).collect();
+    says(folder, &arguments, 0, "commitment   2027-02, after `tiny`");
+}
+
+/// A log that states a set of keys which is made again afterwards could state no further set.
+#[test]
+fn a_set_of_keys_that_nobody_follows_is_not_entered() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    for name in ["log", "ada", "bo"] {
+        run(folder, &["keygen", name, "--no-password"], 0);
+    }
+    let keys = |more: &[&str], status: i32| run(folder, &[&["keys", "trust"], more].concat(), status);
+    let append = |file: &str, status: i32, words: &str| {
+        let log = ["log", "append", "log", "--secret", "log.key", "--origin", "x.org/y", "--keys"];
+        says(folder, &[&log[..], &[file]].concat(), status, words);
+    };
+    keys(&["--add", "ada=ada.pub"], 0);
+    append("trust/keys-1.json", 0, "keys         1");
+    keys(&["--add", "bo=bo.pub"], 1);
+    append("trust/keys-2.json", 2, "sign it with `arcade keys trust --secret FILE...`, and append it then");
+    keys(&["--secret", "ada.key"], 0);
+    append("trust/keys-2.json", 0, "keys         2");
 }
 
 /// A scale without examinees, of one release.

@@ -410,10 +410,10 @@ fn only_the_published_root_identifies_a_release() {
     let root = answer["root"].as_str().unwrap();
     assert_eq!(told(&[&verify[..], &["--root", root]].concat())["root_compared"], true);
     let said = text(&run(folder.path(), &verify[1..], 0).stdout);
-    assert!(said.contains("consistent in itself") && said.contains("give it with --root"), "{said}");
+    assert!(said.contains("The folder is consistent.") && said.contains("pass --root DIGEST"), "{said}");
     let said = text(&run(folder.path(), &[&verify[1..], &["--root", root]].concat(), 0).stdout);
     run(folder.path(), &[&verify[1..], &["--root", &root.to_uppercase()]].concat(), 0);
-    assert!(said.contains("as given") && !said.contains("consistent in itself"), "{said}");
+    assert!(said.contains("as given") && !said.contains("is consistent"), "{said}");
     let other = "0".repeat(64);
     let said = text(&run(folder.path(), &[&verify[1..], &["--root", &other]].concat(), 1).stdout);
     assert!(said.contains(&format!("not {other}")), "{said}");

@@ -60,6 +60,33 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     assert!(text(&output.stdout).contains("withheld"), "{}", text(&output.stdout));
     let output = run(folder, &["regenerate", "out/public"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
+    // The folder that holds both parts stands for the published one.
+    let output = run(folder, &["regenerate", "out"], 2);
+    assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
+    run(folder, &["keygen", "lab", "--no-password"], 0);
+    run(folder, &["sign", "out", "--secret", "lab.key"], 0);
+    assert!(folder.join("out/public/papers/signatures").is_dir());
+    for arguments in [
+        &["verify", "out", "--key", "lab.pub"][..],
+        &["diff", "out", "out/public", "--key", "lab.pub"],
+        &["log", "append", "log", "--secret", "lab.key", "--origin", "x.org/y", "--release", "out"],
+        &["gallery", "out", "--out", "page"],
+        &["export", "out", "--format", "jsonl", "--out", "withheld"],
+        &["evaluate", "out", "--player", "nil", "--max-steps", "2", "--out", "results", "--key", "lab.pub"],
+    ] {
+        // A sealed release is entered into a log after its commitment only.
+        let status = if arguments[0] == "log" { 2 } else { 0 };
+        let output = run(folder, arguments, status);
+        let said = text(&output.stdout) + &text(&output.stderr);
+        assert!(!said.contains("no MANIFEST.json"), "{said}");
+        assert!(status == 0 || said.contains("no commitment came before its root"), "{said}");
+    }
+    let card = fs::read_to_string(folder.join("withheld/README.md")).unwrap();
+    assert!(
+        card.contains("withholds its winning episodes") && !card.contains("every win replayed"),
+        "{card}"
+    );
+    fs::remove_dir_all(folder.join("out/public/papers/signatures")).unwrap();
     // Common mistakes are named.
     for (arguments, words) in [
         (vec!["release", "--reveal", "out/held", "--out", "x"], "needs the public folder"),
@@ -74,6 +101,8 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     fs::write(folder.join("out/public/papers/doi.txt"), "10.5281/zenodo.0").unwrap();
     let output = run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "revealed"], 0);
     assert!(text(&output.stdout).contains("arcade regenerate revealed"), "{}", text(&output.stdout));
+    let readme = fs::read_to_string(folder.join("revealed/README.md")).unwrap();
+    assert!(readme.contains("was sealed") && !readme.contains("held back"), "{readme}");
     // The datasheet alone differs: it says that nothing is held back any more.
     let papers = |part: &str| {
         let mut papers = files(&folder.join(part).join("papers"));
@@ -135,6 +164,43 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     fs::remove_file(folder.join("copy/held").join(witness)).unwrap();
     let output = run(folder, &["release", "copy/public", "--reveal", "copy/held", "--out", "x"], 1);
     assert!(text(&output.stdout).contains("missing"), "{}", text(&output.stdout));
+}
+
+/// A commitment covers the whole recipe, so what cannot be filled, and what is not promised, is told before it is public.
+#[test]
+fn commitments_are_made_to_recipes_that_can_be_minted() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let recipe = |name: &str, seed: &str, more: &str| {
+        let text = format!("name = '{name}'\ndescription = 'x'\n{seed}[generated]\n{more}\n");
+        fs::write(folder.join(format!("{name}.toml")), text).unwrap();
+    };
+    recipe("many", "", "games = 40\nkinds = ['rescue']");
+    let said = text(&run(folder, &["release", "many.toml", "--commit"], 2).stderr);
+    assert!(
+        said.contains("`generated.games` is 40, but at most ") && said.contains("of the kinds rescue"),
+        "{said}"
+    );
+    assert!(!folder.join("many.secret.json").exists());
+    recipe("many", "seed = 'x'\n", "games = 40\nkinds = ['rescue']");
+    for mode in [&["--dry-run"][..], &["--out", "x"]] {
+        let said = text(&run(folder, &[&["release", "many.toml"], mode].concat(), 2).stderr);
+        assert!(said.contains("; lower `generated.games` to "), "{said}");
+    }
+    recipe("bare", "seed = 'x'\n", "games = 2");
+    let said = text(&run(folder, &["release", "bare.toml", "--dry-run"], 0).stdout);
+    for words in [
+        "in about ",
+        "one mint in twenty takes more than",
+        "follows no earlier release",
+        "no gates",
+        "difficulty is not measured",
+    ] {
+        assert!(said.contains(words), "no `{words}` in {said}");
+    }
+    recipe("late", "", &format!("games = 2\ncommitment = '{}'", "0".repeat(64)));
+    let said = text(&run(folder, &["release", "late.toml", "--dry-run"], 2).stderr);
+    assert!(said.contains("move it above the first [table]"), "{said}");
 }
 
 /// A seed invented by a person can be guessed.

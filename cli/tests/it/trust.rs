@@ -1,6 +1,6 @@
 //! Signed releases: keys, sets of keys, and what `verify` and others make of them.
 
-use crate::arcade::{copy_of_tiny, run, text};
+use crate::arcade::{copy_of_tiny, copy_tree, run, text};
 use serde_json::Value;
 use snapshots::Manifest;
 use std::fs;
@@ -47,7 +47,7 @@ fn releases_are_signed_by_enough_keys() {
     says(folder, &["sign", "tiny"], 2, "--secret FILE");
     says(folder, &["sign", "tiny", "--secret", "ada.key"], 0, "signed by");
     says(folder, &["verify", "tiny", "--key", "ada.pub"], 0, "(1 needed)");
-    says(folder, &["verify", "tiny", "--key", "bo.pub"], 1, "signed by none");
+    says(folder, &["verify", "tiny", "--key", "bo.pub"], 1, "not signed by the key in bo.pub (");
 
     let add =
         ["keys", "trust", "--add", "ada=ada.pub", "bo=bo.pub", "--threshold", "2", "--secret", "ada.key"];
@@ -79,13 +79,21 @@ fn releases_are_signed_by_enough_keys() {
     says(folder, &["verify", "tiny", "--key", "bo.pub"], 1, "the key of `bo` is revoked: lost");
 
     // The same for an archive, beside which its signatures lie.
-    run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0);
+    let said =
+        text(&run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0).stdout);
+    let copy =
+        said.lines().find(|line| line.contains("cp -r ")).and_then(|line| line.split_once("beside it:  "));
+    let copy = shlex::split(copy.unwrap().1).unwrap();
+    assert_eq!(copy, ["cp", "-r", "tiny/papers/signatures", "tiny.signatures"]);
     says(
         folder,
         &["verify", "tiny.tar.zst", "--key", "ada.pub"],
         1,
-        "there are no signatures at `tiny.signatures`",
+        "there are no signatures at `tiny.signatures`: copy the release's papers/signatures to that folder",
     );
+    copy_tree(&folder.join(&copy[2]), &folder.join(&copy[3]));
+    run(folder, &["verify", "tiny.tar.zst", "--key", "trust/keys-1.json"], 0);
+    fs::remove_dir_all(folder.join(&copy[3])).unwrap();
     says(folder, &["sign", "tiny.tar.zst", "--secret", "ada.key"], 0, "signed by");
     let found = json(folder, &["verify", "tiny.tar.zst", "--key", "ada.pub"], 0);
     assert_eq!(found["signed"]["threshold"], 1);

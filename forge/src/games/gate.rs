@@ -419,7 +419,7 @@ pub(super) mod tests {
         }
         let (levels, tally) = played(&unskilled, 0);
         assert!(levels.is_none());
-        assert_eq!(tally.reasons(), "no level 1 1, skill 1");
+        assert_eq!(tally.reasons(), "1 failed `skill`, 1 without level 1");
     }
 
     /// More than any game has.

@@ -192,6 +192,14 @@ impl RuleSets {
         }
     }
 
+    /// The number of sets that a method draws on, up to `enough`. Cost: that of all sets, if the first set of each kernel is not enough.
+    pub fn count(&self, method: Method, enough: usize) -> usize {
+        match method {
+            Method::Constructive if self.opening.len() >= enough => enough,
+            method => self.of_method(method).len().min(enough),
+        }
+    }
+
     /// The set of a place among the games of a method, at a turn of it; `None` if there is none left.
     pub(super) fn of_place(&self, method: Method, place: u32, turn: u32) -> Option<&RuleSet> {
         let (place, turn) = (place as usize, turn as usize);

@@ -4,10 +4,12 @@
 mod items;
 mod neighbours;
 mod shifts;
+mod verdict;
 
 pub use items::{Change, Changes, Status};
 pub use neighbours::{Neighbours, Pair};
-pub use shifts::{DEALS, NumberShift, Share, Shift};
+pub use shifts::{DEALS, NumberShift, Share, Shift, Unmeasured};
+pub use verdict::Order;
 
 use crate::marks::{MarkDifference, mark_differences};
 use crate::released::{Released, ReleasedGame};
@@ -25,6 +27,8 @@ pub struct Side {
     pub name: String,
     /// The root digest.
     pub root: Digest,
+    /// The root digest of the release before it; `None` for the first of its chain.
+    pub parent: Option<Digest>,
     /// The number of games.
     pub games: usize,
     /// The number of games made by a rule generator.
@@ -40,6 +44,10 @@ pub struct Side {
 /// The comparison of two releases, an earlier and a later one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diff {
+    /// The comparison in one sentence: difficulty, returning levels, nearest games.
+    pub verdict: String,
+    /// The order of the two by the chain that they state.
+    pub order: Order,
     /// The earlier release.
     pub before: Side,
     /// The later release.
@@ -93,7 +101,9 @@ impl Diff {
         let [old, new] =
             [before, after].map(|side| side.games.par_iter().map(Compared::of).collect::<Vec<_>>());
         let cards = |side: &Released| side.games.iter().map(|game| game.card.clone()).collect::<Vec<_>>();
-        Diff {
+        let mut diff = Diff {
+            verdict: String::new(),
+            order: Order::of(&before.manifest, &after.manifest),
             before: side(before, &old),
             after: side(after, &new),
             games: items::games(&old, &new),
@@ -103,7 +113,9 @@ impl Diff {
             rungs: differences(&cards(after), &cards(before)),
             marks: marks(before, after),
             neighbours: Neighbours::of(&old, &new, closest),
-        }
+        };
+        diff.verdict = verdict::verdict(&diff);
+        diff
     }
 }
 
@@ -117,6 +129,7 @@ fn side(released: &Released, games: &[Compared<'_>]) -> Side {
     Side {
         name: manifest.name.clone(),
         root: manifest.root,
+        parent: manifest.parent,
         games: games.len(),
         generated: games.iter().filter(|game| game.is_generated()).count(),
         levels: released.levels(),

@@ -35,6 +35,34 @@ pub struct Shift {
     pub distance: Option<f64>,
     /// The p-value: the share of random deals that are at least as far apart.
     pub p: Option<f64>,
+    /// The number of levels that were not measured, which have no value.
+    #[serde(skip_serializing_if = "Unmeasured::is_none")]
+    pub unmeasured: Unmeasured,
+}
+
+/// The number of levels on each side that were not measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Unmeasured {
+    /// Those of the earlier release.
+    pub before: usize,
+    /// Those of the later release.
+    pub after: usize,
+}
+
+impl Unmeasured {
+    /// Returns `true` if all levels were measured.
+    pub fn is_none(&self) -> bool {
+        *self == Unmeasured::default()
+    }
+
+    /// Counts the levels whose players left no result.
+    pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>]) -> Unmeasured {
+        let count = |side: &[Compared<'_>]| {
+            let levels = side.iter().flat_map(|game| &game.released.card.levels);
+            levels.filter(|level| level.ladder.is_none()).count()
+        };
+        Unmeasured { before: count(before), after: count(after) }
+    }
 }
 
 /// The distributions of a number in both releases.
@@ -51,16 +79,23 @@ pub struct NumberShift {
     pub distance: Option<f64>,
     /// The p-value: the share of random deals that are at least as far apart.
     pub p: Option<f64>,
+    /// The number of levels that were not measured, which have no number.
+    #[serde(skip_serializing_if = "Unmeasured::is_none")]
+    pub unmeasured: Unmeasured,
 }
 
 /// The values of a game in a distribution: one, several, or one for each level.
 type Values = fn(&Compared<'_>) -> Vec<String>;
 
+/// The distribution of difficulty labels.
+pub(super) const DIFFICULTY: &str = "difficulty of levels";
+/// The distribution of eases.
+const EASE: &str = "ease of a level";
+
 const SHIFTS: &[(&str, Values)] = &[
-    ("difficulty of levels", |game| {
-        let label = |ladder: &validators::Ladder| ladder.difficulty.to_string();
-        let levels = game.released.card.levels.iter();
-        levels.map(|level| level.ladder.as_ref().map_or("not measured".to_owned(), label)).collect()
+    (DIFFICULTY, |game| {
+        let ladders = game.released.card.levels.iter().filter_map(|level| level.ladder.as_ref());
+        ladders.map(|ladder| ladder.difficulty.to_string()).collect()
     }),
     ("goal of games", |game| vec![game.kind.goal.name().to_owned()]),
     ("avatar of games", |game| vec![game.kind.avatar.name().to_owned()]),
@@ -93,7 +128,7 @@ const NUMBERS: &[(&str, Numbers)] = &[
     ("ticks of a witness", |game| {
         game.released.card.levels.iter().map(|level| level.witness_ticks as f64).collect()
     }),
-    ("ease of a level", |game| {
+    (EASE, |game| {
         let ladders = game.released.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         ladders.filter_map(|ladder| ladder.ease).collect()
     }),
@@ -103,7 +138,9 @@ const NUMBERS: &[(&str, Numbers)] = &[
 pub(super) fn shifts(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Shift> {
     let shift = |&(name, of): &(&'static str, Values)| {
         let games = |side: &[Compared<'_>]| side.iter().map(of).collect::<Vec<_>>();
-        Shift::of(name, &games(before), &games(after))
+        let shift = Shift::of(name, &games(before), &games(after));
+        let unmeasured = if name == DIFFICULTY { Unmeasured::of(before, after) } else { shift.unmeasured };
+        Shift { unmeasured, ..shift }
     };
     SHIFTS.iter().map(shift).collect()
 }
@@ -112,7 +149,9 @@ pub(super) fn shifts(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Shi
 pub(super) fn numbers(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<NumberShift> {
     let shift = |&(name, of): &(&'static str, Numbers)| {
         let games = |side: &[Compared<'_>]| side.iter().map(of).collect::<Vec<_>>();
-        NumberShift::of(name, &games(before), &games(after))
+        let shift = NumberShift::of(name, &games(before), &games(after));
+        let unmeasured = if name == EASE { Unmeasured::of(before, after) } else { shift.unmeasured };
+        NumberShift { unmeasured, ..shift }
     };
     NUMBERS.iter().map(shift).collect()
 }
@@ -140,7 +179,8 @@ impl Shift {
         let (distance, p) = test(name, (before.len(), after.len()), distance);
         let share =
             |(value, [before, after]): (&str, [usize; 2])| Share { value: value.to_owned(), before, after };
-        Shift { name, shares: counts.into_iter().map(share).collect(), distance, p }
+        let shares = counts.into_iter().map(share).collect();
+        Shift { name, shares, distance, p, unmeasured: Unmeasured::default() }
     }
 }
 
@@ -170,7 +210,8 @@ impl NumberShift {
         };
         let (distance, p) = test(name, (before.len(), after.len()), distance);
         let quantiles = |games: &[Vec<f64>]| Quantiles::of(&games.concat());
-        NumberShift { name, before: quantiles(before), after: quantiles(after), distance, p }
+        let unmeasured = Unmeasured::default();
+        NumberShift { name, before: quantiles(before), after: quantiles(after), distance, p, unmeasured }
     }
 }
 

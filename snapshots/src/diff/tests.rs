@@ -92,6 +92,51 @@ fn a_release_is_the_same_as_itself() {
     assert_eq!(diff.neighbours.within, None, "there is no other game");
 }
 
+/// What was not measured has no distance and no p-value, and the first sentence says so.
+#[test]
+fn unmeasured_difficulty_is_not_equal_difficulty() {
+    let plain = source(["gem", "imp", "f"], "RandomNPC");
+    let side = |id: &str, level: &str, measured: bool| {
+        let mut game = game(id, &plain, &[level], true);
+        if !measured {
+            game.card.levels.iter_mut().for_each(|level| level.ladder = None);
+        }
+        release(vec![game])
+    };
+    let turned = "wwwww\nwA gw\nw  fw\nwwwww\n";
+    for (before, after, words) in [
+        (false, false, "Difficulty was not measured (no `skill`); 0 levels return; nearest pair 0.00"),
+        (false, true, "Difficulty was measured in the later release only"),
+        (true, false, "Difficulty was measured in the earlier release only"),
+    ] {
+        let mut later = side("b", turned, after);
+        later.manifest.root = Digest::of(b"later");
+        let diff = Diff::of(&side("a", LEVEL, before), &later, 1);
+        assert!(diff.verdict.starts_with(words), "{}", diff.verdict);
+        let shift = &diff.shifts[0];
+        assert_eq!((shift.name, shift.distance, shift.p), ("difficulty of levels", None, None));
+        assert_eq!(
+            (shift.unmeasured.before, shift.unmeasured.after),
+            (usize::from(!before), usize::from(!after))
+        );
+        assert!(shift.shares.iter().all(|share| share.value != "not measured"), "{shift:?}");
+        let ease = diff.numbers.last().unwrap();
+        assert_eq!((ease.name, ease.distance, ease.p), ("ease of a level", None, None));
+    }
+}
+
+#[test]
+fn the_order_follows_from_the_parents() {
+    let plain = source(["gem", "imp", "f"], "RandomNPC");
+    let mut later = release(vec![game("a", &plain, &[LEVEL], true)]);
+    let earlier = later.clone();
+    later.manifest.root = Digest::of(b"later");
+    assert_eq!(Diff::of(&earlier, &later, 1).order, Order::Unrelated);
+    later.manifest.parent = Some(earlier.manifest.root);
+    assert_eq!(Diff::of(&earlier, &later, 1).order, Order::Follows);
+    assert_eq!(Diff::of(&later, &earlier, 1).order, Order::Reversed);
+}
+
 #[test]
 fn one_cell_makes_a_level_new() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");

@@ -4,6 +4,7 @@
 use super::columns::{Column, ColumnKind};
 use super::item::ExportedGame;
 use super::{Export, Format, SPLIT};
+use crate::papers;
 use crate::released::Released;
 use forge::card::{Card, Origin};
 use std::fmt::Write;
@@ -33,7 +34,7 @@ fn quoted(text: &str) -> String {
 
 fn title(released: &Released, export: &Export) -> String {
     let twin = export.twin.map(|twin| format!(", {twin}")).unwrap_or_default();
-    format!("Infinite Arcade {}{twin}", released.manifest.name)
+    format!("{}{twin}", papers::title(&released.manifest))
 }
 
 fn front(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'_>) -> String {
@@ -79,6 +80,9 @@ fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
     let Rows { file, levels, .. } = *rows;
     let games = rows.games.len();
     let new = rows.games.iter().filter(|(card, _)| matches!(card.origin, Origin::Generated { .. })).count();
+    // Winning episodes of a sealed release are withheld until it is revealed.
+    let is_withheld =
+        released.games.iter().flat_map(|game| &game.levels).any(|level| level.witness.is_none());
     let mut text = format!(
         "# {}\n\n{levels} levels of {games} arcade games, {new} of them with new rules, made and verified by Infinite Arcade: every \
          level has been won, none by doing nothing. A row of `{file}` is one level with all of its game: rules in plain \
@@ -103,23 +107,24 @@ fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
         true => {
             "The columns `solution` and `solution_seed` hold an episode that wins the level: keep them from whoever is evaluated."
         }
-        false => "No row holds a solution; the release does, in its `witness` files.",
+        false if is_withheld => {
+            "No row holds a solution, and the release withholds its winning episodes until it is revealed."
+        }
+        false => "No row holds a solution; the release has them, as episodes that win.",
     };
     let _ = write!(text, "{solutions}\n\n## Where it comes from\n\n");
     let _ = write!(
         text,
         "Release `{}`, root digest\n\n    {}\n\n(engine semantics {}, generation {}). This dataset is an excerpt of it; check the \
-         release itself with\n\n    arcade verify DIR        # its digests, and every win replayed\n    arcade regenerate DIR    # minted again \
+         release itself with\n\n    arcade verify DIR        # its digests{}\n    arcade regenerate DIR    # minted again \
          from its seed, bit for bit{}\n\nand make this dataset from it, byte for byte, with\n\n    arcade export DIR --format {}{}{} --out \
          dataset\n\n",
         manifest.name,
         manifest.root,
         manifest.semantics,
         manifest.generation,
-        match manifest.kind {
-            crate::ReleaseKind::Open => "",
-            crate::ReleaseKind::Sealed => ", once that is revealed",
-        },
+        if is_withheld { "; wins are withheld until the reveal" } else { ", and every win replayed" },
+        if is_withheld { ", once that is revealed" } else { "" },
         export.format,
         export.twin.map(|twin| format!(" --twin {twin}")).unwrap_or_default(),
         if export.solutions { " --solutions" } else { "" },

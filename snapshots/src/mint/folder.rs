@@ -141,7 +141,7 @@ fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> 
     let mut text = format!("# {}\n\n{}\n\n", recipe.name, recipe.description.trim());
     let _ = writeln!(
         text,
-        "{} games, {levels} levels. Every level comes with a witness: an episode that wins it.\n\n\
+        "{} games, {levels} levels. Every level has a witness: an episode that wins it.\n\n\
          {}\n\n\
          Please keep this folder out of training data. Canary: `{canary}`\n",
         cards.len(),
@@ -149,14 +149,21 @@ fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> 
             None =>
                 "Check the folder with `arcade verify DIR`, mint it again from its seed with `arcade regenerate DIR`.",
             Some(_) => {
-                "The release is sealed: its seed and its witnesses are held back, and the manifest commits to them. \
-                 Check the folder with `arcade verify DIR`."
+                "The release was sealed: its seed and its witnesses were withheld when it was published, and the manifest \
+                 commits to them. A folder with `held/secret.json` has been revealed. Check the folder with `arcade verify \
+                 DIR`; once revealed, mint it again with `arcade regenerate DIR`."
             }
         }
     );
     if recipe.memory.is_some() {
         text += "Of two renamings of a game, or of two wins of a level, a coin publishes one; the other is committed to and withheld \
                  until the reveal, to tell who has seen what was published (`arcade contamination`).\n\n";
+    }
+    if let Some(sentence) = recipe.cited().sentence() {
+        let _ = writeln!(text, "{sentence}\n");
+    }
+    for caveat in recipe.caveats() {
+        let _ = writeln!(text, "{caveat}\n");
     }
     let _ = writeln!(text, "{}", card.in_words());
     let _ = writeln!(text, "| game | kind | levels | rules | what it is |\n|---|---|---|---|---|");

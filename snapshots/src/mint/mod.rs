@@ -7,12 +7,14 @@
 
 mod card;
 mod folder;
+mod forecast;
 mod job;
 mod job_store;
 mod plan;
 mod puzzles;
 mod select;
 mod shard;
+mod supply;
 
 use crate::manifest::Manifest;
 use crate::recipe::RecipeError;
@@ -21,6 +23,7 @@ use crate::{Digest, SnapshotError};
 pub use card::{Novelty, ReleaseCard, Rung};
 pub(crate) use card::{counted, generator};
 pub use folder::{RELEASE_CARD_FILE, Sink};
+pub use forecast::Forecast;
 use forge::Tally;
 use forge::card::Card;
 pub use job::{FrozenGame, JobResult};
@@ -86,6 +89,20 @@ pub enum MintError {
         /// The number of candidates that passed and are no copies.
         there: usize,
         /// The reasons why the others failed, or the games that they copy.
+        why: String,
+        /// The next move.
+        advice: String,
+    },
+    /// The recipe asks for more games than can be made, as is known before anything is minted.
+    #[error("`{part}.games` is {asked}, but at most {most} can be made: {why}; {advice}")]
+    Unfillable {
+        /// The part of the recipe.
+        part: &'static str,
+        /// The number that the recipe asks for.
+        asked: usize,
+        /// The maximum number.
+        most: usize,
+        /// The limit.
         why: String,
         /// The next move.
         advice: String,
@@ -389,9 +406,51 @@ mod tests {
         ] {
             let recipe = Recipe::from_toml(text).unwrap();
             let plan = Plan::new(&recipe, None, &corpus).unwrap();
-            let ratio = plan.seconds(plan.jobs()) / measured(name);
+            let Forecast { median, tail } = plan.forecast(plan.jobs());
+            let ratio = median / measured(name);
             assert!((0.75..=1.25).contains(&ratio), "{name}: {ratio} of what was measured");
+            assert!(tail > measured(name), "{name}: {tail}");
         }
+    }
+
+    /// Five mints of a recipe without a `[criteria]` took 19 to 99 seconds of one core: the median is among them, and the tail beyond.
+    #[test]
+    fn a_forecast_covers_what_other_seeds_cost() {
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 6\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let Forecast { median, tail } = plan.forecast(plan.jobs());
+        assert!((26.0..=52.0).contains(&median) && (80.0..=200.0).contains(&tail), "{median} {tail}");
+        // What is left of a mint is a part of it, and less of a sum is less certain.
+        let left = plan.forecast(&plan.jobs()[..2]);
+        assert!(left.median < median / 3.0 && left.tail / left.median > tail / median, "{left:?}");
+        assert_eq!(plan.forecast(&[]), Forecast { median: 0.0, tail: 0.0 });
+    }
+
+    /// Whoever commits to a recipe cannot change it any more, so what cannot be filled is refused before.
+    #[test]
+    fn recipes_that_cannot_be_filled_are_refused() {
+        let check = |generated: &str, expect: Option<&str>| {
+            let text = format!("name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\n{generated}\n");
+            let recipe = Recipe::from_toml(&text).unwrap();
+            let corpus = corpus(&[]);
+            let supply = Plan::new(&recipe, None, &corpus).unwrap().supply();
+            match expect {
+                None => assert!(supply.is_ok(), "{generated}: {supply:?}"),
+                Some(words) => {
+                    let error = supply.unwrap_err().to_string();
+                    assert!(error.contains(words), "{error}");
+                }
+            }
+        };
+        check("games = 6", None);
+        check("games = 3\nkinds = ['rescue']", None);
+        check(
+            "games = 40\nkinds = ['rescue']",
+            Some("sets of rules of the kinds rescue; lower `generated.games`"),
+        );
+        check("games = 600", Some("`generated.games` is 600, but at most "));
     }
 
     #[test]
@@ -407,7 +466,7 @@ mod tests {
         let error = minted(&recipe("a"), &corpus(&[("hopeless", &hopeless)])).unwrap_err().to_string();
         assert!(
             error.contains(
-                "`corpus.games` is 1, but only 0 candidates can be taken (winnable 96, no level 0 8)"
+                "`corpus.games` is 1, but only 0 candidates can be taken (96 failed `winnable`, 8 without level 0)"
             ),
             "{error}"
         );

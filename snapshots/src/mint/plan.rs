@@ -25,7 +25,7 @@ use generators::levels::{Examples, LevelConfig};
 use report::canonical::canonical_digest;
 use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
-use validators::{Criteria, GATES, Panel};
+use validators::{Criteria, Panel};
 
 /// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
@@ -63,23 +63,11 @@ pub enum Job {
 
 /// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
 /// are never smaller, so that an archive keeps its games if a recipe asks for more candidates.
-const ISLAND: u32 = 4;
+pub(super) const ISLAND: u32 = 4;
 
 /// The further judges of a game ([`GameEffort::judges`]): fewer than `arcade generate games` has. The candidates of a month are few more
 /// than its games.
 const JUDGES: u64 = 3;
-
-/// The cost of a job in seconds of one core per requested level: without gates and `skill` as in `tiny`, with gates as in
-/// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
-/// `skill` are guesses.
-const ARCHIVE: [f64; 3] = [0.1, 3.0, 3.0];
-const SEARCH: [f64; 3] = [0.1, 4.5, 4.5];
-const CONSTRUCTIVE: [f64; 3] = [0.6, 2.8, 3.0];
-const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
-/// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
-const SECOND_WINS: f64 = 1.2;
-/// The calls of a search for a win for which the costs with gates hold.
-const GATED_BUDGET: f64 = 1e6;
 
 impl<'a> Plan<'a> {
     /// Makes the plan of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of
@@ -134,46 +122,6 @@ impl<'a> Plan<'a> {
     pub fn histogram(&self) -> Vec<(String, i64)> {
         let histogram = super::select::histogram(self.recipe).into_iter();
         histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
-    }
-
-    /// The rough total cost of jobs, in seconds of one core of the machine that docs/recipes.md describes.
-    pub fn seconds(&self, jobs: &[Job]) -> f64 {
-        let usual = Criteria::default();
-        let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
-            // Where gates are asked, three quarters of the cost are searches for a win, most of them in vain.
-            let searched = 0.25 + 0.75 * criteria.budget as f64 / GATED_BUDGET;
-            let (base, share) = match GATES.iter().any(|gate| criteria.includes(gate)) {
-                true => (gated, searched),
-                false => (plain, 1.0),
-            };
-            // Decisions cost about a third of what the other judges cost.
-            let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
-            let played = match criteria.includes("skill") {
-                true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
-                false => 0.0,
-            };
-            f64::from(levels) * (base * share * thought + (skill - base) * played)
-        };
-        let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
-        let puzzle_levels = |kind: PuzzleKind| kind.part(self.recipe).map_or(0, |part| part.levels);
-        let marks = |job: &Job| {
-            let (levels, is_certain) = match *job {
-                Job::Archive(_) => (ISLAND * new, false),
-                Job::Search(_) | Job::Constructive(_) => (new, false),
-                Job::Corpus(_) => (old, false),
-                Job::Puzzle(kind, _) => (puzzle_levels(kind), true),
-            };
-            f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain))
-        };
-        let cost = |job: &Job| match *job {
-            Job::Archive(_) => of(ARCHIVE, ISLAND * new, &self.recipe.criteria),
-            Job::Search(_) => of(SEARCH, new, &self.recipe.criteria),
-            Job::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
-            Job::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
-            Job::Puzzle(kind, _) => of([kind.seconds(); 3], puzzle_levels(kind), &self.recipe.criteria),
-        };
-        let tossed = if self.recipe.memory.is_some_and(|part| part.witnesses) { SECOND_WINS } else { 1.0 };
-        jobs.iter().map(|job| tossed * cost(job) + marks(job)).sum()
     }
 
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
@@ -343,7 +291,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The criteria for levels of corpus games.
-    fn corpus_criteria(&self) -> &Criteria {
+    pub(super) fn corpus_criteria(&self) -> &Criteria {
         self.recipe.corpus.criteria.as_ref().unwrap_or(&self.recipe.criteria)
     }
 
@@ -363,7 +311,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The rules of new games: jobs know nothing of each other, so what they make has to differ beforehand.
-    fn rule_sets(&self) -> &RuleSets {
+    pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
             let kinds = self.order(Method::Constructive, 1).kinds;

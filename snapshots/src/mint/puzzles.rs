@@ -9,6 +9,7 @@ use forge::card::Origin;
 use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};
 use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
+use validators::novelty::GameForm;
 use validators::{Panel, Tier};
 
 /// The maximum number of fictions to draw for a puzzle, to find one of its theme.
@@ -70,6 +71,21 @@ impl PuzzleKind {
         }
     }
 
+    /// A rule set without a theme, and its name.
+    fn plain(self, at: usize) -> (Game, String) {
+        match self {
+            PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
+            PuzzleKind::Locks => (LockRules::ALL[at].game(), LockRules::ALL[at].name()),
+            PuzzleKind::Yards => (YardRules::ALL[at].game(), YardRules::ALL[at].name()),
+            PuzzleKind::Strays => (PushRules::AMONG_STRAYS[at].game(), PushRules::AMONG_STRAYS[at].name()),
+        }
+    }
+
+    /// The form of a rule set.
+    pub(super) fn form(self, at: usize) -> GameForm {
+        GameForm::of(&self.plain(at).0)
+    }
+
     /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
     pub(super) fn seconds(self) -> f64 {
         match self {
@@ -87,12 +103,7 @@ impl Plan<'_> {
         let mut tally = Tally::default();
         let Some(part) = kind.part(self.recipe) else { return (Vec::new(), tally) };
         let at = number as usize % kind.rules();
-        let (plain, name) = match kind {
-            PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
-            PuzzleKind::Locks => (LockRules::ALL[at].game(), LockRules::ALL[at].name()),
-            PuzzleKind::Yards => (YardRules::ALL[at].game(), YardRules::ALL[at].name()),
-            PuzzleKind::Strays => (PushRules::AMONG_STRAYS[at].game(), PushRules::AMONG_STRAYS[at].name()),
-        };
+        let (plain, name) = kind.plain(at);
         let mut themes: Vec<&str> = Rethemed::themes().collect();
         self.seed.child("themes", 0).sampler().shuffle(&mut themes);
         let place = self.puzzles().position(|job| job == Job::Puzzle(kind, number));

@@ -3,6 +3,7 @@
 
 use crate::manifest::ReleaseKind;
 use crate::mint::{self, Minted, Rung};
+use crate::recipe::Recipe;
 use crate::sealed::Reveal;
 use forge::card::Origin;
 use itertools::Itertools;
@@ -34,8 +35,9 @@ pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
 pub(super) fn datasheet(minted: &Minted) -> String {
     let Minted { manifest, card, cards } = minted;
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
-    let parent =
-        manifest.parent.map_or("none: the first of its chain".to_owned(), |root| format!("`{root}`"));
+    let parent = manifest
+        .parent
+        .map_or("none: compared with no earlier release".to_owned(), |root| format!("`{root}`"));
     let kind = match manifest.kind {
         ReleaseKind::Open => "open: its seed is public",
         ReleaseKind::Sealed => SEALED,
@@ -92,6 +94,11 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         text += " How hard a level is was measured with planners, not with people, in few plays \
             each: labels have errors, and are easier to reach for games that planners are good at.";
     }
+    // The recipe was checked, unless it is one of another version.
+    let recipe: Option<Recipe> = serde_json::from_value(manifest.recipe.clone()).ok();
+    for caveat in recipe.iter().flat_map(Recipe::caveats) {
+        let _ = write!(text, "\n- {caveat}");
+    }
     text += "\n- Whatever is published may be in the training data of later models. Search for the canary; compare with a release that is \
         newer than the model.\n";
     text += match manifest.kind {
@@ -139,7 +146,7 @@ fn made(text: &mut String, minted: &Minted) {
         tally.calls as f64 / 1e6,
     );
     if !tally.rejections.is_empty() {
-        let _ = writeln!(text, "Turned down: {}.", tally.reasons());
+        let _ = writeln!(text, "Rejected: {}.", tally.reasons());
     }
     if !tally.judges.is_empty() {
         let _ = writeln!(text, "\n{}", tally.judges_table(minted.card.games).to_markdown());

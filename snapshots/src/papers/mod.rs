@@ -8,11 +8,13 @@
 mod datasheet;
 
 use crate::SnapshotError;
+use crate::cited::Cited;
 use crate::folder::{self, Entry, Limits, Listing};
 use crate::manifest::{Manifest, ReleaseKind};
 use crate::mint::Minted;
 use crate::problem::{Flaw, Problem};
 use crate::sealed::Reveal;
+use serde::Deserialize;
 use std::path::Path;
 
 /// The folder of the papers, at the top of a release.
@@ -113,6 +115,10 @@ fn licence(manifest: &Manifest) -> String {
 
 /// The citation of a release: [CFF 1.2.0](https://citation-file-format.github.io). The root identifies the bytes.
 fn citation(manifest: &Manifest) -> String {
+    let names = Names::of(manifest);
+    let cited = Cited::of(&manifest.name, &names.authors, names.publisher.as_deref());
+    let authors: String =
+        cited.authors().into_iter().map(|author| format!("  - name: {}\n", quoted(author))).collect();
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
     format!(
         "cff-version: 1.2.0\n\
@@ -121,16 +127,37 @@ fn citation(manifest: &Manifest) -> String {
          title: {}\n\
          version: {}\n\
          abstract: {}\n\
-         authors:\n  - name: \"The Infinite Arcade authors\"\n\
+         authors:\n{authors}\
          identifiers:\n  - type: other\n    value: \"blake3:{}\"\n    \
          description: \"Root digest: it covers every file of the release but its papers\"\n\
          license:\n  - MIT\n  - Apache-2.0\n\
          keywords:\n  - benchmark\n  - games\n  - planning\n  - VGDL\n",
-        quoted(&format!("Infinite Arcade {}", manifest.name)),
+        quoted(&cited.title()),
         quoted(&manifest.name),
         quoted(description.trim()),
         manifest.root,
     )
+}
+
+/// The keys of a recipe that name people.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Names {
+    authors: Vec<String>,
+    publisher: Option<String>,
+}
+
+impl Names {
+    /// The names in the recipe of a manifest. Those that have another form are left out.
+    fn of(manifest: &Manifest) -> Names {
+        serde_json::from_value(manifest.recipe.clone()).unwrap_or_default()
+    }
+}
+
+/// The title of a release.
+pub(crate) fn title(manifest: &Manifest) -> String {
+    let names = Names::of(manifest);
+    Cited::of(&manifest.name, &names.authors, names.publisher.as_deref()).title()
 }
 
 /// Quotes a text for YAML, with double quotes.
@@ -269,5 +296,14 @@ mod tests {
         assert!(text.starts_with("cff-version: 1.2.0\nmessage: "), "{text}");
         assert!(text.contains(&format!("value: \"blake3:{}\"", manifest.root)), "{text}");
         assert!(text.contains("version: \"2026-12\"\n"), "{text}");
+        assert!(text.contains("authors:\n  - name: \"The Infinite Arcade authors\"\nidentifiers:"), "{text}");
+        let mut own = manifest;
+        own.recipe = serde_json::json!({ "authors": ["Ada \"A\" L", "Bo"], "publisher": "Example Lab" });
+        let text = citation(&own);
+        assert!(text.contains("title: \"Example Lab 2026-12\"\n"), "{text}");
+        assert!(
+            text.contains("authors:\n  - name: \"Ada \\\"A\\\" L\"\n  - name: \"Bo\"\nidentifiers:"),
+            "{text}"
+        );
     }
 }

@@ -39,7 +39,8 @@ pub(crate) fn release(studio: &Studio) -> Result<Value, Refusal> {
         "semantics": manifest.semantics,
         "generation": manifest.generation,
         "version": manifest.version,
-        "sealed": manifest.kind == snapshots::ReleaseKind::Sealed,
+        // A release that was revealed is not sealed any more.
+        "sealed": released.games.iter().flat_map(|game| &game.levels).any(|level| level.witness.is_none()),
         "games": games,
     }))
 }

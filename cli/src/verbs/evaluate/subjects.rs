@@ -5,6 +5,7 @@ use crate::embedded;
 use crate::failure::Failure;
 use crate::input::{self, GameInput, Named, read_text};
 use crate::marks;
+use crate::paths;
 use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
 use evaluation::{Subject, SubjectFacts, Unreadable};
 use forge::card::Card;
@@ -12,7 +13,7 @@ use snapshots::archive::{Archive, is_archive};
 use snapshots::marks::Marks;
 use snapshots::{Integrity, MANIFEST_FILE, check_integrity};
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The most names of games that a message lists.
 const MAX_LISTED: usize = 12;
@@ -43,7 +44,7 @@ pub(crate) struct Subjects {
 pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     let (mut snapshot, mut release, mut games): (_, _, Vec<Subject>) = (None, None, Vec::new());
     for name in args.subjects {
-        let place = Path::new(name);
+        let place = &paths::release(PathBuf::from(name));
         if is_snapshot(place) {
             if args.subjects.len() > 1 {
                 bail!("{name}: a snapshot is evaluated alone; remove the other games");

@@ -67,10 +67,10 @@ pub(crate) struct Args {
     /// absent or empty
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. Changes no byte
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
     /// Load the game as the reference engine does: overlook faults that it overlooks

@@ -1,23 +1,27 @@
 //! `arcade log append`: new entries.
 
-use super::{counted, row, rules};
+use super::{counted, line, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::paths;
+use crate::shell;
 use crate::trusted::{open_secret, signatures_of};
-use crate::verbs::release::{check_beacon, find_recipe, read_secret_file};
+use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file};
 use engine::Digest;
 use evaluation::scale::ScaleFile;
 use serde_json::json;
-use snapshots::{Manifest, Recipe, SECRET_FILE, follow, integrity_of};
+use snapshots::{Manifest, Recipe, RecipeError, SECRET_FILE, follow, integrity_of};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use trust::log::{Entry, Log, Revealed, Round, append, verifier_key};
-use trust::{Anchor, Disk, Drawn, MAX_BEACON, Signatures, read_bounded};
+use trust::{Anchor, Disk, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 
 /// Appends entries to a log, or starts one: what is named here, in the order of the help.
 ///
 /// Nothing is appended that contradicts what the log has: a second commitment or root of one name, a beacon that was
-/// known before the commitment, a release that is not the one committed to. The files are complete before the new
-/// state is signed, so a loss of power leaves the log as it was.
+/// known before the commitment, a release that is not the one committed to. Nothing is appended either that a later entry
+/// would contradict: a commitment states the release before it (--parent) or that there is none (--first). The files are
+/// complete before the new state is signed, so a loss of power leaves the log as it was.
 ///
 /// Example: arcade log append log --secret log.key --commitment 2027-02.toml --parent releases/2027-01
 #[derive(clap::Args)]
@@ -40,14 +44,17 @@ pub(crate) struct Args {
     /// A recipe with a commitment, before its release is minted
     #[arg(long, value_name = "RECIPE")]
     commitment: Option<PathBuf>,
-    /// The folder of the release before, if the recipe was committed to with one
-    #[arg(long, value_name = "DIR", requires = "commitment")]
+    /// The folder of the release before, as it was given to `arcade release --commit`
+    #[arg(long, value_name = "DIR", requires = "commitment", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
+    /// The release that is committed to follows none, although the log has earlier ones
+    #[arg(long, requires = "commitment", conflicts_with = "parent")]
+    first: bool,
     /// Values of public randomness, as JSON files
     #[arg(long, value_name = "FILE", num_args = 1..)]
     beacon: Vec<PathBuf>,
     /// Releases, in folders or archives
-    #[arg(long, value_name = "SNAPSHOT", num_args = 1..)]
+    #[arg(long, value_name = "SNAPSHOT", num_args = 1.., value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
     /// Sealed releases that were revealed
     #[arg(long, value_name = "SNAPSHOT", num_args = 1..)]
@@ -73,14 +80,22 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         new.push(keys(file)?);
     }
     if let Some(recipe) = &args.commitment {
-        new.push(commitment(recipe, args.parent.as_deref())?);
+        new.push(commitment(recipe, args, &known, console)?);
     }
     for file in &args.beacon {
         let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &file.display().to_string())?;
         new.push(drawn.entry());
     }
     for place in &args.release {
-        new.push(release(sound(place)?, place)?);
+        let entry = release(sound(place)?, place)?;
+        if matches!(entry, Entry::Root { statement: None, .. }) {
+            console.remark(format_args!(
+                "note: `{}` has no signed statement, and its entry in the log will name none: `arcade sign` it first if \
+                 you sign releases",
+                place.display()
+            ));
+        }
+        new.push(entry);
     }
     for place in &args.reveal {
         new.push(reveal(place)?);
@@ -111,6 +126,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if new.is_empty() {
         bail!("name something to append, such as --release releases/2027-01");
     }
+    let all: Vec<Entry> = known.iter().chain(&new).cloned().collect();
+    reachable(&all, &new)?;
     let secret = open_secret(&args.secret, args.password_file.as_deref())?;
     let log = append(&args.log, args.origin.as_deref(), &secret, &new, &rules, &Disk::new())?;
     let checkpoint = &log.checkpoint;
@@ -118,7 +135,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "log": args.log.display().to_string(), "origin": checkpoint.origin, "size": checkpoint.size, "appended": new,
     }))?;
     for (number, entry) in (checkpoint.size - new.len() as u64..).zip(&new) {
-        console.say(format_args!("{number}  {}", entry.line()));
+        console.say(format_args!("{number}  {}", line(entry, &all)));
     }
     console.say(format_args!(
         "{}: {}, signed by {}",
@@ -141,6 +158,7 @@ const MAX_SCALE: u64 = 1 << 28;
 fn keys(file: &Path) -> Result<Entry, Failure> {
     match crate::trusted::anchor(file)? {
         Anchor::Set(set) => {
+            followed(&set, file)?;
             Ok(Entry::Keys { version: set.version, digest: set.digest()?, previous: set.previous })
         }
         Anchor::Key(_) => {
@@ -149,9 +167,43 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
     }
 }
 
-fn commitment(file: &Path, parent: Option<&Path>) -> Result<Entry, Failure> {
+/// Refuses a set of keys that its readers do not follow yet. If it was made again, with other keys, the log could hold no
+/// further set.
+fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let found = Signatures::read(folder)?;
+    let Some(before) = set.version.checked_sub(1).and_then(|version| found.set(version)) else {
+        return Ok(());
+    };
+    let Err(problems) = before.admits(set, found.of(&set.file())) else { return Ok(()) };
+    let [verb, flag] = ["keys", "--secret"].map(OsStr::new);
+    bail!(
+        "`{}`: readers do not follow this set of keys yet: {}; sign it with `{} FILE...`, and append it then",
+        file.display(),
+        problems.join("; "),
+        shell::command([verb, folder.as_os_str(), flag])
+    )
+}
+
+/// Refuses a commitment that follows a release which is not in the log: its own root could not be entered later.
+fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
+    for entry in new {
+        let Entry::Commitment { release, parent: Some(parent), .. } = entry else { continue };
+        if !all.iter().any(|entry| matches!(entry, Entry::Root { root, .. } if root == parent)) {
+            bail!(
+                "`{release}` follows a release with root {parent}, which is not in the log, so its own root could not be \
+                 entered later: append that release first, with --release"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The entry of a commitment. A commitment cannot be taken back, and a root has to have its parent, its recipe and its name.
+/// So what can be checked is checked here.
+fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> Result<Entry, Failure> {
     let mut recipe = find_recipe(file, Recipe::from_toml)?;
-    if let Some(parent) = parent {
+    if let Some(parent) = &args.parent {
         follow(&mut recipe, parent)?;
     }
     let Some(commitment) = recipe.commitment else {
@@ -162,6 +214,33 @@ fn commitment(file: &Path, parent: Option<&Path>) -> Result<Entry, Failure> {
         );
     };
     check_beacon(&recipe)?;
+    let earlier = known.iter().rev().find_map(|entry| match entry {
+        Entry::Root { release, .. } | Entry::Commitment { release, .. } if *release != recipe.name => {
+            Some(release)
+        }
+        _ => None,
+    });
+    if let (Some(earlier), None, false) = (earlier, recipe.parent, args.first) {
+        bail!(
+            "{}: the log has `{earlier}` already: name the release before this one with --parent DIR, as it was given to \
+             `arcade release --commit`, or say with --first that this one follows none; with a wrong answer the release \
+             could never be entered",
+            file.display()
+        );
+    }
+    let secret = secret_file(&recipe.name);
+    let beside = file.with_file_name(&secret);
+    match [secret.as_path(), &beside].into_iter().find_map(|place| read_secret_file(place).ok()) {
+        Some(secret) if secret.commitment() == commitment => {
+            if let Err(error @ RecipeError::OtherRecipe(_)) = recipe.root_seed(Some(&secret)) {
+                bail!("{}: {error}", file.display());
+            }
+        }
+        _ => console.remark(format_args!(
+            "note: without the secret, `{}`, nothing shows that recipe and parent are those committed to",
+            secret.display()
+        )),
+    }
     let beacon = recipe.beacon.as_ref().map(|part| Round { source: part.source.clone(), round: part.round });
     Ok(Entry::Commitment {
         release: recipe.name.clone(),
@@ -201,6 +280,16 @@ pub(super) fn sound(place: &Path) -> Result<Manifest, Failure> {
 }
 
 fn reveal(place: &Path) -> Result<Entry, Failure> {
+    let public = paths::release(place.to_owned());
+    if public != place {
+        let [verb, reveal, out] = ["release", "--reveal", "--out"].map(OsStr::new);
+        let held = place.join("held");
+        let join = shell::command([verb, public.as_os_str(), reveal, held.as_os_str(), out]);
+        bail!(
+            "`{}` holds a release that is not revealed: join its two parts with `{join} DIR`, and name DIR",
+            place.display()
+        );
+    }
     let manifest = sound(place)?;
     let file = place.join(SECRET_FILE);
     if !file.is_file() {

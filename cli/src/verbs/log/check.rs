@@ -1,6 +1,6 @@
 //! `arcade log check`: the judgement of a log, or of a proof about it.
 
-use super::{absent, append, checkpoint, counted, public_key, read_text, row, rules};
+use super::{absent, append, checkpoint, counted, line, public_key, read_text, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::verbs::release::in_pool;
@@ -38,7 +38,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "MONTH", value_parser = month, conflicts_with_all = ["proof", "growth"])]
     month: Option<String>,
     /// Releases that have to be in the log, in folders or archives
-    #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
+    #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"], value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
     /// Results folders whose rows have to be in the log; every episode is replayed, and its games are compared with those
     /// of the --release
@@ -99,12 +99,21 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         entries => entries?,
     };
     problems.extend(rules(&entries));
-    problems.extend(args.month.as_ref().and_then(|month| frozen(&entries, month)));
+    let mut found = Vec::new();
+    if let Some(month) = &args.month {
+        match frozen(&entries, month) {
+            Some(problem) => problems.push(problem),
+            None => found.push(reached(&entries, month)),
+        }
+    }
     problems.extend(witnesses(&args.witness, &log)?);
     let mut releases = Vec::new();
     for place in &args.release {
         let manifest = append::sound(place)?;
-        problems.extend(missing(place, manifest.clone(), &entries)?);
+        match missing(place, manifest.clone(), &entries)? {
+            Some(problem) => problems.push(problem),
+            None => found.extend(placed(place, &manifest, &entries)),
+        }
         releases.push(manifest);
     }
     let mut notes = Vec::new();
@@ -120,16 +129,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let size = log.checkpoint.size;
     console.document(&json!({
-        "origin": log.checkpoint.origin, "size": size, "entries": entries, "unkept": unkept, "notes": notes,
+        "origin": log.checkpoint.origin, "size": size, "entries": entries, "unkept": unkept, "found": found, "notes": notes,
         "problems": problems,
     }))?;
     for (number, entry) in entries.iter().enumerate() {
-        console.say(format_args!("{number:>5}  {}", entry.line()));
+        console.say(format_args!("{number:>5}  {}", line(entry, &entries)));
     }
     for name in &unkept {
         console.say(format_args!("`{name}` was committed to, and has no root yet"));
     }
-    notes.iter().chain(&problems).for_each(|line| console.say(line));
+    found.iter().chain(&notes).chain(&problems).for_each(|line| console.say(line));
     let entries = counted(size);
     console.say(match sound {
         true => format!("{}: sound; {entries}, signed by {}", log.checkpoint.origin, key.id()),
@@ -157,6 +166,29 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
         }
     }
     Ok(problems)
+}
+
+/// The sentence about a month that the log has reached.
+fn reached(entries: &[Entry], month: &str) -> String {
+    match root_of(entries, month) {
+        Some(number) => format!("the release of {month} is entry {number}"),
+        None => format!("the log has no release of {month}, but one of a later month"),
+    }
+}
+
+/// The sentence about a release that is in the log.
+fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String> {
+    let number = root_of(entries, &manifest.name)?;
+    Some(format!(
+        "`{}`: `{}` is entry {number}, with the same root, parent, commitment and beacon",
+        place.display(),
+        manifest.name
+    ))
+}
+
+/// The number of the entry of a release.
+fn root_of(entries: &[Entry], name: &str) -> Option<usize> {
+    entries.iter().position(|entry| matches!(entry, Entry::Root { release, .. } if release == name))
 }
 
 /// The fault of a log without this release.

@@ -5,6 +5,7 @@ mod check;
 mod cosign;
 mod prove;
 mod row;
+mod show;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -30,6 +31,7 @@ pub(crate) struct Args {
 #[derive(clap::Subcommand)]
 enum What {
     Append(Box<append::Args>),
+    Show(show::Args),
     Prove(Box<prove::Args>),
     Check(Box<check::Args>),
     Cosign(Box<cosign::Args>),
@@ -38,6 +40,7 @@ enum What {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match &args.what {
         What::Append(args) => append::run(args, console),
+        What::Show(args) => show::run(args, console),
         What::Prove(args) => prove::run(args, console),
         What::Check(args) => check::run(args, console),
         What::Cosign(args) => cosign::run(args, console),
@@ -52,6 +55,19 @@ fn open(folder: &Path) -> Result<Log, Failure> {
 /// The number of entries of a log, for people.
 fn counted(size: u64) -> String {
     if size == 1 { "1 entry".to_owned() } else { format!("{size} entries") }
+}
+
+/// A line about an entry, for people. A release is shown with the release before it.
+fn line(entry: &Entry, all: &[Entry]) -> String {
+    let (Entry::Commitment { parent, .. } | Entry::Root { parent, .. }) = entry else { return entry.line() };
+    let named = |parent: &Digest| {
+        let name = all.iter().find_map(|entry| match entry {
+            Entry::Root { release, root, .. } if root == parent => Some(release),
+            _ => None,
+        });
+        name.map_or_else(|| format!("after the root {}", parent.short()), |name| format!("after `{name}`"))
+    };
+    format!("{}, {}", entry.line(), parent.as_ref().map_or_else(|| "after none".to_owned(), named))
 }
 
 /// The failure of a folder without a log.

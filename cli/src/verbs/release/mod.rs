@@ -18,17 +18,19 @@ use crate::protected;
 use crate::shell;
 use crate::threads::bound_searches;
 pub(crate) use crate::threads::in_pool;
+pub(crate) use outline::{forecast, words as forecast_words};
 pub(crate) use progress::ProgressBars;
-pub(crate) use sealed::{check_beacon, read as read_secret_file};
+pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Minted, Plan, Shard, lay_out, make_jobs};
 use snapshots::version::CURRENT;
 use snapshots::{
     Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Reveal, Secret, check_integrity, follow,
 };
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use summary::summary;
+use summary::{in_short, summary};
 
 /// Mints a snapshot of new, verified games and levels from a recipe: the same bytes from the same recipe, always.
 ///
@@ -44,10 +46,10 @@ pub(crate) struct Args {
     /// The snapshot's folder: absent or empty; `releases/<name>` if not given
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Threads; all cores if not given. Changes no byte
+    /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. Changes no byte
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
     /// Make only the K-th of N slices
@@ -60,7 +62,7 @@ pub(crate) struct Args {
     #[arg(long)]
     dry_run: bool,
     /// The folder of the previous release: nothing that it, or one before it, holds is minted again
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
     /// The secret of a sealed release, as made by --commit
     #[arg(long, value_name = "FILE")]
@@ -74,7 +76,7 @@ pub(crate) struct Args {
     /// Join a sealed release with its held-back part, this folder, if both match their commitments
     #[arg(long, value_name = "DIR", conflicts_with_all = ["shard", "resume", "dry_run", "secret", "parent"])]
     reveal: Option<PathBuf>,
-    /// Reveal only the wins that coins published, and keep the rest withheld (see `arcade docs memory`)
+    /// Reveal one of the two recorded wins per level, and keep the others sealed (see `arcade docs memory`)
     #[arg(long, requires = "reveal")]
     solutions: bool,
 }
@@ -98,9 +100,22 @@ impl Args {
         for (option, value) in options {
             command.extend(value.into_iter().flat_map(|value| [option.into(), value.as_os_str().to_owned()]));
         }
+        command.extend(self.limits());
         command.push("--resume".into());
         shell::command(command)
     }
+
+    /// The flags of threads and memory.
+    fn limits(&self) -> Vec<OsString> {
+        threads_and_memory(self.jobs, self.memory)
+    }
+}
+
+/// Returns the flags of threads and memory, for a command that resumes.
+pub(crate) fn threads_and_memory(jobs: Option<usize>, memory: Option<Bytes>) -> Vec<OsString> {
+    let jobs = jobs.map(|jobs| ["--jobs".to_owned(), jobs.to_string()]);
+    let memory = memory.map(|memory| ["--memory".to_owned(), memory.to_string()]);
+    jobs.into_iter().chain(memory).flatten().map(OsString::from).collect()
 }
 
 /// Seconds of one core from which a mint prints how to resume it.
@@ -137,9 +152,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     protected::check(&out)?;
     if args.dry_run && recipe.seed.is_none() && secret.is_none() {
-        return outline::without_secret(&recipe, console);
+        return outline::without_secret(&recipe, &corpus, console);
     }
     let plan = Plan::new(&recipe, secret.as_ref(), &corpus)?.with_players(&marks::Players)?;
+    check_supply(&plan, console)?;
     let jobs = args.shard.map_or_else(|| plan.jobs().to_vec(), |shard| shard.jobs(&plan));
     if args.resume && complete(&plan, &recipe, args.shard, &out)? {
         let place = out.display().to_string();
@@ -170,6 +186,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         )),
         other => other,
     })
+}
+
+/// Refuses a recipe that asks for more games than can be made, and prints a note on one that asks for almost as many.
+fn check_supply(plan: &Plan<'_>, console: &Console) -> Result<(), Failure> {
+    if let Some(most) = plan.supply()? {
+        console.remark(format_args!(
+            "note: there are rules for {most} new games at most, and some candidates fail: fewer games may pass than the recipe asks for"
+        ));
+    }
+    Ok(())
 }
 
 /// Returns `true` if `out` already holds the result of this plan, or of this shard of it.
@@ -211,7 +237,7 @@ fn mint(
     if plan.is_sealed() {
         store.keep_secret()?;
     }
-    if plan.seconds(jobs) >= LONG {
+    if plan.forecast(jobs).median >= LONG {
         console.remark(format_args!("if interrupted, continue with: {}", args.resumed(out)));
     }
     interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
@@ -270,8 +296,12 @@ impl FinishedMint<'_> {
             "root": minted.manifest.root,
             "games": minted.cards,
             "card": minted.card,
+            "caveats": self.plan.recipe.caveats(),
         }))?;
-        console.say(summary(&minted, self.out, seconds).trim_end());
+        match console.is_quiet() {
+            true => console.say(in_short(&minted, self.out)),
+            false => console.say(summary(&minted, self.plan.recipe, self.out, seconds).trim_end()),
+        }
         Ok(true)
     }
 }
@@ -324,4 +354,24 @@ pub(crate) fn find_recipe(
         bail!("no recipe named `{name}`; {help}");
     };
     read(&text).map_err(|error| malformed!("{shown}: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+
+    #[test]
+    fn a_resumed_mint_keeps_all_flags() {
+        let line =
+            "release my.toml --parent p --secret s --beacon b --shard 1/2 --out o --jobs 2 --memory 2GiB";
+        let Line { args } = Line::parse_from(line.split(' '));
+        assert_eq!(args.resumed(Path::new("o")), format!("arcade {line} --resume"));
+    }
 }

@@ -1,11 +1,11 @@
 //! `arcade release --dry-run`: the contents and the cost of a mint.
 
-use super::probe;
+use super::{check_supply, probe};
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::Answer;
 use serde_json::json;
-use snapshots::mint::{Job, JobFolder, Plan};
+use snapshots::mint::{Forecast, Job, JobFolder, Plan};
 use snapshots::{Corpus, Draft, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
@@ -27,16 +27,14 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
         true => jobs.iter().zip(&made).filter(|(_, made)| !**made).map(|(&job, _)| job).collect(),
         false => jobs.to_vec(),
     };
-    let seconds = plan.seconds(&left);
-    let slowness = if seconds >= PROBED { probe::slowness(corpus) } else { None };
-    let range = estimate_range(seconds * slowness.unwrap_or(1.0));
+    let (forecast, slowness) = forecast(plan, &left, corpus);
     let place = out.display().to_string();
     let taken = check_vacant(out).err();
     let there = made.iter().filter(|made| **made).count();
     console.document(&json!({
-        "recipe": recipe, "out": place, "lots": names, "lots_made": there, "core_minutes": seconds / 60.0,
-        "core_seconds": [range.0, range.1],
-        "slowness": slowness, "out_is_taken": taken.is_some(),
+        "recipe": recipe, "out": place, "lots": names, "lots_made": there, "core_minutes": forecast.median / 60.0,
+        "core_seconds": [forecast.median, forecast.tail],
+        "slowness": slowness, "out_is_taken": taken.is_some(), "caveats": recipe.caveats(),
     }))?;
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     if new.games > 0 {
@@ -86,12 +84,9 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
     if resume {
         console.say(format_args!("of which {there} are finished and {} are left", left.len()));
     }
-    match slowness {
-        Some(times) => console.say(format_args!(
-            "in {} of one core of this machine, which takes {times:.2} times as long as the one that was measured",
-            words(range)
-        )),
-        None => console.say(format_args!("in {} of one core", words(range))),
+    console.say(format_args!("in {}", words(forecast)));
+    if let Some(times) = slowness {
+        console.say(format_args!("this machine takes {times:.2} times as long as the one that was measured"));
     }
     console.say(format_args!("into {place}"));
     match taken {
@@ -106,6 +101,7 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
         }
         None => {}
     }
+    recipe.caveats().iter().for_each(|caveat| console.say(format_args!("note: {caveat}")));
     Ok(true)
 }
 
@@ -123,33 +119,46 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crat
 /// The seconds of one core from which it is worth a third of a second to measure the speed of the machine.
 const PROBED: f64 = 30.0;
 
-/// The greatest deviation from the estimate, as a share.
-const SPREAD: f64 = 0.25;
-
-/// Returns the least and the greatest seconds to expect.
-fn estimate_range(seconds: f64) -> (f64, f64) {
-    // An empty sum may be -0.
-    let seconds = seconds.abs();
-    (seconds * (1.0 - SPREAD), seconds * (1.0 + SPREAD))
+/// Returns the cost of jobs on this machine, and how many times longer this machine takes than the one that was measured, if that
+/// was probed.
+pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
+    let usual = plan.forecast(jobs);
+    let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };
+    (usual.times(slowness.unwrap_or(1.0)), slowness)
 }
 
-/// Formats a range of seconds in a suitable unit.
-fn words((least, most): (f64, f64)) -> String {
-    match most {
-        _ if most < 120.0 => format!("{least:.0} to {most:.0} seconds"),
-        _ if most < 7200.0 => format!("{:.0} to {:.0} minutes", least / 60.0, most / 60.0),
-        _ => format!("{:.1} to {:.1} hours", least / 3600.0, most / 3600.0),
+/// Returns the cost in words.
+pub(crate) fn words(Forecast { median, tail }: Forecast) -> String {
+    format!("about {} of one core; one mint in twenty takes more than {}", duration(median), duration(tail))
+}
+
+/// Formats seconds in a suitable unit.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        _ if seconds < 1.5 => "a second".to_owned(),
+        _ if seconds < 120.0 => format!("{seconds:.0} seconds"),
+        _ if seconds < 7200.0 => format!("{:.0} minutes", seconds / 60.0),
+        _ => format!("{:.1} hours", seconds / 3600.0),
     }
 }
 
 /// Prints the public facts of a sealed release, without its secret.
-pub(super) fn without_secret(recipe: &Recipe, console: &Console) -> Answer {
-    console.document(&json!({ "recipe": recipe }))?;
+pub(super) fn without_secret(recipe: &Recipe, corpus: &Corpus, console: &Console) -> Answer {
+    // The number of games that can be made hardly depends on the seed.
+    let open = Recipe { seed: Some(recipe.name.clone()), commitment: None, beacon: None, ..recipe.clone() };
+    let plan = Plan::new(&open, None, corpus)?;
+    check_supply(&plan, console)?;
+    let (forecast, _) = forecast(&plan, plan.jobs(), corpus);
+    let caveats = recipe.caveats();
+    let seconds = [forecast.median, forecast.tail];
+    console.document(&json!({ "recipe": recipe, "core_seconds": seconds, "caveats": caveats }))?;
     let games = recipe.games();
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     console.say(format_args!(
         "would mint {games} games with {} levels, sealed; give --secret FILE for the plan",
         recipe.levels()
     ));
+    console.say(format_args!("in {}", words(forecast)));
+    caveats.iter().for_each(|caveat| console.say(format_args!("note: {caveat}")));
     Ok(true)
 }

@@ -1,13 +1,16 @@
 //! Sealed releases: committing to a secret, and revealing it.
 
-use super::{find_recipe, is_file};
+use super::{check_supply, find_recipe, is_file};
 use crate::console::Console;
+use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::marks;
 use crate::paths;
 use crate::protected;
 use crate::shell;
 use crate::whole_file;
 use serde_json::json;
+use snapshots::mint::Plan;
 use snapshots::{MANIFEST_FILE, Recipe, RecipeError, Reveal, RevealError, Secret, follow, read_secret};
 use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
@@ -23,13 +26,14 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         follow(&mut recipe, parent)?;
     }
     let name = &recipe.name;
-    let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
+    let out = out.map_or_else(|| secret_file(name), Path::to_path_buf);
     protected::check(&out)?;
     let chance =
         entropy().map_err(|error| Failure::environment(error, "the system provides no random bytes"))?;
     let secret = Secret::draw(name, recipe.committed(), chance);
     secret.check().map_err(|what| malformed!("the secret that was drawn: {what}; draw again"))?;
     let commitment = secret.commitment();
+    check(&recipe, &secret, console)?;
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
     let shown = out.display().to_string();
     let mut options = OpenOptions::new();
@@ -41,8 +45,9 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         }
         _ => Failure::environment(error, format!("cannot write `{shown}`")),
     })?;
+    let caveats = recipe.caveats();
     console.document(&json!({
-        "name": name, "commitment": commitment, "recipe": recipe.committed(), "secret": shown,
+        "name": name, "commitment": commitment, "recipe": recipe.committed(), "secret": shown, "caveats": caveats,
     }))?;
     // A recipe of the binary cannot be changed: it is copied to a file first.
     let copy = (!is_file(file)).then(|| PathBuf::from(format!("{}.toml", file.display())));
@@ -56,15 +61,42 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         mint.extend(["--parent".as_ref(), parent.as_os_str()]);
     }
     console.say(format_args!(
-        "in {}, in place of `seed`:\n\n    commitment = \"{commitment}\"\n",
+        "in {}, in place of `seed` or else above the first [table]:\n\n    commitment = \"{commitment}\"\n",
         recipe.display()
     ));
     console.say("change nothing else there: the commitment covers the whole recipe");
+    let mut log: Vec<&OsStr> =
+        ["log", "append", "log", "--secret", "log.key", "--commitment"].map(OsStr::new).into();
+    log.push(recipe.as_ref());
+    match parent {
+        Some(parent) => log.extend([OsStr::new("--parent"), parent.as_os_str()]),
+        None => log.push(OsStr::new("--first")),
+    }
+    console.say(format_args!("if you keep a log, enter it before:  {}", shell::command(log)));
     console.say(format_args!("mint it with:  {}", shell::command(mint)));
     console.say(format_args!(
         "keep {shown} private and do not lose it: the release cannot be minted without it",
     ));
+    caveats.iter().for_each(|caveat| console.say(format_args!("note: {caveat}")));
     Ok(true)
+}
+
+/// Checks before a commitment is public that the recipe can be minted: the commitment covers all of it.
+fn check(recipe: &Recipe, secret: &Secret, console: &Console) -> Result<(), Failure> {
+    let corpus = embedded::corpus()?;
+    // A beacon has no value yet, and the number of games that can be made hardly depends on it.
+    let minted = match &recipe.beacon {
+        Some(_) => Recipe { seed: Some(secret.seed.clone()), beacon: None, ..recipe.clone() },
+        None => Recipe { commitment: Some(secret.commitment()), ..recipe.clone() },
+    };
+    let secret = minted.commitment.map(|_| secret);
+    let plan = Plan::new(&minted, secret, &corpus)?.with_players(&marks::Players)?;
+    check_supply(&plan, console)
+}
+
+/// Returns the file that a secret is written to by default.
+pub(crate) fn secret_file(name: &str) -> PathBuf {
+    PathBuf::from(format!("{name}.secret.json"))
 }
 
 /// Returns random bytes of the operating system.

@@ -5,12 +5,13 @@ use crate::shell;
 use forge::card::{Card, Origin};
 use itertools::Itertools;
 use snapshots::mint::Minted;
+use snapshots::{Manifest, Recipe};
 use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::Path;
 
 /// Returns the minted release in words.
-pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> String {
+pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Option<f64>) -> String {
     let Minted { manifest, cards, card } = minted;
     let tally = &card.tally;
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
@@ -46,6 +47,9 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
         let _ = writeln!(text, "rejected: {}", tally.reasons());
     }
     let _ = writeln!(text, "\nroot {}\nin   {}", manifest.root, out.display());
+    for caveat in recipe.caveats() {
+        let _ = writeln!(text, "note: {caveat}");
+    }
     match manifest.commitment {
         None => {
             for (what, verb) in [("check it:     ", "verify"), ("mint it again:", "regenerate")] {
@@ -54,11 +58,24 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
         }
         Some(_) => {
             let (public, held) = (out.join("public"), out.join("held"));
+            let _ = writeln!(
+                text,
+                "check it:       {}",
+                shell::command([OsStr::new("verify"), public.as_os_str()])
+            );
             let _ = writeln!(text, "publish now:    {}", public.display());
             let _ = writeln!(text, "keep private until the reveal: {}", held.display());
         }
     }
     text
+}
+
+/// Returns the shortest answer: what was minted, its root and its place.
+pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
+    let levels: usize = minted.cards.iter().map(|card| card.levels.len()).sum();
+    let (games, levels) = (count(minted.cards.len(), "game"), count(levels, "level"));
+    let Manifest { name, root, .. } = &minted.manifest;
+    format!("{name}: {games}, {levels}; root {root} in {}", out.display())
 }
 
 /// Returns one new level as text, as an illustration.

@@ -37,7 +37,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "PATH")]
     out: Option<PathBuf>,
     /// A release to compare the opened one with
-    #[arg(long, value_name = "SNAPSHOT")]
+    #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     against: Option<PathBuf>,
     /// Snapshots, or folders of snapshots, to search for the releases before the opened one when it is verified, besides the folder
     /// that it is in and that of --against

@@ -35,8 +35,9 @@ pub(crate) fn workspace(
     if place == input::CORPUS && !path.exists() {
         return Ok(Workspace::new(Kind::Corpus, "the corpus", copies(here)?, corpus()?));
     }
-    if is_release(path)? {
-        return release(path, against, copies(here)?);
+    let public = paths::release(path.to_owned());
+    if is_release(&public)? {
+        return release(&public, against, copies(here)?);
     }
     if against.is_some() {
         bail!("--against compares releases, and {place} is none");

@@ -39,7 +39,7 @@ use trust::Signed;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst; with --proof, the item's file or the game's folder
-    #[arg(value_name = "SNAPSHOT")]
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
     /// Snapshots, or folders of snapshots, to search for the releases before this one
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "proof")]
@@ -129,7 +129,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.document(&document)?;
     say(&verification, args, signed.as_ref(), console);
     if let Some(chain) = &chain {
-        say_chain(chain, console);
+        say_chain(chain, &args.chain, console);
     }
     if let Some(written) = written {
         console.say(written);
@@ -189,8 +189,8 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
         (Some(_), _) => format!("root {root}, as given"),
         (None, Some(_)) => format!("root {root}"),
         (None, None) => format!(
-            "root {root}\nconsistent in itself; that it is the published release, only its published root shows: compare \
-             it, or give it with --root, or the publisher's key with --key"
+            "root {root}\nThe folder is consistent. To check that it is the published release, pass --root DIGEST or \
+             --key FILE."
         ),
     });
     if let Some(signed) = signed {
@@ -204,7 +204,7 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
     }
 }
 
-fn say_chain(chain: &Chain, console: &Console) {
+fn say_chain(chain: &Chain, folders: &[PathBuf], console: &Console) {
     for problem in &chain.problems {
         console.say(one_line(problem));
     }
@@ -219,7 +219,10 @@ fn say_chain(chain: &Chain, console: &Console) {
         console.say(format_args!("  {name:<width$}  {root}  {}", place.display()));
     }
     if chain.others > 0 {
-        console.say(format_args!("  not part of this chain: {} more of those given", chain.others));
+        let places: Vec<String> = folders.iter().map(|folder| format!("`{}`", folder.display())).collect();
+        let (others, belong) =
+            (count(chain.others, "other release"), if chain.others == 1 { "belongs" } else { "belong" });
+        console.say(format_args!("  {others} in {} {belong} to no part of this chain", places.join(", ")));
     }
 }
 

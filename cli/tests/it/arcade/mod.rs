@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex, PoisonError};
 use tempfile::TempDir;
 
 /// A folder with one mint of the recipe `tiny` in `tiny`, shared by the tests that only read it or a copy of it.
@@ -70,7 +70,63 @@ pub(crate) fn run(folder: &Path, args: &[&str], status: i32) -> Output {
     let output = arcade(folder).args(args).output().expect("the binary starts");
     let (out, err) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(output.status.code(), Some(status), "arcade {args:?}\n--- stdout\n{out}\n--- stderr\n{err}");
+    if !args.contains(&"--json") {
+        [out, err].iter().flat_map(|said| suggested(said)).for_each(|command| check_suggested(&command));
+    }
     output
+}
+
+/// The commands that an output suggests: in backticks, or after a colon to the end of the line.
+fn suggested(said: &str) -> Vec<Vec<String>> {
+    let mut found = Vec::new();
+    for line in said.lines() {
+        for (at, _) in line.match_indices("arcade ") {
+            let (before, rest) = line.split_at(at);
+            let command = match before.chars().next_back() {
+                Some('`') => rest.split('`').next(),
+                _ if before.ends_with(": ") => Some(rest),
+                _ => None,
+            };
+            found.extend(command.and_then(shlex::split));
+        }
+    }
+    found
+}
+
+/// Checks that a suggested command names a verb, flags of that verb, and pages of the manual that exist.
+#[track_caller]
+fn check_suggested(command: &[String]) {
+    static HELP: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
+    let help = |verbs: &[&str]| {
+        let mut known = HELP.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = known.entry(verbs.join(" ")).or_insert_with(|| {
+            let output = arcade(Path::new(".")).arg("help").args(verbs).output().expect("the binary starts");
+            assert!(output.status.success(), "no such verb is suggested: {command:?}");
+            text(&output.stdout)
+        });
+        text.clone()
+    };
+    let words: Vec<&str> = command.iter().skip(1).map(String::as_str).collect();
+    let Some((&verb, rest)) = words.split_first() else { return };
+    if verb == "help" || verb.starts_with('-') {
+        return;
+    }
+    let of_verb = help(&[verb]);
+    let flags = match rest.first() {
+        Some(part) if of_verb.contains("\nCommands:") && !part.starts_with('-') => help(&[verb, part]),
+        _ => of_verb,
+    };
+    for flag in rest.iter().filter_map(|word| word.strip_prefix("--")) {
+        let name = flag.split('=').next().unwrap_or_default().trim_end_matches([',', ';', '.', ')', ':']);
+        let is_known = flags.split_whitespace().any(|word| word.trim_end_matches(',') == format!("--{name}"));
+        assert!(is_known || name.is_empty(), "no flag --{name}: {command:?}");
+    }
+    if let ("docs", [page, ..]) = (verb, rest)
+        && !page.contains(char::is_uppercase)
+    {
+        let output = arcade(Path::new(".")).args(["docs", page]).output().expect("the binary starts");
+        assert!(output.status.success(), "no such page is suggested: {command:?}");
+    }
 }
 
 /// Commits to a recipe as `--commit` does, with a secret that is the same in every run: whether a recipe this small finds enough

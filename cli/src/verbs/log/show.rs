@@ -1,0 +1,29 @@
+//! `arcade log show`: the entries of a log, without a judgement.
+
+use super::{counted, line, open};
+use crate::console::Console;
+use crate::failure::Answer;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Lists the entries of a log. Nothing is checked: `arcade log check` needs the key of the log for that.
+///
+/// Example: arcade log show log
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The log's folder
+    #[arg(value_name = "LOG")]
+    log: PathBuf,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let log = open(&args.log)?;
+    let entries = log.entries()?;
+    let (origin, size) = (&log.checkpoint.origin, log.checkpoint.size);
+    console.document(&json!({ "origin": origin, "size": size, "entries": entries }))?;
+    for (number, entry) in entries.iter().enumerate() {
+        console.say(format_args!("{number:>5}  {}", line(entry, &entries)));
+    }
+    console.say(format_args!("{origin}: {}, not checked", counted(size)));
+    Ok(true)
+}

@@ -1,0 +1,46 @@
+//! The title and the authors of a release, for whoever cites it.
+
+/// The names to cite a release by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cited<'a> {
+    name: &'a str,
+    authors: &'a [String],
+    publisher: Option<&'a str>,
+}
+
+impl<'a> Cited<'a> {
+    /// The names of a release.
+    pub(crate) fn of(name: &'a str, authors: &'a [String], publisher: Option<&'a str>) -> Cited<'a> {
+        Cited { name, authors, publisher }
+    }
+
+    /// The title of the release.
+    pub(crate) fn title(&self) -> String {
+        match (self.publisher, self.authors) {
+            (Some(publisher), _) => format!("{publisher} {}", self.name),
+            (None, []) => format!("Infinite Arcade {}", self.name),
+            (None, _) => format!("{}, made with Infinite Arcade", self.name),
+        }
+    }
+
+    /// The authors: people, else the publisher, else those of the programs.
+    pub(crate) fn authors(&self) -> Vec<&str> {
+        match (self.authors, self.publisher) {
+            ([], Some(publisher)) => vec![publisher],
+            ([], None) => vec!["The Infinite Arcade authors"],
+            (authors, _) => authors.iter().map(String::as_str).collect(),
+        }
+    }
+
+    /// A sentence about the publisher and the authors; `None` if the recipe names neither.
+    pub(crate) fn sentence(&self) -> Option<String> {
+        match (self.publisher, self.authors) {
+            (None, []) => None,
+            (Some(publisher), []) => Some(format!("Published by {publisher}.")),
+            (None, authors) => Some(format!("By {}.", authors.join(", "))),
+            (Some(publisher), authors) => {
+                Some(format!("By {}. Published by {publisher}.", authors.join(", ")))
+            }
+        }
+    }
+}

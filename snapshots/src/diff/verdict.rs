@@ -1,0 +1,80 @@
+//! The sentence that sums up a comparison, and the order of the two releases.
+
+use super::Diff;
+use super::shifts::{DIFFICULTY, Shift};
+use crate::manifest::Manifest;
+use serde::Serialize;
+
+/// The p-value from which a difference may be due to chance.
+const CHANCE: f64 = 0.05;
+
+/// The order of two releases by the chain that they state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Order {
+    /// The later one follows the earlier one.
+    Follows,
+    /// The one that was given as the earlier follows the other.
+    Reversed,
+    /// Neither follows the other.
+    Unrelated,
+}
+
+impl Order {
+    /// The order of two releases of which `before` was given as the earlier.
+    pub(super) fn of(before: &Manifest, after: &Manifest) -> Order {
+        match (follows(after, before), follows(before, after)) {
+            (true, _) => Order::Follows,
+            (false, true) => Order::Reversed,
+            (false, false) => Order::Unrelated,
+        }
+    }
+}
+
+/// Tests whether a release names another as its parent, or lists it among those before.
+fn follows(later: &Manifest, earlier: &Manifest) -> bool {
+    let listed = later.recipe.get("known").and_then(|known| known.get("releases")?.as_array());
+    let is_listed = listed.is_some_and(|names| names.iter().any(|name| name.as_str() == Some(&earlier.name)));
+    later.parent == Some(earlier.root) || is_listed
+}
+
+/// The comparison in one sentence.
+pub(super) fn verdict(diff: &Diff) -> String {
+    if diff.before.root == diff.after.root {
+        return "The two have the same root: they are one release".to_owned();
+    }
+    let difficulty = diff.shifts.iter().find(|shift| shift.name == DIFFICULTY).map(difficulty);
+    let returned = diff.items.kept + diff.items.changed;
+    let levels =
+        if returned == 1 { "1 level returns".to_owned() } else { format!("{returned} levels return") };
+    let nearest = match &diff.neighbours.across {
+        Some(across) => format!("nearest pair {:.2}", across.min),
+        None => "no pair of games".to_owned(),
+    };
+    [difficulty.unwrap_or_default(), levels, nearest].join("; ")
+}
+
+fn difficulty(shift: &Shift) -> String {
+    let counted = |of: fn(&super::Share) -> usize| shift.shares.iter().map(of).sum::<usize>();
+    let (before, after) = (counted(|share| share.before), counted(|share| share.after));
+    let (distance, p) = match (before, after, shift.distance, shift.p) {
+        (0, 0, ..) => return "Difficulty was not measured (no `skill`)".to_owned(),
+        (0, ..) => {
+            return "Difficulty was measured in the later release only (the earlier has no `skill`)"
+                .to_owned();
+        }
+        (_, 0, ..) => {
+            return "Difficulty was measured in the earlier release only (the later has no `skill`)"
+                .to_owned();
+        }
+        (_, _, Some(distance), Some(p)) => (distance, p),
+        _ => return "Difficulty cannot be compared".to_owned(),
+    };
+    let unmeasured = shift.unmeasured.before + shift.unmeasured.after;
+    let partly = match unmeasured {
+        0 => String::new(),
+        _ => format!(", {unmeasured} levels not measured"),
+    };
+    let what = if p < CHANCE { "Difficulty differs" } else { "No difference of difficulty shows" };
+    format!("{what} ({distance:.2} apart, p = {p:.3}{partly})")
+}

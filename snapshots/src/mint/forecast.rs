@@ -1,0 +1,117 @@
+//! The cost of a mint before it begins.
+
+use super::plan::{ISLAND, Job, Plan};
+use super::puzzles::PuzzleKind;
+use validators::{Criteria, GATES};
+
+/// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
+/// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
+/// `skill` are guesses.
+const ARCHIVE: [f64; 3] = [PLAIN, 3.0, 3.0];
+const SEARCH: [f64; 3] = [PLAIN, 4.5, 4.5];
+const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.0];
+const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
+/// The mean cost of a level without gates where a search for a win may take [`PLAIN_BUDGET`] calls, the default. Most of it are
+/// searches in vain, whose cost is in proportion to the calls that they may take.
+const PLAIN: f64 = 2.0;
+const PLAIN_BUDGET: f64 = 3e6;
+/// The part of that cost which does not depend on the budget.
+const FIXED: f64 = 0.2;
+/// The mean cost of measuring the difficulty of a level without gates. With gates, few levels get that far.
+const LADDER: f64 = 0.8;
+/// The spread of the cost of a job from one seed to another: the standard deviation as a multiple of the mean. Without gates, a few
+/// searches in vain decide; with gates, every candidate is searched many times.
+const SPREAD_PLAIN: f64 = 1.9;
+const SPREAD_GATED: f64 = 0.7;
+/// An archive makes several games.
+const SPREAD_ARCHIVE: f64 = 0.4;
+const SPREAD_FIXED_RULES: f64 = 0.8;
+/// The standard normal deviate of the 95th percentile.
+const NINETY_FIVE: f64 = 1.645;
+/// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
+const SECOND_WINS: f64 = 1.2;
+/// The calls of a search for a win for which the costs with gates hold.
+const GATED_BUDGET: f64 = 1e6;
+
+/// The cost to expect of some jobs, in seconds of one core.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forecast {
+    /// The median over all seeds.
+    pub median: f64,
+    /// The 95th percentile over all seeds: one mint in twenty costs more.
+    pub tail: f64,
+}
+
+impl Forecast {
+    /// The forecast for a machine that takes so many times as long.
+    pub fn times(self, slowness: f64) -> Forecast {
+        Forecast { median: self.median * slowness, tail: self.tail * slowness }
+    }
+}
+
+impl Plan<'_> {
+    /// The expected total cost of jobs on the machine that docs/recipes.md describes. The sum of the jobs is taken as log-normal
+    /// with the mean and the variance of the sum (L. F. Fenton, 1960): few jobs have a long tail, many have none.
+    pub fn forecast(&self, jobs: &[Job]) -> Forecast {
+        let costs = jobs.iter().map(|&job| self.cost(job));
+        let (mean, variance) = costs.fold((0.0, 0.0), |(mean, variance), (cost, spread)| {
+            (mean + cost, variance + cost * cost * spread * spread)
+        });
+        if mean <= 0.0 {
+            return Forecast { median: 0.0, tail: 0.0 };
+        }
+        let relative = 1.0 + variance / (mean * mean);
+        let median = mean / relative.sqrt();
+        Forecast { median, tail: median * libm::exp(NINETY_FIVE * libm::log(relative).sqrt()) }
+    }
+
+    /// The mean cost of a job in seconds of one core, and its spread.
+    fn cost(&self, job: Job) -> (f64, f64) {
+        let usual = Criteria::default();
+        let is_gated = |criteria: &Criteria| GATES.iter().any(|gate| criteria.includes(gate));
+        let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
+            let budget = criteria.budget as f64;
+            let (base, share, ladder) = match is_gated(criteria) {
+                // Where gates are asked, three quarters of the cost are searches for a win, most of them in vain.
+                true => (gated, 0.25 + 0.75 * budget / GATED_BUDGET, skill - gated),
+                false => (plain, FIXED + (1.0 - FIXED) * budget / PLAIN_BUDGET, LADDER),
+            };
+            // Decisions cost about a third of what the other judges cost.
+            let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
+            let played = match criteria.includes("skill") {
+                true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
+                false => 0.0,
+            };
+            f64::from(levels) * (base * share * thought + ladder * played)
+        };
+        let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
+        let puzzle_levels = |kind: PuzzleKind| kind.part(self.recipe).map_or(0, |part| part.levels);
+        let (levels, is_certain) = match job {
+            Job::Archive(_) => (ISLAND * new, false),
+            Job::Search(_) | Job::Constructive(_) => (new, false),
+            Job::Corpus(_) => (old, false),
+            Job::Puzzle(kind, _) => (puzzle_levels(kind), true),
+        };
+        let criteria = match job {
+            Job::Corpus(_) => self.corpus_criteria(),
+            _ => &self.recipe.criteria,
+        };
+        let made = match job {
+            Job::Archive(_) => of(ARCHIVE, levels, criteria),
+            Job::Search(_) => of(SEARCH, levels, criteria),
+            Job::Constructive(_) => of(CONSTRUCTIVE, levels, criteria),
+            Job::Corpus(_) => of(CORPUS, levels, criteria),
+            Job::Puzzle(kind, _) => of([kind.seconds(); 3], levels, criteria),
+        };
+        let spread = match job {
+            Job::Corpus(_) | Job::Puzzle(..) => SPREAD_FIXED_RULES,
+            Job::Archive(_) => SPREAD_ARCHIVE,
+            _ if is_gated(criteria) => SPREAD_GATED,
+            _ => SPREAD_PLAIN,
+        };
+        let tossed = if self.recipe.memory.is_some_and(|part| part.witnesses) { SECOND_WINS } else { 1.0 };
+        let marks =
+            f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain));
+        (tossed * made + marks, spread)
+    }
+}

@@ -1,0 +1,78 @@
+//! The number of games that a recipe can have at most.
+
+use super::MintError;
+use super::plan::{ISLAND, Job, Plan};
+use super::puzzles::PuzzleKind;
+use forge::levels::Method;
+
+/// The number of games for which the first sets of all kernels suffice, without counting them.
+const FEW: usize = 40;
+
+impl Plan<'_> {
+    /// Checks that there are rules for as many games as the recipe asks for. Returns the maximum number of new games if the recipe asks
+    /// for most of them: some candidates fail, so that fewer may pass than are asked for. Cost: up to some seconds where the recipe asks
+    /// for more games than there are kernels.
+    ///
+    /// # Errors
+    /// There are fewer sets of rules than games.
+    pub fn supply(&self) -> Result<Option<usize>, MintError> {
+        if !self.before.is_empty() {
+            PuzzleKind::ALL.into_iter().try_for_each(|kind| self.puzzle_supply(kind))?;
+        }
+        let part = &self.recipe.generated;
+        let asked = part.games as usize;
+        if asked == 0 || (asked <= FEW && part.kinds.is_empty() && self.before.is_empty()) {
+            return Ok(None);
+        }
+        let count = |is: fn(&Job) -> bool| self.jobs().iter().filter(|job| is(job)).count();
+        let ways = [
+            (Method::Constructive, count(|job| matches!(job, Job::Constructive(_)))),
+            (Method::Search, count(|job| matches!(job, Job::Search(_)))),
+            (Method::Evolutionary, count(|job| matches!(job, Job::Archive(_))) * ISLAND as usize),
+        ];
+        let ways = ways.into_iter().filter(|(_, games)| *games > 0);
+        let most: usize = ways.map(|(method, games)| self.rule_sets().count(method, games)).sum();
+        if most >= asked {
+            return Ok((most < asked + asked / 4).then_some(most));
+        }
+        let kinds = part.kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ");
+        let (of, more) = match part.kinds.is_empty() {
+            true => (String::new(), ""),
+            false => (format!(" of the kinds {kinds}"), ", or name more kinds"),
+        };
+        let new = if self.before.is_empty() { "" } else { " that no earlier release has used" };
+        Err(MintError::Unfillable {
+            part: "generated",
+            asked,
+            most,
+            why: format!("no two games share their rules, and there are {most} sets of rules{of}{new}"),
+            advice: format!("lower `generated.games` to {most} or less{more}"),
+        })
+    }
+
+    /// Checks that earlier releases have left enough rules for the puzzles of a kind.
+    fn puzzle_supply(&self, kind: PuzzleKind) -> Result<(), MintError> {
+        let asked = kind.part(self.recipe).map_or(0, |part| part.games as usize);
+        let is_open = |job: &&Job| match **job {
+            Job::Puzzle(of, number) => {
+                let form = || kind.form(number as usize % kind.rules());
+                of == kind && !self.before.iter().any(|known| known.is_near(&form()))
+            }
+            _ => false,
+        };
+        let most = self.jobs().iter().filter(is_open).count();
+        if most >= asked {
+            return Ok(());
+        }
+        let part = kind.section();
+        Err(MintError::Unfillable {
+            part,
+            asked,
+            most,
+            why: "earlier releases have used the other sets of rules".to_owned(),
+            advice: format!(
+                "lower `{part}.games`, leave the section out, or begin a new chain without --parent"
+            ),
+        })
+    }
+}

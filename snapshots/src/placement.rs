@@ -1,0 +1,66 @@
+//! Advice on a key of a recipe that is known, but stands in the wrong table.
+
+use crate::recipe::{CorpusPart, GeneratedPart};
+use forge::games::Board;
+use generators::games::Kind;
+use serde::Serialize;
+use validators::Criteria;
+
+/// Keys of the recipe as a whole, which stand above its first table.
+const HEAD: [&str; 7] = ["name", "description", "authors", "publisher", "seed", "commitment", "parent"];
+/// Tables of a recipe.
+const TABLES: [&str; 14] = [
+    "beacon",
+    "board",
+    "corpus",
+    "criteria",
+    "difficulty",
+    "generated",
+    "locks",
+    "marks",
+    "memory",
+    "puzzles",
+    "strays",
+    "taxonomy",
+    "tiers",
+    "yards",
+];
+
+/// Returns advice on a key that is known, but not where it stands: a line that is appended to a file belongs to its last table.
+pub(crate) fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
+    let key = error.message().strip_prefix("unknown field `")?.split('`').next()?;
+    let recipe: toml::Table = toml::from_str(text).ok()?;
+    let holds = |value: &toml::Value| value.as_table().is_some_and(|table| table.contains_key(key));
+    if let Some((table, _)) = recipe.iter().find(|(_, value)| holds(value)) {
+        if HEAD.contains(&key) {
+            return Some(format!(
+                "`{key}` stands in the table [{table}] here, and belongs to the recipe as a whole: move it above the first [table]"
+            ));
+        }
+        if TABLES.contains(&key) {
+            return Some(format!("`{key}` is a table of its own: write [{key}] instead of [{table}.{key}]"));
+        }
+    }
+    if !recipe.contains_key(key) && !recipe.values().any(holds) {
+        return None;
+    }
+    let known = [
+        ("generated", keys_of(&GeneratedPart { kinds: vec![Kind::KeyAndDoor], ..GeneratedPart::default() })),
+        ("corpus", keys_of(&CorpusPart::default())),
+        ("criteria", keys_of(&Criteria::default())),
+        ("board", keys_of(&Board::default())),
+    ];
+    let tables: Vec<String> = known
+        .iter()
+        .filter(|(_, keys)| keys.iter().any(|known| known == key))
+        .map(|(table, _)| format!("[{table}]"))
+        .collect();
+    (!tables.is_empty())
+        .then(|| format!("`{key}` belongs in {}: move it below that line", tables.join(" or ")))
+}
+
+/// Returns the keys of a table.
+fn keys_of(table: &impl Serialize) -> Vec<String> {
+    let value = serde_json::to_value(table).expect("a part of a recipe is plain data");
+    value.as_object().map_or_else(Vec::new, |keys| keys.keys().cloned().collect())
+}
