@@ -247,6 +247,21 @@ impl Study {
                  correlations and failure modes are of {first}."
             ));
         }
+        let mut stops: BTreeMap<(usize, String), u64> = BTreeMap::new();
+        for episode in &self.episodes {
+            let ending = episode.metrics.ending.as_ref().filter(|_| episode.metrics.counts());
+            if let Some(limit) = ending.and_then(|ending| ending.stop) {
+                *stops.entry((episode.game, limit.to_string())).or_default() += 1;
+            }
+        }
+        for ((game, limit), episodes) in stops {
+            let were = if episodes == 1 { "episode was" } else { "episodes were" };
+            self.notes.push(format!(
+                "{episodes} {were} stopped by the engine in {} ({limit}). They count as not won, but say nothing about the players. \
+                 Repair the game; `arcade validate` shows the reason.",
+                self.title(game)
+            ));
+        }
         let broken = self.episodes.iter().filter(|episode| !episode.metrics.counts()).count();
         if broken > 0 {
             self.notes.push(format!(

@@ -151,6 +151,7 @@ impl Study {
                 EndingKind::Otherwise => "were lost by the rules of the game",
                 EndingKind::StepLimit => "reached the limit of steps",
                 EndingKind::NoWinner => "ended without a winner",
+                EndingKind::Stopped => "were stopped by the engine, which says nothing about the player",
             };
             let most = causes().filter(|row| row.kind == *kind).find_map(|row| {
                 let times =
