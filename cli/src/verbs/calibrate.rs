@@ -133,7 +133,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         .map_err(stopped)?;
         for StoppedEpisodes { game, reason, episodes } in &tally.stopped {
             console.remark(format_args!(
-                "warning: the engine stopped {} of {} in {game}: {reason}; they count as not won, but say nothing about the player",
+                "warning: the engine stopped {} of {} in {game}: {reason}; they are left out",
                 crate::counted::count(*episodes as usize, "episode"),
                 examinee.name
             ));

@@ -20,7 +20,7 @@ const DECISIONS: usize = 100;
 /// The start of a marked decision: a tag, a box, or a word with a sign after it.
 static MARK: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
-        r#"(?i)<\|?(?P<tag>(?:final[_ ]?)?(?:answer|action|move|choice|decision))\|?>|(?P<box>\\boxed\{)|(?-u:\b)(?P<key>(?:[a-z]{1,12}_)?actions?|(?:[a-z]{1,12}_)?(?:answer|move|choice|decision))(?P<quote>["']?)[*`_]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒)"#,
+        r#"(?i)<\|?(?P<tag>(?:final[_ ]?)?(?:answer|action|move|choice|decision))\|?>|(?P<box>\\boxed\{)|(?-u:\b)(?P<key>(?:[a-z]{1,12}_)?actions?|(?:[a-z]{1,12}_)?(?:answer|move|choice|decision))(?P<quote>["']?)[*`_\])]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒)"#,
     )
 });
 

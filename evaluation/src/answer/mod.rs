@@ -370,6 +370,7 @@ mod tests {
             "ACTION: up!",
             "ACTION: “up”",
             "ACTION: [up]",
+            "[ACTION]: up",
             "ACTION -> up",
             "ACTION:\nup",
             "**ACTION:**\n\n**up**",

@@ -64,9 +64,9 @@ pub(crate) struct Args {
     /// Only these levels, by number (`--games`, `--levels` and `--max-requests` limit an evaluation)
     #[arg(long, value_name = "N", value_delimiter = ',')]
     levels: Vec<usize>,
-    /// Forward-model calls of a decision, for planners without a number of their own
-    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
-    budget: u64,
+    /// Forward-model calls of a decision, for planners without a number of their own [default: 1000]
+    #[arg(long, value_name = "CALLS")]
+    budget: Option<u64>,
     /// Episodes on each level
     #[arg(long, value_name = "N", default_value_t = 1)]
     runs: u64,
@@ -104,6 +104,9 @@ pub(crate) struct Args {
     #[command(flatten)]
     model: ModelArgs,
 }
+
+/// The default of --budget.
+const BUDGET: u64 = 1000;
 
 /// The default of --max-steps.
 const MAX_STEPS: u64 = 1000;

@@ -1,9 +1,9 @@
 //! The player that a user asks for, and its connection to the episodes.
 
-use super::Args;
 use super::human::Human;
 use super::mailbox::RequestedMailbox;
 use super::model::{self, ConnectedModel};
+use super::{Args, BUDGET};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::verbs::player_guard;
@@ -56,7 +56,7 @@ impl RequestedPlayer {
         let (name, details) = match self {
             RequestedPlayer::Model(model) => return model.entrant(subjects, args),
             RequestedPlayer::Planner(spec) => {
-                let budget = spec.budget().unwrap_or(Budget(args.budget));
+                let budget = spec.budget().unwrap_or(Budget(args.budget.unwrap_or(BUDGET)));
                 let looks_ahead =
                     !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil" | "nearest-goal");
                 let name = match looks_ahead {
@@ -127,7 +127,7 @@ impl RequestedPlayer {
     ) -> Result<Connected, Failure> {
         let contestant: PlayerOf = match self {
             RequestedPlayer::Planner(spec) => {
-                let (spec, budget) = (spec.clone(), Budget(args.budget));
+                let (spec, budget) = (spec.clone(), Budget(args.budget.unwrap_or(BUDGET)));
                 Box::new(move |_| Contestant::Planner { spec: spec.clone(), budget })
             }
             RequestedPlayer::Replay(replay) => {
@@ -201,6 +201,11 @@ impl RequestedPlayer {
 
 /// Refuses flags that would have no effect: a user who gives them expects one.
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
+    if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
+        bail!(
+            "--budget applies to planners only, such as --player mcts; remove it (`planner:mcts:300` has its number in the name)"
+        );
+    }
     if matches!(requested, RequestedPlayer::Model(_)) {
         return match args.jobs {
             Some(_) => Err(malformed!(
