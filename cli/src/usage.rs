@@ -104,8 +104,8 @@ fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg).filter(|_| is_unknown) else {
         return None;
     };
-    let verb = arguments.get(1)?.to_str()?;
-    (verb == "evaluate" && flag == "--limit").then(|| {
+    let is_evaluation = arguments.iter().any(|argument| argument == "evaluate");
+    (is_evaluation && flag == "--limit").then(|| {
         "error: unexpected argument '--limit': limit an evaluation by --levels, --games or --max-requests\n\n\
          For more information, try '--help'.\n"
             .to_owned()

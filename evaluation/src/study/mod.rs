@@ -56,6 +56,7 @@ use crate::subject::{LevelMark, Subject};
 use itertools::Itertools;
 use report::Table;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 const LEVEL: f64 = 0.95;
 /// The maximum number of rows of a comparison table in a report; the data has all.

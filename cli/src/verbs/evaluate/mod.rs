@@ -339,7 +339,7 @@ fn print_results(
         1 => format!("; 1 of the episodes is for practice, and {} count", episodes - 1),
         _ => format!("; {practice} of the episodes are for practice, and {} count", episodes - practice),
     };
-    let counted = ended.saturating_sub(*practice);
+    let counted = ended.saturating_sub(tally.practice);
     let interval = wilson(*won, counted, Z95);
     let rate = match counted {
         0 => String::new(),
@@ -385,11 +385,11 @@ fn print_results(
     };
     console.say(format_args!("results in {}", folder.display()));
     if *ended > 0 {
-        let names = (1..).map(|number| match number {
+        let mut names = (1..).map(|number| match number {
             1 => PathBuf::from("report"),
             _ => PathBuf::from(format!("report-{number}")),
         });
-        let report = names.into_iter().find(|name| !name.exists()).unwrap_or_default();
+        let report = names.find(|name| !name.exists()).unwrap_or_default();
         let words = [Path::new("report"), folder, Path::new("--out"), &report];
         console.say(format_args!("now: {}", shell::command(words)));
     }

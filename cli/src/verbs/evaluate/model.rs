@@ -444,7 +444,7 @@ impl RequestedModel {
         let price = client::price(&self.options)?;
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
-        let batches = self.batches(tasks, answer, Task::most_decisions)?;
+        let batches = self.batches(tasks, answer, |task| task.most_decisions())?;
         let known = |task: &Task<'_>| task.subject.facts.known_wins.get(&task.level.number).copied();
         let estimated = match tasks.iter().all(|task| known(task).is_some()) {
             true => {
