@@ -134,7 +134,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         for StoppedEpisodes { game, reason, episodes } in &tally.stopped {
             console.remark(format_args!(
                 "warning: the engine stopped {} of {} in {game}: {reason}; they are left out",
-                crate::counted::count(*episodes as usize, "episode"),
+                count(*episodes as usize, "episode"),
                 examinee.name
             ));
         }

@@ -258,7 +258,7 @@ impl Study {
         for ((game, limit), episodes) in stops {
             let were = if episodes == 1 { "episode was" } else { "episodes were" };
             self.notes.push(format!(
-                "{episodes} {were} stopped by the engine in {} ({limit}). They count as not won, but say nothing about the players. \
+                "{episodes} {were} stopped by the engine in {} ({limit}). Such episodes count as not won, but say nothing about the players. \
                  Repair the game; `arcade validate` shows the reason.",
                 self.title(game)
             ));
