@@ -310,7 +310,7 @@ mod tests {
     fn too_few_coins_cannot_tell() {
         assert_eq!([1, 2, 4].map(|tests| needed(ALPHA / f64::from(tests))), [7, 8, 9]);
         let few = |count: usize| {
-            let mut seen = player(|game, own| (own == 0, BEGINNINGS[0]));
+            let mut seen = player(|_, own| (own == 0, BEGINNINGS[0]));
             seen.episodes.retain(|(game, ..), _| {
                 (0..count).any(|at| [0, 1].iter().any(|&side| digest("game", at, side) == *game))
             });
