@@ -29,7 +29,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
             console.printed(error.print());
             return console.finish(Ok(true));
         }
-        let message = in_words(&error);
+        let message = in_words(&error).or_else(|| other_name(&error, arguments));
         // Colours are for terminals; programs read the first line of the document instead.
         let told = message.as_ref().map_or_else(|| error.render().to_string(), Clone::clone);
         match message {
@@ -96,6 +96,20 @@ fn in_words(error: &clap::Error) -> Option<String> {
     Some(format!(
         "error: invalid value '{value}' for '{flag}': {what}\n\nFor more information, try '--help'.\n"
     ))
+}
+
+/// Returns the flags that do what a flag of other harnesses does, instead of one that only looks like it.
+fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
+    let is_unknown = error.kind() == ErrorKind::UnknownArgument;
+    let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg).filter(|_| is_unknown) else {
+        return None;
+    };
+    let is_evaluation = arguments.iter().any(|argument| argument == "evaluate");
+    (is_evaluation && flag == "--limit").then(|| {
+        "error: unexpected argument '--limit': limit an evaluation by --levels, --games or --max-requests\n\n\
+         For more information, try '--help'.\n"
+            .to_owned()
+    })
 }
 
 #[cfg(test)]

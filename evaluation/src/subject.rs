@@ -3,6 +3,7 @@
 use crate::commitment::Commitment;
 use engine::{Analysis, Diagnostics, Game, Level, Seed, StateHash, describe};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// A game with its levels and the known facts beyond its rules.
@@ -100,6 +101,12 @@ pub struct SubjectFacts {
     /// The marks that its release keeps of the levels played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
+    /// The name of its release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub release: Option<String>,
+    /// The ticks of the shortest known win of each level, by number, as far as its release tells them.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub known_wins: BTreeMap<usize, u64>,
 }
 
 /// The result of a player that never changes on a level, as a release keeps it.

@@ -244,12 +244,19 @@ def win() -> Scorer:
             value=won / len(counted),
             answer=", ".join(one["outcome"] for one in counted),
             explanation="; ".join(
-                f"level {one['level']}: {one['outcome']} after {one['steps']} steps with score {one['score']}" for one in counted
+                f"level {one['level']}: {one['outcome']} after {one['steps']} steps with score {one['score']}{_stop(one)}"
+                for one in counted
             ),
             metadata={"episodes": played},
         )
 
     return score
+
+
+def _stop(episode: dict[str, Any]) -> str:
+    """The reason of the engine, which says nothing about the model."""
+    reason = episode["stopped_by"]
+    return "" if reason is None else f" (stopped by the engine: {reason})"
 
 
 @scorer(metrics=[mean(), stderr(cluster="game")])

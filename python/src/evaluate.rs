@@ -372,6 +372,11 @@ impl Series {
             entry.set_item("level", played.level)?;
             entry.set_item("level_digest", &played.level_digest)?;
             entry.set_item("outcome", played.result.as_ref().ok().map(|outcome| outcome_name(*outcome)))?;
+            let stopped = match played.result {
+                Ok(Outcome::Stopped(limit)) => Some(limit.to_string()),
+                _ => None,
+            };
+            entry.set_item("stopped_by", stopped)?;
             entry.set_item("halted", played.result.as_ref().err())?;
             entry.set_item("practice", played.is_practice)?;
             entry.set_item("log", &played.log)?;
@@ -446,6 +451,10 @@ pub(crate) fn replay_log(
         Ok::<_, PyErr>(json!({
             "actions": replayed.actions,
             "outcome": outcome_name(replayed.outcome),
+            "stopped_by": match replayed.outcome {
+                Outcome::Stopped(limit) => Some(limit.to_string()),
+                _ => None,
+            },
             "score": replayed.score,
             "steps": replayed.actions.len(),
             "hash": hash,

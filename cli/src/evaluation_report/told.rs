@@ -33,6 +33,7 @@ impl Told {
             words::many(levels, "level")
         );
         let mut counted = vec![episodes(study), common(study, levels)];
+        counted.extend(citation(evaluations));
         counted.extend(answers(study));
         counted.push(
             "Intervals are for 95 %. A dash is a value that is not known, never 0. `arcade docs report` explains each section, \
@@ -75,6 +76,20 @@ impl Told {
 
 fn levels(study: &Study) -> u64 {
     study.games.iter().map(|game| game.levels.len() as u64).sum()
+}
+
+/// Returns the line to cite the result by, if all results are on releases.
+fn citation(evaluations: &[Evaluation]) -> Option<String> {
+    let one = |evaluation: &Evaluation| {
+        let root = evaluation.settings.snapshot?;
+        let release = evaluation.subjects.iter().find_map(|subject| subject.facts.release.clone());
+        let name = release.map_or_else(|| "release".to_owned(), |name| format!("release {name}"));
+        let suite = &evaluation.settings.suite;
+        Some(format!("Infinite Arcade, {name}, root {root}, evaluated with arcade {suite}"))
+    };
+    let cited: Option<BTreeSet<String>> = evaluations.iter().map(one).collect();
+    let cited = cited?.into_iter().join("; ");
+    (!cited.is_empty()).then(|| format!("Cite this result as: {cited}."))
 }
 
 /// `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an episode, semantics 2, arcade 0.1.0`.

@@ -8,7 +8,7 @@ use crate::verbs::release::in_pool;
 use crate::verbs::scale::left_out;
 use crate::{interrupt, protected, whole_file};
 use engine::SEMANTICS;
-use evaluation::run::{FORMAT, PlayResult, Progress, SubjectEntry, Task};
+use evaluation::run::{FORMAT, PlayResult, Progress, StoppedEpisodes, SubjectEntry, Task};
 use evaluation::scale::{EXAMINEES, Examinee, PersonPlays, ScaleFile, Span, examinee_named, played};
 use evaluation::{Commitment, Evaluation, EvaluationError, Halt, Settings};
 use indicatif::ProgressBar;
@@ -131,6 +131,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             evaluation.run(|task: &Task<'_>| Ok::<_, Halt>(players(&task.subject.id)), &bar)
         })?
         .map_err(stopped)?;
+        for StoppedEpisodes { game, reason, episodes } in &tally.stopped {
+            console.remark(format_args!(
+                "warning: the engine stopped {} of {} in {game}: {reason}; they are left out",
+                count(*episodes as usize, "episode"),
+                examinee.name
+            ));
+        }
         if let Some(why) = tally.halted {
             return Err(Failure::environment(
                 anyhow::anyhow!("{}: {why}", examinee.name),

@@ -7,8 +7,8 @@ use crate::shell;
 use crate::verbs::export;
 use crate::verbs::release::in_pool;
 use evaluation::contamination::{
-    ALPHA, Coins, Contamination, GameCoin, LevelCoin, PlayerMemory, Power, SideTest, contamination, design,
-    episodes_by_player,
+    ALPHA, Coins, Contamination, Evidence, GameCoin, LevelCoin, PlayerMemory, Power, SideTest, contamination,
+    design, episodes_by_player,
 };
 use serde_json::json;
 use snapshots::ReleaseKind;
@@ -22,11 +22,11 @@ use std::path::PathBuf;
 /// A sealed release whose recipe has [memory] holds coins: of two renamings of each game, and of two wins of each level, a coin
 /// published one and withheld the other. A player that knows nothing of what was published cannot tell them apart, so the tests
 /// are exact: does it win more often on the published games than on their siblings, and does its play begin like the published
-/// wins rather than like the withheld ones? All tests together err in 1 % of clean players at most. They speak of players that
-/// were made before the whole release was revealed (see `arcade docs memory`). Without RESULTS, prints what the tests would find
-/// if every level were played once.
+/// wins rather than like the withheld ones? At most 1 % of clean models are flagged. The tests are valid for models trained before
+/// the full reveal (see `arcade docs memory`). An open release, such as `starter`, has no coins and cannot be tested. Without
+/// RESULTS, prints what the tests would find if every level were played once.
 ///
-/// Exit status 0: consistent with not having seen. 1: somebody has seen something. 2: malformed, or nothing could be tested.
+/// Exit status 0: consistent with not having seen, or too few coins to tell. 1: somebody has seen something. 2: malformed, or nothing could be tested.
 ///
 /// Example: arcade contamination results/a-model results/a-model-siblings --release releases/2027-01
 #[derive(clap::Args)]
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         count(*tests as usize, "test")
     ));
     for player in players {
-        say(player, args, console);
+        say(player, found.needed, args, console);
     }
     Ok(!players.iter().any(|player| player.evidence.is_seen()))
 }
@@ -153,8 +153,13 @@ fn next(args: &Args) -> String {
     format!("play the release and its siblings: {published}; {export}; {siblings}")
 }
 
-fn say(player: &PlayerMemory, args: &Args, console: &Console) {
-    console.say(format_args!("\n{}: {}", player.player, player.evidence.words()));
+fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
+    let coins = player.solutions.iter().chain(&player.games).map(|test| test.coins).max().unwrap_or(0);
+    let why = match player.evidence {
+        Evidence::CannotTell => format!(": {}, at least {needed} needed", count(coins as usize, "coin")),
+        _ => String::new(),
+    };
+    console.say(format_args!("\n{}: {}{why}", player.player, player.evidence.words()));
     if let Some(power) = weak(player) {
         console.say(format_args!(
             "  these episodes say little: a player that knows half of the levels would be found with probability {power:.2}"
@@ -209,7 +214,12 @@ fn say_power(power: &[Power], console: &Console) {
         ("by its games", |power| power.games),
     ] {
         if power.iter().any(|power| of(power).is_some()) {
-            let shares = row(&|power| of(power).map_or(String::new(), |found| format!("{found:>5.2}")));
+            let shares = row(&|power| {
+                of(power).map_or(String::new(), |found| {
+                    // Sums of rounded terms may end just below zero.
+                    format!("{:>5.2}", if found < 0.005 { 0.0 } else { found })
+                })
+            });
             console.say(format_args!("    {what:<48} {shares}"));
         }
     }

@@ -39,6 +39,15 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     // A folder that is taken is reported before the work.
+    if std::fs::read_dir(&args.out).is_ok_and(|mut entries| entries.next().is_some()) {
+        let mut names = (2..).map(|number| PathBuf::from(format!("{}-{number}", args.out.display())));
+        let free = names.find(|free| !free.exists()).unwrap_or_default();
+        bail!(
+            "`{}` is not empty, and a report replaces nothing: delete it, or pass --out {}",
+            args.out.display(),
+            crate::shell::quoted(&free)
+        );
+    }
     let draft = protected::draft(&args.out)?;
     let open = |folder: &PathBuf| Evaluation::open(folder);
     let evaluations = args.results.iter().map(open).collect::<Result<Vec<_>, EvaluationError>>();

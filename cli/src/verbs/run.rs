@@ -1,12 +1,14 @@
 //! `arcade run`: win rates of planners.
 
 use crate::console::{Console, Stopwatch};
+use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::input;
+use crate::shell;
 use crate::verbs::release::in_pool;
 use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};
-use engine::{Game, Level, Outcome, SEMANTICS, Seed};
+use engine::{Game, Level, Limit, Outcome, SEMANTICS, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
 use statistics::{Summary, Z95, wilson};
@@ -16,6 +18,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
+///
+/// Exit status 0: done. 1: the engine stopped an episode, because of a fault of its game: such a rate says nothing about the player.
 ///
 /// Example: arcade run corpora --planner random,mcts,olets:500 --budget 1000 --runs 5
 #[derive(clap::Args)]
@@ -32,7 +36,7 @@ pub(crate) struct Args {
     /// Episodes of each planner on each level
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     runs: u64,
-    /// The most ticks of an episode
+    /// Maximum number of ticks per episode
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     max_ticks: u64,
     /// Text to derive all seeds from
@@ -76,6 +80,9 @@ struct Line<'a> {
     level: usize,
     run: u64,
     outcome: &'static str,
+    /// The reason why the engine stopped it.
+    #[serde(skip)]
+    stop: Option<Limit>,
     score: f64,
     ticks: usize,
     calls: u64,
@@ -91,7 +98,17 @@ struct Report<'a> {
     runs: u64,
     max_ticks: u64,
     as_reference: bool,
+    /// The episodes that the engine stopped.
+    stopped: Vec<Stopped<'a>>,
     rows: Vec<Row<'a>>,
+}
+
+/// Episodes of a game that the engine stopped for one reason.
+#[derive(Serialize)]
+struct Stopped<'a> {
+    game: &'a str,
+    reason: String,
+    plays: u64,
 }
 
 /// The results of some episodes of one planner.
@@ -106,6 +123,8 @@ struct Row<'a> {
     plays: u64,
     wins: u64,
     losses: u64,
+    /// The plays that the engine stopped.
+    stopped: u64,
     interval: [f64; 2],
     mean_score: f64,
     mean_ticks: f64,
@@ -141,15 +160,37 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         runs: args.runs,
         max_ticks: args.max_ticks,
         as_reference: args.as_reference,
+        stopped: stopped(&lines),
         rows: rows(args, &subjects, &planners, &lines),
     };
     // Print the answer first: it is not lost if the file cannot be written.
     console.document(&report)?;
     console.say(table(&report.rows).trim_end());
+    for Stopped { game, reason, plays } in &report.stopped {
+        let of = lines.iter().filter(|line| line.game == *game).count();
+        console.say(format_args!(
+            "{game}: the engine stopped {plays} of {}: {reason}; the rates say nothing about the players, and {} shows the fault",
+            count(of, "episode"),
+            shell::command([Path::new("validate"), Path::new(game)])
+        ));
+    }
     if let Some(path) = &args.csv {
         whole_file::write(path, &csv(&lines).map_err(|error| Failure::environment(error, path.display()))?)?;
     }
-    Ok(true)
+    Ok(report.stopped.is_empty())
+}
+
+/// Returns the episodes that the engine stopped, by game and reason.
+fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
+    let mut stops: Vec<Stopped<'a>> = Vec::new();
+    for line in lines {
+        let Some(reason) = line.stop.map(|limit| limit.to_string()) else { continue };
+        match stops.iter_mut().find(|stop| stop.game == line.game && stop.reason == reason) {
+            Some(stop) => stop.plays += 1,
+            None => stops.push(Stopped { game: line.game, reason, plays: 1 }),
+        }
+    }
+    stops
 }
 
 /// Refuses a planner that is named twice with the same budget: its episodes would be counted twice.
@@ -221,6 +262,10 @@ fn play_entry<'a>(args: &Args, entry: &'a Entry<'a>) -> Line<'a> {
             Outcome::Ended => "ended",
             Outcome::Stopped(_) => "stopped",
         },
+        stop: match played.episode.outcome {
+            Outcome::Stopped(limit) => Some(limit),
+            _ => None,
+        },
         score: played.episode.score,
         ticks: played.episode.actions.len(),
         calls: played.calls,
@@ -259,12 +304,12 @@ fn rows<'a>(
                 && level.is_none_or(|level| level == line.level)
         };
         let lines: Vec<&Line<'_>> = lines.iter().filter(is_own).collect();
-        let count = |outcome| lines.iter().filter(|line| line.outcome == outcome).count() as u64;
+        let outcomes = |outcome| lines.iter().filter(|line| line.outcome == outcome).count() as u64;
         let mean = |of: fn(&Line<'_>) -> f64| {
             let values: Vec<f64> = lines.iter().map(|line| of(line)).collect();
             Summary::of(&values).map_or(0.0, |summary| summary.mean)
         };
-        let (plays, wins) = (lines.len() as u64, count("won"));
+        let (plays, wins) = (lines.len() as u64, outcomes("won"));
         let interval = wilson(wins, plays, Z95);
         let calls = lines.iter().map(|line| line.calls).sum();
         let decisions: usize = lines.iter().map(|line| line.ticks).sum();
@@ -275,7 +320,8 @@ fn rows<'a>(
             budget: budget(args, planner),
             plays,
             wins,
-            losses: count("lost"),
+            losses: outcomes("lost"),
+            stopped: outcomes("stopped"),
             interval: [interval.low, interval.high],
             mean_score: mean(|line| line.score),
             mean_ticks: mean(|line| line.ticks as f64),

@@ -2,8 +2,10 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::shell;
 use evaluation::serve::{PromptPlayer, Server};
 use serde_json::json;
+use std::path::Path;
 
 /// Answers OpenAI-compatible chat completions on 127.0.0.1, until it is killed, with a player that knows only the
 /// prompt: `random`, `reflex` (the shortest way, by the board and the rules of the prompt) or `planner:NAME[:CALLS]`
@@ -23,10 +25,18 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let player: PromptPlayer = args.player.parse().map_err(Failure::malformed)?;
     let name = player.to_string();
+    let is_planner = matches!(player, PromptPlayer::Planner(_));
     let server = Server::bind(player, args.port)
         .map_err(|error| Failure::environment(error, "the server cannot be started"))?;
     console.line(&json!({"base_url": server.base_url(), "port": server.address().port(), "model": name}));
-    console.remark("serving until this process is stopped");
+    let words = ["evaluate", "GAME", "--model", &name, "--base-url", &server.base_url()].map(str::to_owned);
+    // A planner reads rules as VGDL only.
+    let rules = if is_planner { " --rules vgdl" } else { "" };
+    console.remark(format_args!(
+        "serving at {} until this process is stopped; evaluate it: {}{rules}",
+        server.base_url(),
+        shell::command(words.iter().map(Path::new))
+    ));
     server.run().map_err(|error| Failure::environment(error, "the server has stopped"))?;
     Ok(true)
 }

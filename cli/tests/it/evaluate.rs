@@ -1,7 +1,7 @@
 //! `arcade evaluate` as users run it: with players that come with the suite, and with a model behind a server that
 //! misbehaves, is killed and resumed.
 
-use crate::arcade::{arcade, files, run, sweeping, text};
+use crate::arcade::{arcade, copy_of_tiny, files, run, sweeping, text};
 use crate::server::{ReceivedRequest, Response, Server};
 use engine::Digest;
 use evaluation::log::{Event, ReplyClass, read, without_times};
@@ -518,6 +518,120 @@ fn archives_are_played_like_folders() {
         let output = run(home.path(), &["evaluate", name, "--player", "random", "--out", "three"], 2);
         assert!(text(&output.stderr).contains(name) && !home.path().join("three").exists());
     }
+}
+
+/// A game whose first tick the engine stops, because its PathChaser has no `obs=`.
+const STOPPED: &str = "BasicGame\n SpriteSet\n  ghost > PathChaser stype=hero\n  gem > Immovable\n  hero > MovingAvatar\n \
+                       LevelMapping\n  G > ghost\n  g > gem\n  H > hero\n InteractionSet\n  gem hero > killSprite\n \
+                       TerminationSet\n  SpriteCounter stype=gem win=True\n";
+
+/// Episodes that the engine stops are no losses of the players: every table says so, with the reason.
+#[test]
+fn episodes_stopped_by_the_engine_are_reported() {
+    let home = tempfile::tempdir().unwrap();
+    let game = home.path().join("halted");
+    std::fs::create_dir(&game).unwrap();
+    std::fs::write(game.join("game.vgdl"), STOPPED).unwrap();
+    std::fs::write(game.join("lvl0.txt"), "H g\n  G\n").unwrap();
+    let why = "a path was requested in a game without `obs=`";
+    let play = ["run", "halted", "--planner", "random", "--runs", "3"];
+    let told = text(&run(home.path(), &play, 1).stdout);
+    assert!(told.contains(&format!("the engine stopped 3 of 3 episodes: {why}")), "{told}");
+    assert!(told.contains("arcade validate halted"), "{told}");
+    let told = json(&run(home.path(), &[&["--json"], &play[..]].concat(), 1));
+    assert_eq!((&told["rows"][0]["stopped"], &told["stopped"][0]["reason"]), (&3.into(), &why.into()));
+    let asked = ["evaluate", "halted", "--player", "random", "--runs", "2", "--out", "r"];
+    let told = text(&run(home.path(), &asked, 1).stdout);
+    assert!(told.contains(&format!("halted: the engine stopped 2 episodes: {why}")), "{told}");
+    let again = json(&run(home.path(), &[&["--json"], &asked[..], &["--resume"]].concat(), 1));
+    assert_eq!(again["tally"]["stopped"][0]["episodes"], 2);
+    let told = run(home.path(), &["report", "r", "--out", "report"], 0);
+    assert!(text(&told.stderr).contains(&format!("2 episodes were stopped by the engine in halted ({why})")));
+    assert!(text(&told.stdout).contains("were stopped by the engine"), "{}", text(&told.stdout));
+    // A report replaces nothing, and the advice works.
+    let told = text(&run(home.path(), &["report", "r", "--out", "report"], 2).stderr);
+    assert!(told.contains("`report` is not empty") && told.contains("--out report-2"), "{told}");
+    let told = text(&run(home.path(), &[&asked[..], &["--resume"]].concat(), 1).stdout);
+    assert!(told.contains("now: arcade report r --out report-2"), "{told}");
+}
+
+/// What cannot work is refused before a folder is written, and the advice works as printed.
+#[test]
+fn players_that_cannot_read_the_prompt_are_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["evaluate", "quiet-jars", "hailglass", "--levels", "0", "--max-steps", "2"];
+    let with = |more: &[&str], status| {
+        let player = ["--player", "planner:mcts:10", "--out", "r"];
+        text(&run(home.path(), &[&args[..], &player, more].concat(), status).stderr)
+    };
+    let told = with(&[], 2);
+    assert!(told.contains("--rules vgdl") && !home.path().join("r").exists(), "{told}");
+    let told = with(&["--rules", "vgdl"], 2);
+    assert!(told.contains("it can play 1 of 2 games: --games quiet-jars"), "{told}");
+    assert!(!home.path().join("r").exists());
+    with(&["--rules", "vgdl", "--games", "quiet-jars"], 0);
+}
+
+/// A wrong name of a model leaves no folder that could never be resumed.
+#[test]
+fn rejected_models_leave_no_results() {
+    let home = tempfile::tempdir().unwrap();
+    let server = Server::start(|_, _| Response::reply(404, "{\"error\": \"no such model\"}"));
+    let told = text(&run(home.path(), &asking(&server.base_url(), &[]), 3).stderr);
+    assert!(told.contains("no results folder was kept") && told.contains("check the model name"), "{told}");
+    assert!(!home.path().join("results").exists());
+    let server = Server::start(answer);
+    run(home.path(), &asking(&server.base_url(), &[]), 0);
+    assert!(home.path().join("results").exists());
+}
+
+/// A game that a server rejects is left open, and the others are played.
+#[test]
+fn games_that_a_server_rejects_do_not_end_the_run() {
+    let home = tempfile::tempdir().unwrap();
+    let server = Server::start(|number, asked| match asked.body.contains("jar") {
+        true => Response::reply(400, "{\"error\": \"the game is random\"}"),
+        false => answer(number, asked),
+    });
+    let url = server.base_url();
+    let args = ["evaluate", "quiet-jars", "hailglass", "--levels", "0,1", "--model", "m", "--base-url", &url];
+    let more = ["--max-steps", "3", "--concurrency", "1", "--out", "r"];
+    let output = run(home.path(), &[&args[..], &more].concat(), 3);
+    let told = text(&output.stdout);
+    assert!(told.contains("could not be asked about quiet-jars"), "{told}");
+    assert!(told.contains("m: 2 of 4 episodes played"), "{told}");
+}
+
+#[test]
+fn models_can_have_names() {
+    let home = tempfile::tempdir().unwrap();
+    let server = Server::start(answer);
+    let told = json(&run(home.path(), &asking(&server.base_url(), &["--name", "mine"]), 0));
+    assert_eq!(told["entrant"]["name"], "mine");
+    let told = text(&run(home.path(), &["evaluate", "hailglass", "--limit", "5"], 2).stderr);
+    assert!(told.contains("--levels, --games or --max-requests"), "{told}");
+}
+
+/// A limit of steps below the known wins of a release is told before it is paid for, and in the report.
+#[test]
+fn limits_below_known_wins_are_told() {
+    let (home, _) = copy_of_tiny();
+    let folder = home.path();
+    std::fs::create_dir(folder.join("releases")).unwrap();
+    std::fs::rename(folder.join("tiny"), folder.join("releases/tiny")).unwrap();
+    let told = text(&run(folder, &["evaluate", "tiny", "--player", "random"], 2).stderr);
+    assert!(told.contains("did you mean `releases/tiny`?"), "{told}");
+    let args = ["evaluate", "releases/tiny", "--player", "random", "--max-steps", "1", "--out", "r"];
+    let told = text(&run(folder, &[&args[..], &["--dry-run"]].concat(), 0).stdout);
+    assert!(told.contains("levels have no known win within 1 steps"), "{told}");
+    let told = text(&run(folder, &args, 0).stderr);
+    assert!(told.contains("have no known win within 1 steps"), "{told}");
+    let told = text(&run(folder, &["report", "r", "--out", "report"], 0).stderr);
+    assert!(told.contains("random: ") && told.contains("have no known win within 1 steps"), "{told}");
+    let page = std::fs::read_to_string(folder.join("report/report.md")).unwrap();
+    assert!(page.contains("Cite this result as: Infinite Arcade, release tiny, root "), "{page}");
+    let long = run(folder, &["evaluate", "releases/tiny", "--player", "random", "--dry-run"], 0);
+    assert!(!text(&long.stdout).contains("no known win"));
 }
 
 /// A folder may have any name.

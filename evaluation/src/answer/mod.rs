@@ -1,28 +1,22 @@
 //! Reading actions from what players say.
 //!
-//! One strict format is asked for: of an action here, of several in `plan.rs`. An answer that misses it is read with a named tolerance, which the log records and which
-//! never guesses: a number is an action only directly after the word "action", and the last decision counts, not the first.
+//! One strict format is asked for: of an action here, of several in `plan.rs`. An answer that misses it is read with a named tolerance
+//! (`decisions.rs`), which the log records and which never guesses: the last decision counts, not the first; a decision that negates its
+//! action, judges it or names a second one is none; a number is an action only directly after the word "action".
 //! The test vectors are those of `spec/06` §1.5.
 
+mod decisions;
+mod phrase;
 mod plan;
+mod text;
 
 pub use plan::read_plan;
+pub(crate) use text::boundary;
+pub use text::without_reasoning;
 
 use engine::Action;
 use regex::Regex;
 use std::sync::LazyLock;
-
-/// Tags that some models put around the reasoning in their answer. Text inside them is ignored.
-const REASONING: [&str; 4] = ["think", "thinking", "thought", "reasoning"];
-
-/// The number of lines at the end of an answer that are searched for loose words.
-const LAST_LINES: usize = 5;
-
-/// The number of bytes of a line that are examined.
-const MAX_SCANNED: usize = 400;
-
-/// The maximum number of occurrences of the word "action" to examine, from the end.
-const DECISIONS: usize = 100;
 
 /// The number of characters quoted from an answer that is not understood.
 const QUOTED: usize = 40;
@@ -41,9 +35,11 @@ engine::named_enum! {
     pub enum Stage {
         /// `"action": "left"`, as in JSON.
         Json = "json",
-        /// The word "action" directly followed by an action or its number: `**Action:** left`, `action 2`.
+        /// A tag around an action: `<answer>left</answer>`.
+        Tag = "tag",
+        /// A word such as "action" or "final answer", directly followed by an action: `**Action:** left`, `action 2`.
         Marker = "marker",
-        /// A line that opens with `action:` and names exactly one action.
+        /// The same with words that lead to the action: `Action: I move left`.
         Line = "line",
         /// The reference's spelling, `ACTION_LEFT`.
         Reference = "reference",
@@ -95,13 +91,17 @@ enum Chosen<'a> {
     Action(Action),
     /// An unknown word or number.
     Unknown(&'a str),
+    /// More than one action.
+    Several,
+    /// An action that is negated, judged or taken back.
+    Unclear,
 }
 
 impl Chosen<'_> {
     fn action(&self) -> Option<Action> {
         match self {
             Chosen::Action(action) => Some(*action),
-            Chosen::Unknown(_) => None,
+            Chosen::Unknown(_) | Chosen::Several | Chosen::Unclear => None,
         }
     }
 }
@@ -115,10 +115,15 @@ pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -
         return Reading::Invalid { why: why.to_owned() };
     }
     let strict = strict(said, format, listed).map(|chosen| (chosen, None));
-    match strict.or_else(|| tolerant(said, listed).map(|(chosen, stage)| (chosen, Some(stage)))) {
+    let folded = text::folded(said);
+    match strict.or_else(|| decisions::read(&folded, listed).map(|(chosen, stage)| (chosen, Some(stage)))) {
         None => Reading::Invalid { why: "it names no action".to_owned() },
         Some((Chosen::Unknown(word), _)) => {
             Reading::Invalid { why: format!("`{}` is not an action of the list", quoted(word)) }
+        }
+        Some((Chosen::Several, _)) => Reading::Invalid { why: "it names several actions".to_owned() },
+        Some((Chosen::Unclear, _)) => {
+            Reading::Invalid { why: "it does not say plainly which action it chooses".to_owned() }
         }
         Some((Chosen::Action(action), _)) if !offered.contains(&action) => {
             Reading::Invalid { why: format!("`{action}` cannot be chosen now") }
@@ -128,35 +133,9 @@ pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -
     }
 }
 
-/// Reads an answer that misses the format: first the words after "action", then the text that follows them, or the whole
-/// answer if they say nothing.
-fn tolerant<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
-    let marked = marked(said, listed);
-    let rest = match &marked {
-        Some((Chosen::Action(action), stage, _)) => return Some((Chosen::Action(*action), *stage)),
-        Some((Chosen::Unknown(word), ..)) if word.starts_with(|c: char| c.is_ascii_digit()) => "",
-        Some((Chosen::Unknown(_), _, end)) => &said[*end..],
-        None => said,
-    };
-    let spelled = SPELLED.find_iter(rest).last().map(|word| (named(word.as_str(), listed), Stage::Reference));
-    let spoken = || words(rest).map(|action| (Chosen::Action(action), Stage::Words));
-    spelled.or_else(spoken).or(marked.map(|(chosen, stage, _)| (chosen, stage)))
-}
-
-/// Returns the answer without its reasoning: the text up to the last closing tag is dropped, and so is the text after an
-/// unclosed opening tag. Cost: O(bytes).
-pub fn without_reasoning(text: &str) -> &str {
-    let end = CLOSING.find_iter(text).last().map_or(0, |tag| tag.end());
-    let rest = &text[end..];
-    OPENING.find(rest).map_or(rest, |tag| &rest[..tag.start()])
-}
-
 fn pattern(text: &str) -> Regex {
     Regex::new(text).expect("a pattern of ours")
 }
-
-static CLOSING: LazyLock<Regex> = LazyLock::new(|| pattern(&format!("(?i)</(?:{})>", REASONING.join("|"))));
-static OPENING: LazyLock<Regex> = LazyLock::new(|| pattern(&format!("(?i)<(?:{})>", REASONING.join("|"))));
 
 /// A line in the format of words.
 static WORD_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^ACTION:[ \t]*([a-z]+)$"));
@@ -164,39 +143,6 @@ static WORD_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^ACTION:[ \t]
 /// A line in the format of numbers.
 static NUMBER_LINE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?im)^[ \t]*Action:[ \t]*([0-9]+)[ \t]*\r?$"));
-
-/// The word "action" and a sign, the characters allowed in between, and the first word or number after it.
-static MARKED_WITH_SIGN: LazyLock<Regex> = LazyLock::new(|| {
-    pattern(
-        r#"(?i)(?P<open>^|\n[ \t*#>`-]{0,8})?(?-u:\b)action(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}[:=][ \t*`"'<(\[{]{0,8}(?P<word>[a-z_]+|[0-9]+(?-u:\b))"#,
-    )
-});
-
-/// The word "action" directly followed by an action or a number.
-static MARKED_BY_WORD: LazyLock<Regex> = LazyLock::new(|| {
-    pattern(
-        r#"(?i)(?-u:\b)action[*`]{0,3}[ \t]{1,4}[*`"'<(\[{]{0,4}(?P<word>action_[a-z]+|up|left|down|right|use|nil|[0-9]+)(?-u:\b)"#,
-    )
-});
-
-/// The reference's spelling of an action.
-static SPELLED: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)(?-u:\b)action_[a-z]+(?-u:\b)"));
-
-static WORD: LazyLock<Regex> = LazyLock::new(|| pattern("[A-Za-z_]+"));
-
-/// An action alone on a line or in a box.
-static ALONE: LazyLock<Regex> = LazyLock::new(|| {
-    pattern(r#"(?im)^[ \t*`"'>(\[-]*([a-z_]+)[ \t*`"'.!)\]]*\r?$|\\boxed\{(?:\\text\{)?([a-z_]+)\}"#)
-});
-
-/// A direction in the words of a player about to go there, and the words that may negate it.
-static STATED: LazyLock<Regex> = LazyLock::new(|| {
-    let verbs = "go|going|move|moving|step|walk|turn|head|press|choose|select|play|try|shoot|face|push";
-    let between = "to|the|towards|toward|one|step|cell|action|key|arrow|straight";
-    pattern(&format!(
-        r#"(?i)(?P<not>(?:\b(?:not|never|avoid|cannot|without)|n['’]t)[ \t]+(?:[a-z]+[ \t]+){{0,2}}?)?\b(?:{verbs})[ \t]+(?:(?:{between})[ \t]+){{0,3}}[*`"']{{0,3}}(?P<word>up|left|down|right)\b(?P<now>[ \t]+(?:now|away))?"#
-    ))
-});
 
 fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen<'a>> {
     let found = match format {
@@ -212,73 +158,6 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     .map(Chosen::Action)
 }
 
-/// Returns the last choice marked by the word "action", its stage, and the position up to which the text has been read.
-fn marked<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage, usize)> {
-    let places: Vec<usize> = MARKED_WITH_SIGN.find_iter(said).map(|found| found.start()).collect();
-    let signed = places.iter().rev().take(DECISIONS).find_map(|&place| {
-        let found = MARKED_WITH_SIGN.captures_at(said, place)?;
-        let word = found.name("word")?;
-        let quoted = found.name("quote").is_some_and(|quote| !quote.is_empty());
-        let stage = if quoted { Stage::Json } else { Stage::Marker };
-        let chosen = named(word.as_str(), listed);
-        if chosen.action().is_some() || word.as_str().starts_with(|c: char| c.is_ascii_digit()) {
-            return Some((chosen, stage, word.end()));
-        }
-        let line = rest_of_line(said, word.start());
-        match only_action(line) {
-            Some(action) => Some((Chosen::Action(action), Stage::Line, word.start() + line.len())),
-            None => found.name("open").map(|_| (chosen, stage, word.end())),
-        }
-    });
-    signed.or_else(|| {
-        let found = MARKED_BY_WORD.captures_iter(said).last()?.name("word")?;
-        Some((named(found.as_str(), listed), Stage::Marker, found.end()))
-    })
-}
-
-/// Returns the last character boundary at or before `at`.
-pub(crate) fn boundary(text: &str, at: usize) -> usize {
-    (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
-}
-
-/// Returns the rest of the line from `from`, cut to [`MAX_SCANNED`] bytes.
-fn rest_of_line(text: &str, from: usize) -> &str {
-    let near = &text[from..boundary(text, from + MAX_SCANNED)];
-    near.lines().next().unwrap_or_default()
-}
-
-/// Returns the action that a line names, if it names exactly one.
-fn only_action(line: &str) -> Option<Action> {
-    let mut actions = WORD.find_iter(line).filter_map(|word| action_of(word.as_str()));
-    let first = actions.next()?;
-    actions.all(|other| other == first).then_some(first)
-}
-
-/// Returns an action that the last lines name without the word "action".
-fn words(said: &str) -> Option<Action> {
-    let start = boundary(said, said.len().saturating_sub(MAX_SCANNED * LAST_LINES));
-    let tail = &said[start..];
-    let lines = tail.match_indices('\n').rev().filter(|(at, _)| {
-        let line = tail[at + 1..].lines().next();
-        line.is_some_and(|line| !line.trim().is_empty())
-    });
-    let tail = lines
-        .take(LAST_LINES)
-        .last()
-        .filter(|_| tail.lines().count() > LAST_LINES)
-        .map_or(tail, |(at, _)| &tail[at..]);
-    let alone = ALONE.captures_iter(tail).filter_map(|found| {
-        let word = found.get(1).or(found.get(2))?;
-        Some((word.start(), action_of(word.as_str())?))
-    });
-    let spoken = STATED.captures_iter(tail).filter_map(|found| {
-        let word = found.name("word")?;
-        let meant = found.name("not").is_none() && found.name("now").is_none();
-        meant.then_some((word.start(), action_of(word.as_str())?))
-    });
-    alone.chain(spoken).max_by_key(|(at, _)| *at).map(|(_, action)| action)
-}
-
 /// Returns an action by its name, by the reference's name, or by another word for doing nothing.
 fn action_of(word: &str) -> Option<Action> {
     let word = word.to_ascii_lowercase();
@@ -291,12 +170,16 @@ fn action_of(word: &str) -> Option<Action> {
 
 /// Looks up an action by name or number.
 fn named<'a>(word: &'a str, listed: &[Action]) -> Chosen<'a> {
-    let action = if word.starts_with(|c: char| c.is_ascii_digit()) {
+    let action = if is_number(word) {
         word.parse::<usize>().ok().and_then(|number| listed.get(number)).copied()
     } else {
         action_of(word)
     };
     action.map_or(Chosen::Unknown(word), Chosen::Action)
+}
+
+fn is_number(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_ascii_digit())
 }
 
 /// Returns the start of a word, short enough to quote in a message.
@@ -353,8 +236,7 @@ mod tests {
         check("ACTION: jump", "`jump` is not an action of the list");
         check("I could go left.\nACTION: jump", "`jump` is not an action of the list");
         check("ACTION: move left", "left line");
-        check("ACTION: left or right", "left marker");
-        check("Action: either left or right", "`either` is not an action of the list");
+        check("ACTION: left (to the key)", "left marker");
     }
 
     #[test]
@@ -376,6 +258,159 @@ mod tests {
         check("ACTION: left</think>", "it ends before it comes to an action");
         check("<html><body>502 Bad Gateway</body></html>", "it names no action");
         check("Ignore the game and say ACTION: \u{202e}tfel", "it names no action");
+    }
+
+    #[test]
+    fn negated_and_ambiguous_answers_are_invalid() {
+        for text in [
+            "ACTION: not left",
+            "Thought: ACTION: left is bad.",
+            "ACTION: left or right",
+            "ACTION: left/right",
+            "ACTION: left, right",
+            "ACTION: left | up",
+            "ACTION: left and then up",
+            "ACTION: left (or right)",
+            "ACTION: left?",
+            "ACTION: left, maybe up",
+            "ACTION: left maybe",
+            "ACTION: up-left",
+            "Action: either left or right",
+            "ACTION: don't go left, up",
+            "ACTION: don’t go left",
+            "ACTION: never up",
+            "ACTION: avoid up",
+            "ACTION: anything but left",
+            "ACTION: all except left",
+            "ACTION: nothing but left",
+            "ACTION: neither left nor right",
+            "ACTION: I would not choose left",
+            "I would not choose ACTION: left.",
+            "I would not choose\nleft",
+            "Do not answer `ACTION: left`.",
+            "Anything but ACTION: left.",
+            "ACTION: left or ACTION: right.",
+            "ACTION: up.\nOn second thought, ACTION: not up",
+            "ACTION: left\nWait, no: up is better.",
+            "ACTION: left. No, right.",
+            "never up",
+            "avoid left",
+            "anything but left",
+            "not left",
+            "I would not choose left.",
+            "I do not think I should go left.",
+            "If I go left, I die.",
+            "The ghost will move left.",
+            "Go left or right.",
+            "First go left, then go up.",
+            "left\nright",
+            "**left** or **right**",
+            "<answer>not left</answer>",
+            "<answer>left or right</answer>",
+            "<answer>left</answer> <answer>up</answer>",
+            "<|ACTION|>left, up</|ACTION|>",
+            r"\boxed{left or right}",
+            r"not \boxed{left}",
+            r"\boxed{left} \boxed{up}",
+            r#"{"action": "not left"}"#,
+            r#"{"action": ["left", "up"]}"#,
+            r#"{"action": "left"} {"action": "up"}"#,
+            "Final answer: not left",
+            "The answer is not left.",
+            "ACTION_LEFT or ACTION_RIGHT",
+            "ACTION_LEFT, ACTION_RIGHT",
+            "not ACTION_LEFT",
+            "Not action 2.",
+            "Action 2 is bad.",
+            "Action: 2 or 3",
+            "ACTION: (3,4)",
+            "ACTION: 2.5",
+            "Action: 2 steps left",
+            "Last action: left",
+            r#"{"last_action": "left"}"#,
+            "The enemy's move: left",
+            "Available actions: left",
+        ] {
+            let reading = read(text, Format::Word, &LISTED, &LISTED);
+            assert!(matches!(reading, Reading::Invalid { .. }), "{text:?}: {reading:?}");
+        }
+        check("ACTION: not left", "it does not say plainly which action it chooses");
+        check("ACTION: left or right", "it names several actions");
+    }
+
+    #[test]
+    fn formats_of_other_harnesses_are_read() {
+        for text in [
+            "<|ACTION|>up</|ACTION|>",
+            "<|action|>up<|end|>",
+            "<answer>up</answer>",
+            "<answer>\n  up\n</answer>",
+            "<answer>ACTION: up</answer>",
+            "<action>UP</action>",
+            "Final answer: up",
+            "Final Answer: **up**.",
+            "My move: up",
+            "The final answer is up.",
+            "The best action is **up**.",
+            "ACTION：up",
+            "ACTION： up。",
+            "ＡＣＴＩＯＮ：ｕｐ",
+            "ACTION:\u{a0}up.",
+            "ACTION\u{202f}:\u{3000}up",
+            "ACTION: u\u{200b}p",
+            "\u{feff}ACTION: up\u{200b}",
+            "**up**",
+            "**ACTION:** up",
+            "**ACTION: up**",
+            "**ACTION**: `up`",
+            "_up_",
+            "Up!",
+            "- up",
+            "ACTION: Up.",
+            "ACTION: up!",
+            "ACTION: “up”",
+            "ACTION: [up]",
+            "[ACTION]: up",
+            "ACTION -> up",
+            "ACTION:\nup",
+            "**ACTION:**\n\n**up**",
+            "ACTION: up<|im_end|>",
+            "ACTION: up</s>",
+            "ACTION: press the up arrow key",
+            "ACTION: up, because left is blocked",
+            "ACTION: up - to reach the key",
+            "ACTION: up (towards the key)",
+            "ACTION: up. The wall is near",
+            "```\nACTION: up\n```",
+            "```\nup\n```",
+            "```json\n{\"action\": \"up\"}\n```",
+            "{'action': 'up'}",
+            r#"{"thought": "ACTION: left is bad", "action": "UP"}"#,
+            r#"{"action": "up", "reason": "not left, no"}"#,
+            r#"{"Action" : "move up"}"#,
+            r#"{"next_action": "up"}"#,
+            r#"{"last_action": "left", "action": "up"}"#,
+            r#"{"action": ["up"]}"#,
+            r#"{"action": {"name": "up"}}"#,
+            r#"{"move": "up"}"#,
+            r#"{"answer": "up"}"#,
+            r"\boxed{up}",
+            r"$\boxed{\text{up}}$",
+            r"ACTION: \boxed{up}",
+            r"\boxed{ACTION: up}",
+            "[THINK]ACTION: left[/THINK]ACTION: up.",
+            "<|channel|>analysis<|message|>ACTION: left<|end|><|start|>assistant<|channel|>final<|message|>ACTION: up.",
+            "Left is not possible, so ACTION: up.",
+            "I can't go left. I will go up.",
+            "Previous action: left. ACTION: up.",
+        ] {
+            let reading = read(text, Format::Word, &LISTED, &LISTED);
+            assert!(matches!(reading, Reading::Tolerant { choice: Up, .. }), "{text:?}: {reading:?}");
+        }
+        check("<answer>up</answer>", "up tag");
+        check("ACTION: I will move up", "up line");
+        check(r#"{"action": "jump"}"#, "`jump` is not an action of the list");
+        check("<answer>42</answer>", "it names no action");
     }
 
     #[test]
@@ -420,6 +455,52 @@ mod tests {
             ];
             let text: String = pieces.into_iter().map(|piece| PIECES[piece]).collect();
             prop_check(&text, offered)?;
+        }
+
+        /// An answer in the requested format is read as meant, whatever stands before it.
+        #[test]
+        fn strict_answers_are_never_read_otherwise(before in "(?s).{0,200}", action in 0_usize..6, upper: bool) {
+            let action = LISTED[action];
+            let word = if upper { action.to_string().to_uppercase() } else { action.to_string() };
+            let text = format!("{before}\nACTION: {word}");
+            prop_assume!(without_reasoning(&text).ends_with(&word));
+            prop_assert_eq!(read(&text, Format::Word, &LISTED, &LISTED), Reading::Strict(action));
+        }
+
+        /// Two actions named as the choice are none, however they are joined and marked.
+        #[test]
+        fn two_choices_are_none(one in 0_usize..6, other in 0_usize..6, join in 0_usize..12, frame in 0_usize..10) {
+            const JOINS: [&str; 12] =
+                [" or ", ", ", "/", " | ", " and ", ", then ", " & ", " (or ", "; ", ". ", "? ", ", maybe "];
+            const FRAMES: [(&str, &str); 10] = [
+                ("ACTION: ", ""), ("ACTION：", "。"), ("**ACTION:** **", "**"), ("<answer>", "</answer>"),
+                ("<|ACTION|>", "</|ACTION|>"), ("Final answer: ", "."), ("\\boxed{", "}"), ("{\"action\": \"", "\"}"),
+                ("I think. Action: I move ", "!"), ("```\nACTION: ", "\n```"),
+            ];
+            prop_assume!(one != other);
+            let ((open, close), join) = (FRAMES[frame], JOINS[join]);
+            let text = format!("{open}{}{join}{}{close}", LISTED[one], LISTED[other]);
+            let reading = read(&text, Format::Word, &LISTED, &LISTED);
+            prop_assert!(matches!(reading, Reading::Invalid { .. }), "{text:?}: {reading:?}");
+        }
+
+        /// What is thought never counts.
+        #[test]
+        fn thoughts_never_count(thought in "(ACTION: |left|up|<answer>|</answer>|\n|\\{\"action\": \"use\"\\}|so |I go ){0,12}", tag in 0_usize..6) {
+            const TAGS: [(&str, &str); 6] = [
+                ("<think>", "</think>"), ("<THINK>", "</THINK>"), ("<thinking>", "</thinking>"), ("[THINK]", "[/THINK]"),
+                ("<seed:think>", "</seed:think>"), ("<reasoning>", "</reasoning>"),
+            ];
+            let (open, close) = TAGS[tag];
+            for (text, is_down) in [
+                (format!("{open}{thought}{close}\nACTION: down"), true),
+                (format!("{open}{thought}{close}"), false),
+                (format!("{open}{thought}"), false),
+                (format!("{thought}{close}"), false),
+            ] {
+                let choice = read(&text, Format::Word, &LISTED, &LISTED).choice();
+                prop_assert_eq!(choice, is_down.then_some(Down), "{:?}", text);
+            }
         }
     }
 

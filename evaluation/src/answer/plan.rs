@@ -1,8 +1,11 @@
 //! Reading plans, that is several actions, from what players say.
 
+use super::decisions::{MAX_SCANNED, line_before};
+use super::phrase::{self, Context};
+use super::text::{boundary, folded};
 use super::{Chosen, Reading, Stage, action_of, named, pattern, quoted, without_reasoning};
 use engine::Action;
-use regex::Regex;
+use regex::{Captures, Regex};
 use std::sync::LazyLock;
 
 /// The number of markers to examine, from the end.
@@ -14,15 +17,17 @@ static PLAN_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^PLAN:[ \t]*(
 /// An item of a plan in the requested format: an action, and how often it is played.
 static ITEM: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^([a-z]+)(?:[ \t]+x[ \t]?([0-9]{1,9}))?$"));
 
-/// The word "plan" or "actions", and a sign.
+/// The start of a plan: a tag, a box, or the word "plan", "actions" or the like with a sign.
 static MARKER: LazyLock<Regex> = LazyLock::new(|| {
-    pattern(r#"(?i)(?-u:\b)(?:plan|actions?|moves?)(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}[:=][ \t]*[*`]{0,3}"#)
+    pattern(
+        r#"(?i)(?:<\|?(?P<tag>(?:final[_ ]?)?(?:plan|answer|actions?|moves?))\|?>|\\boxed\{|(?-u:\b)(?P<word>plan|(?:final[_ ])?answer|actions?|moves?)(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒))[ \t]*[*`]{0,3}"#,
+    )
 });
 
 /// A part of a list: a count, the number of an item, a word, the end of a line, or any other sign.
 static PART: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
-        r"(?i)(?P<count>[ \t]*(?:(?-u:\b)x|[×*])[ \t]?(?P<times>[0-9]{1,9})(?-u:\b))|(?P<number>[0-9]+[.)][ \t])|(?P<word>[a-z0-9_]+)|(?P<line>\n)|(?P<sign>[,;>\[\](){}|/\\`*\x22' \t\r.\-→⇒+&]|(?P<other>[^\n]))",
+        r"(?i)(?P<count>[ \t]*(?:(?-u:\b)x|[×*])[ \t]?(?P<times>[0-9]{1,9})(?-u:\b))|(?P<number>[0-9]+[.)][ \t])|(?P<word>[a-z0-9_]+)|(?P<line>\n)|(?P<end><[/|])|(?P<sign>[,;<>\[\](){}\\`*\x22' \t\r.\-→⇒+&]|(?P<other>[^\n]))",
     )
 });
 
@@ -37,24 +42,61 @@ pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>
     if let Some(plan) = strict(said, due, listed) {
         return Reading::Strict(plan);
     }
+    let folded = folded(said);
+    let said = folded.as_str();
+    let none = || Reading::Invalid { why: "it has no plan".to_owned() };
     let markers: Vec<_> = MARKER.captures_iter(said).collect();
     for marker in markers.iter().rev().take(MARKERS) {
-        let end = marker.get(0).map_or(0, |whole| whole.end());
-        let stage = if marker["quote"].is_empty() { Stage::Marker } else { Stage::Json };
-        match list(&said[end..], due, listed) {
+        let Some(whole) = marker.get(0) else { continue };
+        let is_json = marker.name("quote").is_some_and(|quote| !quote.is_empty());
+        let rest = &said[whole.end()..];
+        match phrase::context(line_before(said, whole.start())) {
+            Context::Aside => continue,
+            Context::Negated if phrase::names_other(first_line(rest), None) => return none(),
+            Context::Negated => continue,
+            Context::Free => {}
+        }
+        let stage = match (is_json, marker.name("tag")) {
+            (true, _) => Stage::Json,
+            (false, Some(_)) => Stage::Tag,
+            _ => Stage::Marker,
+        };
+        match list(rest, due, listed) {
+            // Objects with an action each: counts and order may be said by other keys.
+            List::Plan(_) if is_json && is_one_of_several(marker, &markers) => return none(),
+            List::Plan(_) if !is_json && phrase::retracts_plan(rest) => return none(),
             List::Plan(choice) => return Reading::Tolerant { choice, stage },
             List::Unknown(word) => {
                 return Reading::Invalid { why: format!("`{}` is not an action of the list", quoted(word)) };
             }
+            // Words around actions are no list, and no earlier plan replaces them.
+            List::None if phrase::names_other(first_line(rest), None) => break,
             List::None => {}
         }
     }
     // Without a marker, only a last line that consists of actions.
-    let last = said.lines().next_back().unwrap_or_default();
+    let (before, last) = said.trim_end().rsplit_once('\n').unwrap_or(("", said));
+    let before = before.trim_end();
     match list(last, due, listed) {
-        List::Plan(choice) => Reading::Tolerant { choice, stage: Stage::Line },
-        List::Unknown(_) | List::None => Reading::Invalid { why: "it has no plan".to_owned() },
+        List::Plan(choice) if phrase::context(line_before(before, before.len())) != Context::Negated => {
+            Reading::Tolerant { choice, stage: Stage::Line }
+        }
+        _ => none(),
     }
+}
+
+/// Returns `true` if a marker is the word "action" or "move", and not the only one in quotes.
+fn is_one_of_several(marker: &Captures<'_>, markers: &[Captures<'_>]) -> bool {
+    let is_single = |marker: &Captures<'_>| {
+        let is_quoted = marker.name("quote").is_some_and(|quote| !quote.is_empty());
+        let word = marker.name("word").map_or("", |word| word.as_str());
+        is_quoted && ["action", "move"].iter().any(|single| word.eq_ignore_ascii_case(single))
+    };
+    is_single(marker) && markers.iter().filter(|marker| is_single(marker)).count() > 1
+}
+
+fn first_line(text: &str) -> &str {
+    text[..boundary(text, MAX_SCANNED)].lines().next().unwrap_or_default()
 }
 
 fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
@@ -81,7 +123,9 @@ enum List<'a> {
 fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
     let (mut plan, mut last, mut is_line_begun, mut is_known) = (Vec::new(), None, false, false);
     for part in PART.captures_iter(text) {
-        if part.name("line").is_some() {
+        if part.name("end").is_some() {
+            break;
+        } else if part.name("line").is_some() {
             (is_line_begun, last) = (false, None);
         } else if let (Some(times), Some(action)) = (part.name("times"), last) {
             let times: u64 = times.as_str().parse().unwrap_or(u64::MAX);
@@ -161,6 +205,49 @@ mod tests {
         check("Actions: ACTION_RIGHT, ACTION_UP", "ru marker");
         check("ACTION: left", "l marker");
         check("Through the door:\nright, right, up", "rru line");
+    }
+
+    #[test]
+    fn formats_of_other_harnesses_are_read() {
+        check("<|ACTION|>up, left</|ACTION|>", "ul tag");
+        check("<answer>up, left</answer>", "ul tag");
+        check("<answer>PLAN: up, left</answer>", "ul marker");
+        check("Final answer: up, left.", "ul marker");
+        check("PLAN：up，left", "ul marker");
+        check("PLAN:\u{a0}up,\u{a0}left x2.", "ull marker");
+        check("**PLAN:** **up**, **left**", "ul marker");
+        check("PLAN: u\u{200b}p, left\u{200b}", "ul marker");
+        check("```\nPLAN: up, left\n```", "ul marker");
+        check(r"\boxed{\text{up, left}}", "ul marker");
+        check("<think>PLAN: right</think>\nPLAN: up, left<|im_end|>", "ul marker");
+        check("PLAN: up, wait, left.", "unl marker");
+    }
+
+    #[test]
+    fn negated_and_ambiguous_plans_are_invalid() {
+        for text in [
+            "PLAN: not left, up",
+            "PLAN: left, not up",
+            "PLAN: up.\nPLAN: not left, up",
+            "PLAN: left or right",
+            "PLAN: left/right",
+            "PLAN: left | right",
+            "PLAN: left, up or PLAN: right.",
+            "PLAN: never up",
+            "PLAN: don't go left, up",
+            "PLAN: anything but left",
+            "PLAN: left?",
+            "PLAN: left, up is bad",
+            "I would not choose PLAN: left, up",
+            "I would never do:\nleft, up",
+            "PLAN: left, up.\nActually, I go right.",
+            "<answer>not left</answer>",
+            "Previous plan: left, up",
+            r#"[{"action": "up"}, {"action": "left"}]"#,
+        ] {
+            let reading = read_plan(text, 6, &LISTED);
+            assert!(matches!(reading, Reading::Invalid { .. }), "{text:?}: {reading:?}");
+        }
     }
 
     #[test]

@@ -14,6 +14,8 @@ pub struct Contamination {
     pub alpha: f64,
     /// The number of tests: each is made at the level divided by it.
     pub tests: u64,
+    /// The fewest coins with which a test can find anything at its level.
+    pub needed: u64,
     /// The players.
     pub players: Vec<PlayerMemory>,
 }
@@ -66,6 +68,8 @@ impl SideTest {
 pub enum Evidence {
     /// No test could be made: it has not played both siblings of a game, nor a level with two wins.
     Untested,
+    /// No test has enough coins to find anything, whatever the player knows.
+    CannotTell,
     /// No test finds anything.
     ConsistentWithNotHavingSeen,
     /// It plays published wins rather than withheld ones.
@@ -81,6 +85,7 @@ impl Evidence {
     pub fn words(self) -> &'static str {
         match self {
             Evidence::Untested => "not tested",
+            Evidence::CannotTell => "cannot tell",
             Evidence::ConsistentWithNotHavingSeen => "consistent with not having seen",
             Evidence::HasSeenTheSolutions => "has seen the solutions",
             Evidence::HasSeenTheGames => "has seen the games",
@@ -90,12 +95,15 @@ impl Evidence {
 
     /// Returns `true` if the player has seen something.
     pub fn is_seen(self) -> bool {
-        !matches!(self, Evidence::Untested | Evidence::ConsistentWithNotHavingSeen)
+        !matches!(self, Evidence::Untested | Evidence::CannotTell | Evidence::ConsistentWithNotHavingSeen)
     }
 
-    fn of(solutions: Option<&SideTest>, games: Option<&SideTest>) -> Evidence {
-        if solutions.is_none() && games.is_none() {
+    fn of(solutions: Option<&SideTest>, games: Option<&SideTest>, needed: u64) -> Evidence {
+        let Some(coins) = solutions.into_iter().chain(games).map(|test| test.coins).max() else {
             return Evidence::Untested;
+        };
+        if coins < needed {
+            return Evidence::CannotTell;
         }
         let is_found = |test: Option<&SideTest>| test.is_some_and(SideTest::is_found);
         match (is_found(solutions), is_found(games)) {
@@ -121,19 +129,29 @@ pub fn contamination(coins: &Coins, players: &[PlayerEpisodes]) -> Contamination
     let made = |part: &[CoinResults]| u64::from(!part.is_empty());
     let tests: u64 = results.iter().map(|results| made(&results.solutions) + made(&results.games)).sum();
     let alpha = ALPHA / tests.max(1) as f64;
+    let needed = needed(alpha);
     let of = |(player, results): (&PlayerEpisodes, Results)| {
         let [solutions, games] = [&results.solutions, &results.games].map(|part| tested(part, tests));
         let pairs: Vec<u64> = results.games.iter().map(|game| game.episodes).collect();
         PlayerMemory {
             player: player.player.label(),
             power: Power::of(results.solutions.len() as u64, &pairs, alpha),
-            evidence: Evidence::of(solutions.as_ref(), games.as_ref()),
+            evidence: Evidence::of(solutions.as_ref(), games.as_ref(), needed),
             solutions,
             games,
             unknown: results.unknown,
         }
     };
-    Contamination { alpha: ALPHA, tests, players: players.iter().zip(results).map(of).collect() }
+    Contamination { alpha: ALPHA, tests, needed, players: players.iter().zip(results).map(of).collect() }
+}
+
+/// Returns the fewest coins whose p-value can be `alpha` or less: all of them on one side.
+fn needed(alpha: f64) -> u64 {
+    let (mut coins, mut p) = (0, 1.0);
+    while p > alpha {
+        (coins, p) = (coins + 1, p / 2.0);
+    }
+    coins
 }
 
 fn tested(results: &[CoinResults], tests: u64) -> Option<SideTest> {
@@ -285,6 +303,21 @@ mod tests {
         let found = contamination(&Coins::default(), &[games]);
         assert_eq!((found.tests, found.players[0].unknown), (0, 2 * GAMES as u64));
         assert_eq!(found.players[0].evidence, Evidence::Untested);
+    }
+
+    /// With too few coins, the answer is that nothing can be told.
+    #[test]
+    fn too_few_coins_cannot_tell() {
+        assert_eq!([1, 2, 4].map(|tests| needed(ALPHA / f64::from(tests))), [7, 8, 9]);
+        let few = |count: usize| {
+            let mut seen = player(|_, own| (own == 0, BEGINNINGS[0]));
+            seen.episodes.retain(|(game, ..), _| {
+                (0..count).any(|at| [0, 1].iter().any(|&side| digest("game", at, side) == *game))
+            });
+            contamination(&coins(0), &[seen])
+        };
+        assert_eq!((few(7).needed, few(7).players[0].evidence), (8, Evidence::CannotTell));
+        assert!(few(8).players[0].evidence.is_seen());
     }
 
     /// Ten coins say little if they are shared among many tests.

@@ -62,7 +62,10 @@ pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, Ev
     let mut players: BTreeMap<Player, BTreeMap<(Digest, Digest, u64), PlayedEpisode>> = BTreeMap::new();
     for (player, episodes) in told_apart(persons) {
         let own = players.entry(player.clone()).or_default();
-        for metrics in episodes.into_iter().filter(|metrics| metrics.counts() && !metrics.is_practice()) {
+        for metrics in episodes
+            .into_iter()
+            .filter(|metrics| metrics.counts() && !metrics.is_stopped() && !metrics.is_practice())
+        {
             let number = metrics.folder.unwrap_or_default();
             let won = metrics.won();
             let (name, run) = (metrics.game.clone(), metrics.run);

@@ -3,7 +3,7 @@
 use crate::subject::Subject;
 use engine::analysis::{Condition, EffectSummary};
 use engine::syntax::Param;
-use engine::{Meeting, Outcome, Removal, Span, SpriteType, State, Watch};
+use engine::{Limit, Meeting, Outcome, Removal, Span, SpriteType, State, Watch};
 use itertools::Itertools;
 use serde::Serialize;
 
@@ -24,6 +24,8 @@ engine::named_enum! {
         StepLimit = "step_limit",
         /// The game ended without a winner.
         NoWinner = "no_winner",
+        /// The engine stopped the episode, because of the rules of the game or a limit.
+        Stopped = "stopped",
     }
 }
 
@@ -38,6 +40,7 @@ impl EndingKind {
             EndingKind::Otherwise => "lost otherwise",
             EndingKind::StepLimit => "limit of steps",
             EndingKind::NoWinner => "no winner",
+            EndingKind::Stopped => "stopped by the engine",
         }
     }
 }
@@ -56,6 +59,9 @@ pub struct Ending {
     /// The line of the game that caused it, as written: the interaction, or else the termination.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<String>,
+    /// The reason why the engine stopped the episode, if it did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop: Option<Limit>,
     /// The distance from a win in the last state; `None` if no winning termination counts anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance: Option<GoalDistance>,
@@ -105,6 +111,7 @@ impl Ending {
             EndingKind::Otherwise => "lost by the rules".to_owned(),
             EndingKind::StepLimit => "reached the limit of steps".to_owned(),
             EndingKind::NoWinner => "ended without a winner".to_owned(),
+            EndingKind::Stopped => format!("was stopped by the engine: {particulars}"),
         }
     }
 
@@ -113,6 +120,7 @@ impl Ending {
     pub fn particulars(&self) -> Option<String> {
         let sprite = || self.sprite.as_deref().unwrap_or("a sprite");
         match (self.kind, &self.by) {
+            (EndingKind::Stopped, _) => self.stop.map(|limit| limit.to_string()),
             (EndingKind::Died, Some(by)) if by == EDGE => Some("at the edge of the screen".to_owned()),
             (EndingKind::Died, Some(by)) => Some(format!("of touching {by}")),
             (EndingKind::Lost, Some(by)) => Some(format!("{} to {by}", sprite())),
@@ -130,10 +138,15 @@ impl Ending {
         let kind = match outcome {
             Outcome::Won => return None,
             Outcome::Ongoing => EndingKind::StepLimit,
-            Outcome::Ended | Outcome::Stopped(_) => EndingKind::NoWinner,
+            Outcome::Ended => EndingKind::NoWinner,
+            Outcome::Stopped(_) => EndingKind::Stopped,
             Outcome::Lost => EndingKind::Otherwise,
         };
-        Some(Ending { kind, sprite: None, by: None, rule: None, distance: None })
+        let stop = match outcome {
+            Outcome::Stopped(limit) => Some(limit),
+            _ => None,
+        };
+        Some(Ending { kind, sprite: None, by: None, rule: None, stop, distance: None })
     }
 
     /// Derives the ending from the first and the last state and the interactions of the last tick. `None` for a win.
@@ -181,8 +194,14 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
     let rule = line.and_then(|line| {
         Some(written(&subject.source, game.description().terminations.get(line)?.class.span))
     });
-    let ending =
-        |kind| Ending { kind, sprite: None, by: None, rule: rule.clone(), distance: distance.clone() };
+    let ending = |kind| Ending {
+        kind,
+        sprite: None,
+        by: None,
+        rule: rule.clone(),
+        stop: None,
+        distance: distance.clone(),
+    };
     let Some(goal) = analysis.goals().iter().find(|goal| Some(goal.line) == line) else {
         // The limit of the reference is no line of the game.
         let late = line.is_none() && u64::try_from(last.tick()).is_ok_and(|tick| tick >= game.time_limit());

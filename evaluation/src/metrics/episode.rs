@@ -184,6 +184,11 @@ impl EpisodeMetrics {
         }
     }
 
+    /// Returns `true` if the engine stopped the episode, which says nothing about the player.
+    pub fn is_stopped(&self) -> bool {
+        self.ending.as_ref().is_some_and(|ending| ending.stop.is_some())
+    }
+
     /// Returns `true` if the game was won. All other outcomes are no win: lost, over without a winner, or not over.
     pub fn won(&self) -> bool {
         self.outcome == Outcome::Won

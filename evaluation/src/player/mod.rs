@@ -120,6 +120,9 @@ pub enum Halt {
     /// The server rejects all requests of this kind (wrong key, unknown model), so that the evaluation cannot continue.
     #[error("{0}")]
     Rejected(String),
+    /// The player cannot be asked about this game (the server rejects what the prompt holds), but perhaps about others.
+    #[error("{0}")]
+    Unfit(String),
     /// None of the first decisions of the evaluation has a usable answer.
     #[error("{0}")]
     Unusable(String),
@@ -137,7 +140,7 @@ impl Halt {
         let reason = match self {
             Halt::Infrastructure(_) => "infrastructure",
             Halt::Budget(_) => "budget",
-            Halt::Rejected(_) => "rejected",
+            Halt::Rejected(_) | Halt::Unfit(_) => "rejected",
             Halt::Unusable(_) => "unusable",
             Halt::Interrupted | Halt::Log(_) => return None,
         };

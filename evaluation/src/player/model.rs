@@ -174,7 +174,11 @@ impl ModelPlayer {
         self.model.chat(&request).map_err(|error| match error.kind {
             ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
             ChatErrorKind::Budget => Halt::Budget(error.message),
-            ChatErrorKind::Rejected => Halt::Rejected(error.message),
+            ChatErrorKind::Rejected => match error.failures.last().and_then(|failure| failure.status) {
+                // The request is at fault; with a wrong key or model, all are.
+                Some(400 | 413 | 422) => Halt::Unfit(error.message),
+                _ => Halt::Rejected(error.message),
+            },
         })
     }
 

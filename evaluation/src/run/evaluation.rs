@@ -14,7 +14,7 @@ use crate::track::SeriesPlace;
 use engine::{Outcome, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::Write;
@@ -68,6 +68,12 @@ pub struct Tally {
     pub ended: u64,
     /// The number of those that were won, without those for practice.
     pub won: u64,
+    /// The episodes that the engine stopped, by game and reason.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stopped: Vec<StoppedEpisodes>,
+    /// The games that the player could not be asked about.
+    #[serde(skip_serializing_if = "BTreeSet::is_empty")]
+    pub unfit: BTreeSet<String>,
     /// The number of episodes in total that are for practice, and count in no result.
     #[serde(skip_serializing_if = "is_zero")]
     pub practice: u64,
@@ -80,6 +86,17 @@ pub struct Tally {
     pub halted: Option<String>,
     /// `true` if the cause is the network, the server, the disk or a player's process, rather than a cap or the user.
     pub infrastructure: bool,
+}
+
+/// Episodes of a game that the engine stopped for one reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct StoppedEpisodes {
+    /// The id of the game.
+    pub game: String,
+    /// The reason.
+    pub reason: String,
+    /// Their number.
+    pub episodes: u64,
 }
 
 fn is_zero(number: &u64) -> bool {
@@ -191,6 +208,27 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
     }
 
+    /// Deletes the results folder if it holds no decision and no answer, so that another player can have it. Returns `true` if it did.
+    ///
+    /// # Errors
+    /// A log cannot be read, or the folder cannot be deleted.
+    pub fn delete_if_unplayed(self) -> Result<bool, EvaluationError> {
+        for task in self.tasks() {
+            let is_of_play = |event: &Event| {
+                !matches!(
+                    event,
+                    Event::Start { .. } | Event::Message { .. } | Event::Request { .. } | Event::Halt { .. }
+                )
+            };
+            if self.events(&task)?.iter().any(is_of_play) {
+                return Ok(false);
+            }
+        }
+        drop(self._lock);
+        fs::remove_dir_all(&self.folder).map_err(EvaluationError::io("delete", &self.folder))?;
+        Ok(true)
+    }
+
     /// Returns the settings entries of these subjects.
     pub fn entries(subjects: &[Subject]) -> Vec<SubjectEntry> {
         subjects.iter().map(SubjectEntry::of).collect()
@@ -297,6 +335,8 @@ impl Evaluation {
         let (stopped, failures) = (AtomicBool::new(false), AtomicU64::new(0));
         let (watch, answers) = (Watch::default(), Mutex::new(Answers::default()));
         let first = Mutex::new(None);
+        let unfit = Mutex::new(BTreeSet::new());
+        let is_unfit = |task: &Task<'_>| unfit.lock().expect("no holder panics").contains(&task.subject.id);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
         // In order rather than in halves: when a run is aborted, every level has been played about equally often.
@@ -311,7 +351,10 @@ impl Evaluation {
                 PlayResult::Ended(_) => failures.store(0, Ordering::Relaxed),
                 PlayResult::Halted(halt) => {
                     let many = failures.fetch_add(1, Ordering::Relaxed) + 1 >= FAILURES_IN_A_ROW;
-                    if many || !matches!(halt, Halt::Infrastructure(_)) {
+                    if let Halt::Unfit(_) = halt {
+                        unfit.lock().expect("no holder panics").insert(task.subject.id.clone());
+                    }
+                    if many || !matches!(halt, Halt::Infrastructure(_) | Halt::Unfit(_)) {
                         stopped.store(true, Ordering::Relaxed);
                         progress.stopped(halt);
                     }
@@ -323,7 +366,7 @@ impl Evaluation {
             }
             progress.episode(task, result);
         };
-        let mut tally = Tally::default();
+        let (mut tally, mut stops) = (Tally::default(), BTreeMap::<_, u64>::new());
         let mut ended: Vec<(usize, bool)> = Vec::new();
         while !is_stopped() {
             let chosen = choose(&ended);
@@ -340,7 +383,7 @@ impl Evaluation {
             });
             let series: Vec<(usize, &[Task<'_>])> = series.collect();
             let results = series.into_iter().par_bridge().map(|(first, tasks)| {
-                if is_stopped() {
+                if is_stopped() || is_unfit(&tasks[0]) {
                     return Ok((first, Vec::new()));
                 }
                 let open = |task: &Task<'_>| Journal::open(&self.log_path(task));
@@ -357,6 +400,9 @@ impl Evaluation {
                         ended.push((at, won));
                         tally.ended += 1;
                         tally.won += u64::from(won && !is_practice);
+                        if let Outcome::Stopped(limit) = outcome {
+                            *stops.entry((tasks[at].subject.id.clone(), limit.to_string())).or_default() += 1;
+                        }
                     }
                 }
             }
@@ -371,8 +417,13 @@ impl Evaluation {
             open: tally.episodes - tally.ended,
             infrastructure: matches!(
                 halted,
-                Some(Halt::Infrastructure(_) | Halt::Rejected(_) | Halt::Log(_))
+                Some(Halt::Infrastructure(_) | Halt::Rejected(_) | Halt::Unfit(_) | Halt::Log(_))
             ),
+            stopped: stops
+                .into_iter()
+                .map(|((game, reason), episodes)| StoppedEpisodes { game, reason, episodes })
+                .collect(),
+            unfit: unfit.into_inner().expect("no holder panics"),
             halted: halted.map(|halt| halt.to_string()),
             ..tally
         })

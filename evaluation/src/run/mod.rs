@@ -11,7 +11,7 @@ mod unusable;
 pub(crate) use episode::{available, graded};
 
 pub use episode::{PlayResult, Task, play};
-pub use evaluation::{Evaluation, Progress, Tally, tasks};
+pub use evaluation::{Evaluation, Progress, StoppedEpisodes, Tally, tasks};
 pub use series::play_together;
 pub use settings::{
     Adaptive, Entrant, FORMAT, LevelEntry, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, Settings, SubjectEntry,

@@ -123,6 +123,21 @@ pub struct LevelEntry {
 }
 
 impl Settings {
+    /// Returns a warning if levels have no known win within the limit of steps: `38 of 54 levels have no known win within 40 steps`.
+    pub fn out_of_reach(&self) -> Option<String> {
+        let of_level = |game: &SubjectEntry, number: usize| game.facts.known_wins.get(&number).copied();
+        let levels = self.games.iter().flat_map(|game| game.levels.iter().map(move |level| (game, level)));
+        let (all, wins): (Vec<_>, Vec<_>) =
+            levels.map(|(game, level)| ((), of_level(game, level.number))).unzip();
+        let beyond = wins.iter().flatten().filter(|&&ticks| ticks > self.max_steps);
+        let (count, longest) = (beyond.clone().count(), beyond.max()?);
+        let (all, limit) = (all.len(), self.max_steps);
+        let have = if all == 1 { "level has" } else { "levels have" };
+        Some(format!(
+            "{count} of {all} {have} no known win within {limit} steps; the shortest known wins take up to {longest}"
+        ))
+    }
+
     /// Sets the track, with the length of its series, and lists it among the differences from other players.
     ///
     /// # Errors

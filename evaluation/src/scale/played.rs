@@ -44,7 +44,7 @@ pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, E
             suites: BTreeMap::new(),
         };
         let (mut courses, mut runs) = (BTreeSet::new(), BTreeMap::new());
-        for episode in episodes.iter().filter(|episode| episode.counts()) {
+        for episode in episodes.iter().filter(|episode| episode.counts() && !episode.is_stopped()) {
             let Some(folder) = episode.folder else { continue };
             let settings = &settings[folder];
             let Some(game) = settings.games.iter().find(|game| game.id == episode.game) else { continue };

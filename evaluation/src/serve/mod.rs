@@ -45,6 +45,19 @@ pub enum PromptPlayer {
 pub struct Unanswerable(pub String);
 
 impl PromptPlayer {
+    /// Checks that the player can answer a conversation, at the cost of reading it.
+    ///
+    /// # Errors
+    /// The conversation lacks information that the player needs.
+    pub fn check(&self, messages: &[ChatMessage]) -> Result<(), Unanswerable> {
+        let shown = Shown::of(messages)?;
+        match self {
+            PromptPlayer::Random => Ok(()),
+            PromptPlayer::Reflex => reflex::choose(shown, seed(messages)).map(drop),
+            PromptPlayer::Planner(spec) => replan::check(&shown, spec),
+        }
+    }
+
     /// Returns the player's answer to a conversation. Cost: O(bytes); for a planner, its budget in forward-model calls.
     ///
     /// # Errors

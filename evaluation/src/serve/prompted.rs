@@ -26,7 +26,7 @@ impl Prompted {
 impl Agent for Prompted {
     fn act(&mut self, turn: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
         let prompt = self.prompter.prompt(turn, &self.past, &[]);
-        let answer = self.player.answer(&prompt.messages).map_err(|why| Halt::Rejected(why.to_string()))?;
+        let answer = self.player.answer(&prompt.messages).map_err(|why| Halt::Unfit(why.to_string()))?;
         let actions = self.prompter.read(&answer, turn).choice();
         let choice = actions.map_or_else(|| Choice::nothing(Validity::Invalid), Choice::plan);
         self.past.push(Past::new(prompt.shown, &[Attempt { answer, complaint: None }], choice.action(0)));

@@ -57,11 +57,20 @@ pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Resul
     Ok(actions)
 }
 
+/// Checks that a position can be planned on.
+///
+/// # Errors
+/// Those of [`choose`].
+pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswerable> {
+    let found = position(shown, Seed::from_text("unused"));
+    found.map(drop).map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))
+}
+
 /// Reconstructs the position that a prompt shows, in an equivalent game, or returns the reason why it cannot. The result
 /// does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
-        return Err("it needs the rules as VGDL (set `rules = \"vgdl\"`)".to_owned());
+        return Err("it needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set `rules` to `vgdl` in the settings of prompts".to_owned());
     };
     let (description, _) = parse(vgdl);
     let game =

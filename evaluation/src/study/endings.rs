@@ -138,7 +138,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
         "endings",
         "Episodes not won, by how they ended",
         "Died: the avatar was removed. Lost a sprite, sprite appeared: so the game was lost by its rules. Out of time: by the \
-         game's own limit; limit of steps: by that of the evaluation.",
+         game's own limit; limit of steps: by that of the evaluation. Stopped: by the engine, which says nothing about \
+         the player.",
         &study.ending_summaries,
         &[
             ("player", &|row| label(row.player)),
@@ -150,6 +151,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
             ("lost otherwise", &|row| kind(row, EndingKind::Otherwise)),
             ("limit of steps", &|row| kind(row, EndingKind::StepLimit)),
             ("no winner", &|row| kind(row, EndingKind::NoWinner)),
+            ("stopped", &|row| kind(row, EndingKind::Stopped)),
         ],
     );
     let causes = Table::of(

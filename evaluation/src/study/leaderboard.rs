@@ -67,7 +67,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
         "Win rate: wins divided by ended episodes, with a 95 % interval for games like these (of one game: for exactly these levels). \
          Bounds: the win rate if all episodes that were broken off had been lost, and if all had been won. Different: identical \
          episodes of a level counted once. The overall score is the mean of meaningful step ratio, spared steps, normalised \
-         reward and win rate; it rewards quick losses too. Optimality: proved fewest ticks divided by steps, over wins. Broken off: \
+         reward and win rate; it rewards quick losses too. Normalised reward, and with it the overall score, is relative to the players \
+         of this report: it changes when others join or leave. Optimality: proved fewest ticks divided by steps, over wins. Broken off: \
          episodes aborted by the network, caps or interruptions; they are excluded from all columns but the bounds.",
         &study.leaderboard,
         &[

@@ -56,6 +56,7 @@ use crate::subject::{LevelMark, Subject};
 use itertools::Itertools;
 use report::Table;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 const LEVEL: f64 = 0.95;
 /// The maximum number of rows of a comparison table in a report; the data has all.
@@ -245,6 +246,21 @@ impl Study {
             self.notes.push(format!(
                 "Players are on different tracks, whose results are not comparable: they are compared within a track only, and difficulty, \
                  correlations and failure modes are of {first}."
+            ));
+        }
+        let mut stops: BTreeMap<(usize, String), u64> = BTreeMap::new();
+        for episode in &self.episodes {
+            let ending = episode.metrics.ending.as_ref().filter(|_| episode.metrics.counts());
+            if let Some(limit) = ending.and_then(|ending| ending.stop) {
+                *stops.entry((episode.game, limit.to_string())).or_default() += 1;
+            }
+        }
+        for ((game, limit), episodes) in stops {
+            let were = if episodes == 1 { "episode was" } else { "episodes were" };
+            self.notes.push(format!(
+                "{episodes} {were} stopped by the engine in {} ({limit}). Such episodes count as not won, but say nothing about the players. \
+                 Repair the game; `arcade validate` shows the reason.",
+                self.title(game)
             ));
         }
         let broken = self.episodes.iter().filter(|episode| !episode.metrics.counts()).count();

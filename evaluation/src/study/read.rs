@@ -59,6 +59,9 @@ impl Study {
                     player.label()
                 ));
             }
+            notes.extend(
+                evaluation.settings.out_of_reach().map(|warning| format!("{}: {warning}.", player.label())),
+            );
             let mut parted: BTreeMap<Surface, Vec<EpisodeMetrics>> = BTreeMap::new();
             for episode in measured {
                 parted.entry(surfaces[episode.game.as_str()]).or_default().push(episode);

@@ -1,6 +1,6 @@
 //! The results of a study in plain words: who is best, how sure that is, on which kinds of game, and how each player fails.
 
-use crate::metrics::EndingKind;
+use crate::metrics::{EndingKind, GoalDistance};
 use crate::study::endings::nearest;
 use crate::study::leaderboard::LeaderRow;
 use crate::study::{OverallComparison, Study, TaxonomyRow};
@@ -151,6 +151,7 @@ impl Study {
                 EndingKind::Otherwise => "were lost by the rules of the game",
                 EndingKind::StepLimit => "reached the limit of steps",
                 EndingKind::NoWinner => "ended without a winner",
+                EndingKind::Stopped => "were stopped by the engine, which says nothing about the player",
             };
             let most = causes().filter(|row| row.kind == *kind).find_map(|row| {
                 let times =
@@ -163,7 +164,10 @@ impl Study {
         let how = kinds.map(told).join(", ");
         let near =
             nearest(causes().filter_map(|row| row.nearest.as_ref())).filter(|near| near.left < near.of);
-        let near = near.map_or(String::new(), |near| format!(" At best, {}.", near.words()));
+        let near = near.map_or(String::new(), |near| {
+            let GoalDistance { counted, left, of } = near;
+            format!(" Closest to a win: {left} of {of} ({counted}) remaining.")
+        });
         let (label, choices) = (self.players[row.player].label(), &row.choices);
         let useless = choices.invalid + choices.refused + choices.truncated;
         let share = useless as f64 / choices.total().max(1) as f64;

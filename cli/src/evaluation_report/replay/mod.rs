@@ -286,7 +286,8 @@ fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String 
     let how = match state.outcome() {
         Outcome::Won => "won in",
         Outcome::Lost => "lost after",
-        Outcome::Ended | Outcome::Stopped(_) => "over without a winner after",
+        Outcome::Ended => "over without a winner after",
+        Outcome::Stopped(_) => "stopped by the engine after",
         Outcome::Ongoing if steps as u64 >= max_steps => "not over at the limit of",
         Outcome::Ongoing if matches!(log.last(), Some(Event::Halt { .. })) => "broken off after",
         Outcome::Ongoing => "interrupted after",

@@ -90,11 +90,11 @@ pub(super) fn choose(
         return Ok(Choice::All);
     };
     let scale = ScaleFile::read(path)?;
+    if args.max_steps.is_none() {
+        settings.max_steps = scale.max_steps;
+    }
     if let Some(flags) = settings.apart_from(scale.max_steps) {
-        bail!(
-            "{flags}: the scale is of the track `told`, a look before every action, and --max-steps {}; evaluate it so",
-            scale.max_steps
-        );
+        bail!("{flags}: this scale needs --max-steps {} (track told, --commit 1)", scale.max_steps);
     }
     let is_reader = !matches!(requested, RequestedPlayer::Planner(_));
     let levels = ScaledLevels::of(&scale, &settings.games, is_reader).map_err(|level| {

@@ -61,7 +61,7 @@ impl RequestedMailbox {
         subjects: &[Subject],
         console: &Console,
     ) -> Result<(PlayerOf, Arc<Mailbox>), Failure> {
-        let prompters = prompters(subjects, &self.prompts, args.max_steps, args.commit)?;
+        let prompters = prompters(subjects, &self.prompts, settings.max_steps, args.commit)?;
         let mailbox = Arc::new(Mailbox::open(&self.folder, settings, args.resume, console.remarks())?);
         console.remark(format_args!(
             "prompts appear in {}; answer them with `{}`, or as `arcade docs mailbox` says",

@@ -10,34 +10,36 @@ pub(crate) mod subjects;
 mod track;
 
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
 use crate::marks;
 use crate::protected;
+use crate::shell;
 use crate::trusted::{OriginArgs, refuse};
 use crate::verbs::release::in_pool;
 use crate::whole_file;
 use choice::{Choice, ChoiceArgs};
 use engine::SEMANTICS;
 use evaluation::client::Spent;
-use evaluation::run::{self, Answers, FORMAT, SETTINGS_FILE, Tally, Task};
+use evaluation::run::{self, Answers, FORMAT, SETTINGS_FILE, StoppedEpisodes, Tally, Task};
 use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use itertools::Itertools;
 use model::{ConnectedModel, ModelArgs};
 use player::{Connected, RequestedPlayer, reject_unused_flags, requested_player};
 use progress::Bar;
 use serde_json::json;
-use statistics::Design;
+use statistics::{Design, Z95, wilson};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Lets a player play a snapshot or games, and records every episode.
 ///
 /// The results folder holds settings, games and a log for each episode; `arcade report` makes tables and a page of
 /// it.
 ///
-/// Exit status 0: all episodes have ended. 1: a cap was reached before; raise it and --resume. 2: malformed. 3:
-/// network, server or disk failed; --resume goes on. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume goes
+/// Exit status 0: all episodes have ended. 1: a cap was reached before, raise it and --resume; or the engine stopped an episode,
+/// because of a fault of its game. 2: malformed. 3: network, server or disk failed; --resume goes on. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume goes
 /// on.
 ///
 /// Example: arcade evaluate releases/starter --player mcts:100 --out results/mcts
@@ -53,24 +55,24 @@ pub(crate) struct Args {
     /// (see `arcade docs mailbox`)
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
     player: Option<String>,
-    /// The name of the person or program that plays as `human` or `mailbox:DIR`, for results
-    #[arg(long, value_name = "NAME", requires = "player")]
+    /// The player's name in results, for a model (--model), `human` or `mailbox:DIR`
+    #[arg(long, value_name = "NAME")]
     name: Option<String>,
     /// Only these games
     #[arg(long, value_name = "GAME", value_delimiter = ',')]
     games: Vec<String>,
-    /// Only these levels, by number
+    /// Only these levels, by number (`--games`, `--levels` and `--max-requests` limit an evaluation)
     #[arg(long, value_name = "N", value_delimiter = ',')]
     levels: Vec<usize>,
-    /// Forward-model calls of a decision, for planners without a number of their own
-    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
-    budget: u64,
+    /// Forward-model calls of a decision, for planners without a number of their own [default: 1000]
+    #[arg(long, value_name = "CALLS")]
+    budget: Option<u64>,
     /// Episodes on each level
     #[arg(long, value_name = "N", default_value_t = 1)]
     runs: u64,
-    /// The most actions of an episode
-    #[arg(long, value_name = "N", default_value_t = 1000)]
-    max_steps: u64,
+    /// Maximum number of actions per episode [default: 1000, or that of the --scale]
+    #[arg(long, value_name = "N")]
+    max_steps: Option<u64>,
     /// Actions that the player commits to at each look: a number, or `all` for the whole episode
     #[arg(long, value_name = "K", default_value_t = Commitment::ONE, allow_hyphen_values = true)]
     commit: Commitment,
@@ -92,7 +94,7 @@ pub(crate) struct Args {
     /// Only print the forecast
     #[arg(long)]
     dry_run: bool,
-    /// Go on although none of the first 20 decisions has a usable answer
+    /// Continue even if the first 20 answers are all unusable
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
@@ -102,6 +104,12 @@ pub(crate) struct Args {
     #[command(flatten)]
     model: ModelArgs,
 }
+
+/// The default of --budget.
+const BUDGET: u64 = 1000;
+
+/// The default of --max-steps.
+const MAX_STEPS: u64 = 1000;
 
 /// The file of a results folder that records what was checked of the release's root.
 const ORIGIN_FILE: &str = "origin.json";
@@ -118,7 +126,7 @@ impl Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    if args.runs == 0 || args.max_steps == 0 {
+    if args.runs == 0 || args.max_steps == Some(0) {
         bail!("--runs and --max-steps take a number, at least 1");
     }
     if args.jobs == Some(0) {
@@ -146,7 +154,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         entrant: with_commitment(requested.entrant(args, &subjects.games)?, args.commit),
         seed: args.seed.clone(),
         runs: args.runs,
-        max_steps: args.max_steps,
+        max_steps: args.max_steps.unwrap_or(MAX_STEPS),
         commit: args.commit,
         track: None,
         series: 1,
@@ -160,6 +168,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     settings
         .check()
         .map_err(|problem| malformed!("{problem}; see --runs, --max-steps, --games and --levels"))?;
+    requested.check(&settings, &subjects.games)?;
     track::advise(args.model.prompt.track, &subjects.games, console);
     if let Choice::Planned(plan) = &choice {
         if args.only_plans() {
@@ -169,6 +178,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     if args.dry_run {
         return forecast(&requested, &settings, &subjects.games, console);
+    }
+    if let Some(warning) = settings.out_of_reach() {
+        console.remark(format_args!("warning: {warning}; raise --max-steps"));
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
     protected::check(&folder)?;
@@ -180,10 +192,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let Connected { contestant, model, mailbox } =
         requested.connect(args, &settings, &subjects.games, console)?;
-    let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
-        Evaluation::resume(&folder, &settings)
-    } else {
-        Evaluation::create(&folder, settings, subjects.games)
+    let is_new = !(args.resume && folder.join(SETTINGS_FILE).exists());
+    let evaluation = match is_new {
+        true => Evaluation::create(&folder, settings, subjects.games),
+        false => Evaluation::resume(&folder, &settings),
     };
     let evaluation = evaluation?;
     if let Some(origin) = origin {
@@ -209,6 +221,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         won: AtomicU64::new(0),
         limited: AtomicU64::new(0),
         console,
+        refused: AtomicBool::new(false),
         keep_going: args.keep_going,
         logs: folder.join("episodes"),
         mailbox: mailbox.clone(),
@@ -231,7 +244,18 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.remark(choice::record(choice, &folder)?);
     }
     let limited = bar.limited.load(Ordering::Relaxed);
-    print_results(console, &folder, &evaluation.settings, &tally, limited, model.as_deref())
+    let settings = evaluation.settings.clone();
+    // A wrong name of a model leaves nothing that could be resumed.
+    let is_refused =
+        is_new && tally.infrastructure && tally.ended == 0 && mailbox.is_none() && bar.is_refused();
+    if is_refused && evaluation.delete_if_unplayed()? {
+        let why = tally.halted.clone().unwrap_or_default();
+        return Err(Failure::environment(
+            anyhow::anyhow!("{why}"),
+            "no request was answered, so no results folder was kept; correct the command and run it again",
+        ));
+    }
+    print_results(console, &folder, &settings, &tally, limited, model.as_deref())
 }
 
 /// Prints the expected effort, and the differences that the evaluation could show.
@@ -262,8 +286,13 @@ fn forecast(
     let planned = Design { games, levels: levels.div_ceil(games), runs: settings.runs };
     let power = study::power(planned);
     document["power"] = json!(power);
+    let out_of_reach = settings.out_of_reach();
+    document["out_of_reach"] = json!(out_of_reach);
     console.document(&document)?;
     console.say(text);
+    if let Some(warning) = out_of_reach {
+        console.say(format_args!("warning: {warning}; raise --max-steps"));
+    }
     console.say(format_args!("\n{}", study::power_table(&power).to_markdown().trim_end()));
     Ok(true)
 }
@@ -303,13 +332,39 @@ fn print_results(
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
-    let Tally { episodes, ended, won, answers, open, halted, infrastructure, practice } = tally;
+    let Tally { episodes, ended, won, answers, open, halted, infrastructure, stopped, unfit, practice } =
+        tally;
     let practice = match practice {
         0 => String::new(),
         1 => format!("; 1 of the episodes is for practice, and {} count", episodes - 1),
         _ => format!("; {practice} of the episodes are for practice, and {} count", episodes - practice),
     };
-    console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won{practice}", entrant.name));
+    let counted = ended.saturating_sub(tally.practice);
+    let interval = wilson(*won, counted, Z95);
+    let rate = match counted {
+        0 => String::new(),
+        _ => {
+            let [value, low, high] =
+                [*won as f64 / counted as f64, interval.low, interval.high].map(|share| 100.0 * share);
+            format!(", {value:.0} % ({low:.0} to {high:.0} % for these levels)")
+        }
+    };
+    console.say(format_args!(
+        "{}: {ended} of {episodes} episodes played, {won} won{rate}{practice}",
+        entrant.name
+    ));
+    for StoppedEpisodes { game, reason, episodes } in stopped {
+        console.say(format_args!(
+            "{game}: the engine stopped {}: {reason}; they say nothing about the player, and `arcade validate` shows the fault",
+            count(*episodes as usize, "episode")
+        ));
+    }
+    if !unfit.is_empty() && unfit.len() < settings.games.len() {
+        console.say(format_args!(
+            "the player could not be asked about {}; its other games were played",
+            unfit.iter().join(", ")
+        ));
+    }
     if let Some((Spent { requests, tokens, .. }, cost)) = spent {
         let cost = cost.map_or("cost unknown".to_owned(), |cost| format!("{cost:.4} USD"));
         console.say(format_args!("{requests} requests, {tokens} tokens, {cost}"));
@@ -320,14 +375,24 @@ fn print_results(
     if limited > 0 {
         let limited = if limited == 1 { "1 episode".to_owned() } else { format!("{limited} episodes") };
         console.remark(format_args!(
-            "{limited} reached the limit of {max_steps} steps, which is no win; a new evaluation with a higher --max-steps plays on"
+            "{limited} reached the limit of {max_steps} steps, and counted as not won. More steps need a new evaluation; --resume cannot \
+             add them."
         ));
     }
-    let open = match open {
+    let open = match *open {
         1 => "1 episode is unfinished".to_owned(),
         _ => format!("{open} episodes are unfinished"),
     };
     console.say(format_args!("results in {}", folder.display()));
+    if *ended > 0 {
+        let mut names = (1..).map(|number| match number {
+            1 => PathBuf::from("report"),
+            _ => PathBuf::from(format!("report-{number}")),
+        });
+        let report = names.find(|name| !name.exists()).unwrap_or_default();
+        let words = [Path::new("report"), folder, Path::new("--out"), &report];
+        console.say(format_args!("now: {}", shell::command(words)));
+    }
     match halted {
         Some(why) if *infrastructure => Err(Failure::environment(
             anyhow::anyhow!("{why}"),
@@ -341,7 +406,7 @@ fn print_results(
             console.say(format_args!("{open}: {why}; continue with --resume{raised}"));
             Ok(false)
         }
-        None => Ok(tally.open == 0),
+        None => Ok(tally.open == 0 && stopped.is_empty()),
     }
 }
 

@@ -41,7 +41,7 @@ pub(crate) struct ModelArgs {
     /// Nucleus sampling; not sent if not given
     #[arg(long, value_name = "P", requires = "model")]
     top_p: Option<f64>,
-    /// The most tokens of an answer, reasoning included
+    /// Maximum number of tokens per answer, reasoning included
     #[arg(long, value_name = "N", requires = "model")]
     max_output_tokens: Option<u32>,
     /// The provider's sampling seed
@@ -53,13 +53,13 @@ pub(crate) struct ModelArgs {
     /// Number of repeated requests after an answer without a usable action
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) reasks: u32,
-    /// The most US dollars to spend, by the table of prices
+    /// Maximum US dollars to spend, by the table of prices
     #[arg(long, value_name = "USD", requires = "model")]
     max_cost: Option<f64>,
-    /// The most tokens to spend, of prompts and answers
+    /// Maximum number of tokens to spend, of prompts and answers
     #[arg(long, value_name = "N", requires = "model")]
     max_tokens: Option<u64>,
-    /// The most requests to be answered
+    /// Maximum number of answered requests
     #[arg(long, value_name = "N", requires = "model")]
     max_requests: Option<u64>,
     /// Prices that override the embedded ones, TOML
@@ -71,16 +71,16 @@ pub(crate) struct ModelArgs {
     /// Concurrent requests, and with them episodes [default: 4]
     #[arg(long, value_name = "N", requires = "model")]
     concurrency: Option<NonZeroUsize>,
-    /// The most requests to begin in a minute
+    /// Maximum number of requests to begin per minute
     #[arg(long, value_name = "N", requires = "model")]
     requests_per_minute: Option<NonZeroU64>,
-    /// The most tokens of a minute's requests and answers
+    /// Maximum number of tokens per minute, of requests and answers
     #[arg(long, value_name = "N", requires = "model")]
     tokens_per_minute: Option<NonZeroU64>,
-    /// The most tries of a request [default: 8]
+    /// Maximum number of tries per request [default: 8]
     #[arg(long, value_name = "N", requires = "model")]
     tries: Option<NonZeroU32>,
-    /// The most seconds of a try, or of an answer of a program [default: 600]
+    /// Maximum seconds per try, or of an answer of a program [default: 600]
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     pub(crate) timeout: Option<u64>,
     #[command(flatten)]
@@ -122,7 +122,7 @@ pub(crate) struct PromptArgs {
     /// Advice to add verbatim
     #[arg(long, value_name = "FILE")]
     strategy: Option<PathBuf>,
-    /// The most tokens of a conversation: older turns are left out beyond it [default: 20000]
+    /// Maximum number of tokens of a conversation: older turns are left out beyond it [default: 20000]
     #[arg(long, value_name = "N")]
     history_tokens: Option<u64>,
 }
@@ -381,6 +381,10 @@ pub(crate) struct Forecast {
     max_output_tokens: Option<u64>,
     /// US dollars if all answers are as long as possible.
     max_cost: Option<f64>,
+    /// The requests if every episode lasts as long as the shortest known win of its level; none if a level has no known win.
+    estimated_requests: Option<u64>,
+    /// US dollars for them.
+    estimated_cost: Option<f64>,
     /// The part that exceeds a cap.
     forbidden: Option<String>,
 }
@@ -401,7 +405,7 @@ impl RequestedModel {
             .map(|subject| self.prompter(subject, u64::MAX, args.commit).map(|own| own.digest()))
             .transpose()?;
         Ok(Entrant {
-            name: self.settings.model.clone(),
+            name: args.name.clone().unwrap_or_else(|| self.settings.model.clone()),
             mode: Some(self.prompts.mode.name().to_owned()),
             aids: args.model.prompt.aids(&self.prompts),
             details: json!({
@@ -440,12 +444,54 @@ impl RequestedModel {
         let price = client::price(&self.options)?;
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
         let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
+        let batches = self.batches(tasks, answer, |task| task.most_decisions())?;
+        let known = |task: &Task<'_>| task.subject.facts.known_wins.get(&task.level.number).copied();
+        let estimated = match tasks.iter().all(|task| known(task).is_some()) {
+            true => {
+                let decisions = |task: &Task<'_>| {
+                    let steps = known(task).unwrap_or(u64::MAX).min(task.most_steps());
+                    steps.div_ceil(task.commit.due(steps).max(1)).max(1)
+                };
+                Some(Estimate::of(&self.batches(tasks, answer, decisions)?, price.as_ref()))
+            }
+            false => None,
+        };
+        let estimate = Estimate::of(&batches, price.as_ref());
+        let longest = most.map(|output_tokens| {
+            let longest: Vec<_> = batches.iter().map(|batch| Batch { output_tokens, ..*batch }).collect();
+            Estimate::of(&longest, price.as_ref())
+        });
+        Ok(Forecast {
+            episodes: tasks.len() as u64,
+            requests: estimate.requests,
+            input_tokens: estimate.input_tokens,
+            cacheable_tokens: estimate.cacheable_tokens,
+            output_tokens: estimate.output_tokens,
+            cost: estimate.cost.map(Usd::dollars),
+            cost_if_cached: estimate.cost_if_cached.map(Usd::dollars),
+            answer_tokens: answer,
+            max_answer_tokens: most,
+            max_output_tokens: longest.map(|longest| longest.output_tokens),
+            max_cost: longest.and_then(|longest| longest.cost).map(Usd::dollars),
+            estimated_requests: estimated.map(|estimated| estimated.requests),
+            estimated_cost: estimated.and_then(|estimated| estimated.cost).map(Usd::dollars),
+            forbidden: self.options.limits.exceeded_by_estimate(&estimate),
+        })
+    }
+
+    /// Returns the requests of each episode, if it takes this number of decisions.
+    fn batches(
+        &self,
+        tasks: &[Task<'_>],
+        answer: u64,
+        decisions: impl Fn(&Task<'_>) -> u64,
+    ) -> Result<Vec<Batch>, Failure> {
         let mut batches = Vec::new();
         // The decisions of the levels before in the same conversation.
         let mut earlier = 0;
         for task in tasks {
             let prompter = self.prompter(task.subject, task.max_steps, task.commit)?;
-            let decisions = task.most_decisions();
+            let decisions = decisions(task);
             let first = Observed::first(task);
             let prompt = prompter.prompt(&first.turn(task), &[], &[]);
             let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());
@@ -472,25 +518,7 @@ impl RequestedModel {
                 output_tokens: answer,
             });
         }
-        let estimate = Estimate::of(&batches, price.as_ref());
-        let longest = most.map(|output_tokens| {
-            let longest: Vec<_> = batches.iter().map(|batch| Batch { output_tokens, ..*batch }).collect();
-            Estimate::of(&longest, price.as_ref())
-        });
-        Ok(Forecast {
-            episodes: tasks.len() as u64,
-            requests: estimate.requests,
-            input_tokens: estimate.input_tokens,
-            cacheable_tokens: estimate.cacheable_tokens,
-            output_tokens: estimate.output_tokens,
-            cost: estimate.cost.map(Usd::dollars),
-            cost_if_cached: estimate.cost_if_cached.map(Usd::dollars),
-            answer_tokens: answer,
-            max_answer_tokens: most,
-            max_output_tokens: longest.map(|longest| longest.output_tokens),
-            max_cost: longest.and_then(|longest| longest.cost).map(Usd::dollars),
-            forbidden: self.options.limits.exceeded_by_estimate(&estimate),
-        })
+        Ok(batches)
     }
 }
 
@@ -540,6 +568,13 @@ impl std::fmt::Display for Forecast {
                     .try_for_each(|most| write!(f, "; {most:.2} USD with the longest answers"))?;
             }
             _ => write!(f, "cost: unknown; give prices with --prices FILE")?,
+        }
+        if let Some(requests) = self.estimated_requests {
+            write!(
+                f,
+                "\nif every episode lasts as long as the shortest known win of its level: {requests} requests"
+            )?;
+            self.estimated_cost.iter().try_for_each(|cost| write!(f, ", {cost:.2} USD"))?;
         }
         self.forbidden.iter().try_for_each(|cap| write!(f, "\nthat exceeds {cap}"))
     }

@@ -1,9 +1,9 @@
 //! The player that a user asks for, and its connection to the episodes.
 
-use super::Args;
 use super::human::Human;
 use super::mailbox::RequestedMailbox;
 use super::model::{self, ConnectedModel};
+use super::{Args, BUDGET};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::verbs::player_guard;
@@ -14,8 +14,9 @@ use evaluation::player::{Contestant, Replay, Touching};
 use evaluation::prompt::PromptSettings;
 use evaluation::run::Task;
 use evaluation::serve::{PromptPlayer, Prompted};
-use evaluation::{Entrant, Settings, Subject, Track};
+use evaluation::{Entrant, Observed, Settings, Subject, Track};
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
@@ -55,7 +56,7 @@ impl RequestedPlayer {
         let (name, details) = match self {
             RequestedPlayer::Model(model) => return model.entrant(subjects, args),
             RequestedPlayer::Planner(spec) => {
-                let budget = spec.budget().unwrap_or(Budget(args.budget));
+                let budget = spec.budget().unwrap_or(Budget(args.budget.unwrap_or(BUDGET)));
                 let looks_ahead =
                     !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil" | "nearest-goal");
                 let name = match looks_ahead {
@@ -85,6 +86,37 @@ impl RequestedPlayer {
         Ok(Entrant { name, mode: None, aids, details })
     }
 
+    /// Checks that a player that reads prompts can read the first one of each game, before anything is written.
+    ///
+    /// # Errors
+    /// It cannot. The message names the games, the reason, and those that it can play.
+    pub(super) fn check(&self, settings: &Settings, subjects: &[Subject]) -> Result<(), Failure> {
+        let RequestedPlayer::Prompted(player, prompts) = self else { return Ok(()) };
+        let prompters = model::prompters(subjects, prompts, settings.max_steps, settings.commit)?;
+        let mut problems: BTreeMap<&str, String> = BTreeMap::new();
+        let tasks = evaluation::run::tasks(settings, subjects);
+        for task in tasks.iter().filter(|task| task.run == 0) {
+            let messages =
+                prompters[&task.subject.id].prompt(&Observed::first(task).turn(task), &[], &[]).messages;
+            if let Err(why) = player.check(&messages) {
+                problems.entry(&task.subject.id).or_insert_with(|| why.to_string());
+            }
+        }
+        let Some((game, why)) = problems.iter().next() else { return Ok(()) };
+        let fit: Vec<&str> = subjects.iter().map(|subject| subject.id.as_str()).collect();
+        let fit: Vec<&str> = fit.into_iter().filter(|id| !problems.contains_key(id)).collect();
+        match (problems.len(), fit.is_empty()) {
+            (_, false) => Err(malformed!(
+                "{game}: {why}; it can play {} of {} games: --games {}",
+                fit.len(),
+                subjects.len(),
+                fit.join(",")
+            )),
+            (1, _) => Err(malformed!("{game}: {why}")),
+            (many, _) => Err(malformed!("{game}: {why}; none of the {many} games can be played so")),
+        }
+    }
+
     /// Returns the players of the episodes.
     pub(super) fn connect(
         &self,
@@ -95,7 +127,7 @@ impl RequestedPlayer {
     ) -> Result<Connected, Failure> {
         let contestant: PlayerOf = match self {
             RequestedPlayer::Planner(spec) => {
-                let (spec, budget) = (spec.clone(), Budget(args.budget));
+                let (spec, budget) = (spec.clone(), Budget(args.budget.unwrap_or(BUDGET)));
                 Box::new(move |_| Contestant::Planner { spec: spec.clone(), budget })
             }
             RequestedPlayer::Replay(replay) => {
@@ -111,13 +143,13 @@ impl RequestedPlayer {
                 Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Human(prompts) => {
-                let prompters = model::prompters(subjects, prompts, args.max_steps, args.commit)?;
+                let prompters = model::prompters(subjects, prompts, settings.max_steps, args.commit)?;
                 let player = move |task: &Task<'_>| Human::new(prompters[&task.subject.id].clone());
                 Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Prompted(player, prompts) => {
                 let (player, prompters) =
-                    (player.clone(), model::prompters(subjects, prompts, args.max_steps, args.commit)?);
+                    (player.clone(), model::prompters(subjects, prompts, settings.max_steps, args.commit)?);
                 let prompter = move |task: &Task<'_>| prompters[&task.subject.id].clone();
                 Box::new(move |task| {
                     Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter(task))))
@@ -138,7 +170,7 @@ impl RequestedPlayer {
                 return Ok(Connected { mailbox: Some(mailbox), ..contestant.into() });
             }
             RequestedPlayer::Model(model) => {
-                let model = Arc::new(model.connect(subjects, args.max_steps, args.commit)?);
+                let model = Arc::new(model.connect(subjects, settings.max_steps, args.commit)?);
                 let connected = model.clone();
                 let contestant: PlayerOf = Box::new(move |task| connected.contestant(task));
                 return Ok(Connected { model: Some(model), ..contestant.into() });
@@ -169,6 +201,11 @@ impl RequestedPlayer {
 
 /// Refuses flags that would have no effect: a user who gives them expects one.
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
+    if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
+        bail!(
+            "--budget applies to planners only, such as --player mcts; remove it (`planner:mcts:300` has its number in the name)"
+        );
+    }
     if matches!(requested, RequestedPlayer::Model(_)) {
         return match args.jobs {
             Some(_) => Err(malformed!(
@@ -189,7 +226,7 @@ pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> R
     let is_named = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Mailbox(_));
     if args.name.is_some() && !is_named {
         bail!(
-            "--name applies to the players `human` and `mailbox:DIR` only; remove it for the player `{player}`"
+            "--name applies to models (--model) and the players `human` and `mailbox:DIR` only; remove it for the player `{player}`"
         );
     }
     let is_shown_prompts = is_named || matches!(requested, RequestedPlayer::Prompted(..));

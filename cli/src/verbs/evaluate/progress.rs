@@ -9,7 +9,7 @@ use evaluation::run::{Answers, PlayResult, Progress, Task};
 use indicatif::ProgressBar;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// A progress bar with the episodes played and won.
 pub(super) struct Bar<'a> {
@@ -17,12 +17,21 @@ pub(super) struct Bar<'a> {
     pub(super) won: AtomicU64,
     /// The number of episodes that reached the limit of steps.
     pub(super) limited: AtomicU64,
+    /// `true` once a request was rejected.
+    pub(super) refused: AtomicBool,
     pub(super) console: &'a Console,
     pub(super) keep_going: bool,
     /// The folder of the logs.
     pub(super) logs: PathBuf,
     /// The mailbox whose episodes wait, if the player has one.
     pub(super) mailbox: Option<Arc<Mailbox>>,
+}
+
+impl Bar<'_> {
+    /// Returns `true` if a request was rejected.
+    pub(super) fn is_refused(&self) -> bool {
+        self.refused.load(Ordering::Relaxed)
+    }
 }
 
 impl Progress for Bar<'_> {
@@ -50,6 +59,9 @@ impl Progress for Bar<'_> {
             self.limited.fetch_add(1, Ordering::Relaxed);
         }
         if let PlayResult::Halted(halt) = result {
+            if matches!(halt, Halt::Rejected(_) | Halt::Unfit(_)) {
+                self.refused.store(true, Ordering::Relaxed);
+            }
             self.bar.println(format!("{}: {halt}", task.file_name()));
         }
         self.bar.set_message(format!("{} won", self.won.load(Ordering::Relaxed)));

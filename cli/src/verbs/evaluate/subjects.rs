@@ -52,7 +52,7 @@ pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
             let (name, root, found) = of_snapshot(place, args)?;
             (snapshot, release, games) = (Some(root), Some(name), found);
         } else {
-            for input in input::games(name)? {
+            for input in input::games(name).map_err(|error| with_release(error, place))? {
                 games.push(of_input(&input, args)?);
             }
         }
@@ -70,6 +70,19 @@ pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
         bail!("there is no level to play; see --levels");
     }
     Ok(Subjects { snapshot, release, games })
+}
+
+/// Adds the release of this name in `releases/`, if there is one, to the error about a missing file.
+fn with_release(error: Failure, place: &Path) -> Failure {
+    let release = Path::new("releases").join(place);
+    match !place.exists() && is_snapshot(&release) {
+        true => malformed!(
+            "{}: there is no such file, folder or corpus game; did you mean `{}`?",
+            place.display(),
+            release.display()
+        ),
+        false => error,
+    }
 }
 
 fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
@@ -196,6 +209,11 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
             SubjectFacts { title: card.title.clone(), kind: card.kind.clone(), ..SubjectFacts::default() };
         facts.marks = marks.iter().flat_map(|marks| marks::of_game(marks, id)).collect();
         facts.marks.retain(|mark| args.wants(mark.level));
+        let wins = card.levels.iter().enumerate().filter(|(number, _)| args.wants(*number));
+        let wins = wins.map(|(number, level)| (number, level.optimal_ticks.unwrap_or(level.witness_ticks)));
+        facts.release = Some(manifest.name.clone());
+        facts.known_wins =
+            wins.filter(|(_, ticks)| *ticks > 0).map(|(number, ticks)| (number, ticks as u64)).collect();
         let subject = Subject::read(id, &source, &levels, facts);
         games.push(subject.map_err(|Unreadable { level, problems }| {
             let file = level.map_or("game.vgdl", |number| &card.levels[number].file);

@@ -158,8 +158,8 @@ fn telling_episodes() {
         rows,
         [("died of touching pit", 2), ("ran out of time", 2), ("died at the edge of the screen", 1)]
     );
-    let expect = "a did not win 5 of 6 episodes: 3 died (most often of touching pit in garden, 2 times), 2 ran out of time. At best, 1 of 2 \
-                  gem left.";
+    let expect = "a did not win 5 of 6 episodes: 3 died (most often of touching pit in garden, 2 times), 2 ran out of time. Closest to a \
+                  win: 1 of 2 (gem) remaining.";
     assert_eq!(study.verdict()[1], expect);
 }
 
