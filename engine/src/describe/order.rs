@@ -38,8 +38,15 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     let rests = |stype: &SpriteType| {
         matches!(analysis.facts(*stype).motion, Motion::Straight(_)) && traits(*stype).cooldown < 2
     };
-    if movers.iter().any(rests) {
-        lines.push(Phrase::Rest.with(&[]));
+    let resting: Vec<SpriteType> = movers.iter().copied().filter(rests).collect();
+    if !resting.is_empty() {
+        let is_missile = |stype: &SpriteType| {
+            let class = analysis.game().0.types[stype.index()].class;
+            class.is_some_and(|class| class.is_a(SpriteClass::Missile))
+        };
+        let all = resting.iter().all(is_missile);
+        let movers = if all { "Missiles" } else { "Sprites that move straight on" };
+        lines.push(Phrase::Rest.with(&[("movers", movers)]));
     }
     let glides = |&stype: &SpriteType| {
         let (pace, traits) = (analysis.facts(stype).pace, traits(stype));
@@ -172,7 +179,11 @@ fn tie(analysis: &Analysis) -> Option<String> {
     } else if last_win < first_loss {
         Phrase::TieWon.with(&[])
     } else if goals[first_win..=last_win].iter().all(|goal| goal.win) {
-        Phrase::TieMixed.with(&[("ways", &told(&goals[..first_win], "or"))])
+        let ways = told(&goals[..first_win], "or");
+        match ways == Phrase::Gone.text() {
+            true => Phrase::TieUnlessDead.with(&[]),
+            false => Phrase::TieMixed.with(&[("ways", &ways)]),
+        }
     } else {
         let each: Vec<String> = goals
             .iter()
