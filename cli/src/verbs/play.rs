@@ -8,6 +8,7 @@ use crate::play::session::{MAX_PACE, Player, Session};
 use crate::play::view::View;
 use crate::{episodes, input, paths};
 use agents::{Budget, PLANNERS, PlannerSpec};
+use clap::builder::UnknownArgumentValueParser;
 use engine::describe::Guide;
 use engine::{Analysis, Seed};
 use render::{Looks, Symbols};
@@ -56,6 +57,14 @@ pub(crate) struct Args {
     /// Use no symbols beyond ASCII
     #[arg(long)]
     ascii: bool,
+    #[arg(
+        long,
+        hide = true,
+        num_args = 0,
+        value_parser = UnknownArgumentValueParser::suggest_arg("--ascii")
+            .and_suggest("a game without a terminal: `arcade run GAME --player random`, and `arcade render GAME 0` for a picture")
+    )]
+    text: Option<String>,
     /// Load the game as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
