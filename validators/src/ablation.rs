@@ -7,7 +7,7 @@ use crate::recording::{Recorded, Use};
 use crate::rule_use::with_count;
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
-use engine::analysis::Role;
+use engine::analysis::{Motion, Role};
 use engine::{Action, Analysis, Chance, Episode, Game, Outcome, Seed, SpriteRecord, SpriteType, State};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -98,7 +98,7 @@ impl GameValidator for RulesMatter {
             };
             let first = &uses[0];
             let seen = Evidence { text, tick: Some(first.tick + 1), rule: Some(rule), ..Evidence::default() };
-            list.push(seen.advise(advice));
+            list.push(seen.advise(swapped(case, *line).unwrap_or_else(|| advice.to_owned())));
         }
         let verdict = match (idle.first(), unshown.is_empty()) {
             (Some(first), _) => Verdict::fail(with_count(&first.text, idle.len() - 1)),
@@ -198,8 +198,27 @@ impl RulesMatter {
     }
 }
 
+/// Returns the advice for a rule that is to move back sprites that never move, where the avatar is its partner.
+fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
+    let GameCase { game, analysis, .. } = case;
+    let written = &game.description().interactions[line];
+    let encounter = analysis.encounters().iter().find(|encounter| encounter.line == line)?;
+    let family =
+        |written: SpriteType| game.sprite_types().filter(move |&stype| analysis.applies(written, stype));
+    let is_avatar = |stype: SpriteType| analysis.role(stype) == Role::Avatar;
+    let stands = |stype: SpriteType| analysis.facts(stype).motion == Motion::Still && !is_avatar(stype);
+    let is_swapped = encounter.blocks()
+        && family(encounter.first).all(stands)
+        && encounter.second.is_some_and(|second| family(second).any(is_avatar));
+    let [second] = &written.second[..] else { return None };
+    let (first, second) = (&written.first.text, &second.text);
+    is_swapped.then(|| {
+        format!("`{first}` never moves by itself; did you mean `{second} {first} > {}`?", written.effect.text)
+    })
+}
+
 /// Returns `true` if a rule only keeps sprites on the board: its partners are walls and the edge of the screen.
-fn is_guard(analysis: &Analysis, line: usize) -> bool {
+pub(crate) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     let game = analysis.game();
     let is_wall = |written: SpriteType| {
         let mut family = game.sprite_types().filter(|&stype| analysis.applies(written, stype));

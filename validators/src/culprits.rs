@@ -3,6 +3,7 @@
 //! The game is changed in one line at a time, and a search looks for a win of the changed game. A win found is a proof
 //! for the changed game; that it takes the change is known only where the level is proved unwinnable.
 
+use crate::ablation::is_guard;
 use crate::evidence::{Evidence, Line};
 use crate::measures::MeetingRecorder;
 use crate::verdict::{Case, Finding, Reason, Verdict};
@@ -101,8 +102,12 @@ impl Trials<'_> {
             found.extend(self.won(changed, &mut waiting).map(Won::evidence));
         }
         let mut lines = Vec::new();
-        for (line, changed) in dropped {
-            if found.len() >= MAX_NAMED {
+        // Walls keep the avatar from everywhere: without them, more than the cause is gone.
+        let analysis = self.case.analysis;
+        let is_wall = |line: Option<usize>| line.is_some_and(|line| is_guard(analysis, line));
+        let (walls, others): (Vec<_>, Vec<_>) = dropped.into_iter().partition(|(line, _)| is_wall(*line));
+        for (line, changed) in others.into_iter().chain(walls) {
+            if found.len() >= MAX_NAMED || is_wall(line) && !found.is_empty() {
                 break;
             }
             let Some(won) = self.won(changed, &mut waiting) else { continue };

@@ -645,13 +645,20 @@ fn warnings_about_files_follow_the_verdict() {
     let game = GAME.replace("        SpriteCounter stype=avatar limit=0 win=False\n", "");
     let game = game.replace("        Timeout limit=300 win=False\n", "");
     let folder = folder(&game, &LEVEL.replace("t..w\n", "t..\n"));
-    for arguments in [&["validate", ".", "--budget", "2000"][..], &["-q", "validate", ".", "--budget", "2000"]] {
+    for arguments in
+        [&["validate", ".", "--budget", "2000"][..], &["-q", "validate", ".", "--budget", "2000"]]
+    {
         let said = text(&run(folder.path(), arguments, 1).stdout);
         let place = |words: &str| said.find(words).unwrap_or_else(|| panic!("`{words}` is not in\n{said}"));
         let criteria = place("well-formed");
-        assert!(place("game.vgdl  does not pass") < place("no-lose") && place("no-lose") < criteria, "{said}");
+        assert!(
+            place("game.vgdl  does not pass") < place("no-lose") && place("no-lose") < criteria,
+            "{said}"
+        );
         assert!(place("ragged-level") < criteria, "{said}");
-        place("removes the player's `avatar`, and nothing is lost by that: add `SpriteCounter stype=avatar win=False`");
+        place(
+            "removes the player's `avatar`, and nothing is lost by that: add `SpriteCounter stype=avatar win=False`",
+        );
         // What is asked stands where the answer is not yes.
         place("asks: ");
     }

@@ -122,7 +122,8 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
     // A name alone says little: what it asks is told where the answer matters.
-    if let (true, Some(question)) = (["FAIL", "?"].contains(&mark), validators::question(criterion)) {
+    let is_asked = mark == "FAIL" || mark == "?" && !words.starts_with("needs a win");
+    if let (true, Some(question)) = (is_asked, validators::question(criterion)) {
         let _ = writeln!(text, "       asks: {question}");
     }
     // The reason repeats the first evidence.
