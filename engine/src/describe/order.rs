@@ -46,7 +46,10 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
         };
         let all = resting.iter().all(is_missile);
         let movers = if all { "Missiles" } else { "Sprites that move straight on" };
-        lines.push(Phrase::Rest.with(&[("movers", movers)]));
+        // A shot's first tick is the one in which it appears.
+        let is_soon = resting.iter().any(|&stype| is_updated_at_once(analysis, stype).0);
+        let phrase = if is_soon { Phrase::RestFirst } else { Phrase::Rest };
+        lines.push(phrase.with(&[("movers", movers)]));
     }
     let glides = |&stype: &SpriteType| {
         let (pace, traits) = (analysis.facts(stype).pace, traits(stype));

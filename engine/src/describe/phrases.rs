@@ -28,6 +28,7 @@ phrases! {
     Period: "What moves every N ticks does so N, 2N, 3N ticks after it appeared{sooner}; a blocked move is lost.",
     Sooner: ", a tick sooner for the {names}",
     Rest: "{movers} wait one tick after they appear.",
+    RestFirst: "{movers} do not move in their first tick.",
     Glide: "While gliding between two cells, a sprite touches everything in both.",
     Clock: "What is due by the clock happens before contacts.",
     PutBack: "What a line puts back has touched for the lines above it, but not for those below.",

@@ -148,7 +148,6 @@ fn removals_that_cost_more_than_there_is_are_counted() {
     // Whoever is put back in between does not pay; without the payment nothing is taken; another rule opens for free.
     assert_eq!(unpaid(&format!("{kill}\nhero house > stepBack\n{take}"), short), None);
     assert_eq!(unpaid(kill, short), None);
-    assert_eq!(unpaid(&format!("{at_once}\nhouse wall > killSprite"), "A p h  hw"), Some((2, 1, 1)));
     assert_eq!(
         unpaid(&format!("{at_once}\nhouse hero > killIfOtherHasMore resource=parcel limit=0"), short),
         None
