@@ -153,9 +153,9 @@ fn removals_that_cost_more_than_there_is_are_counted() {
         None
     );
     // Parcels that come again, and houses that do.
-    assert_eq!(unpaid(&format!("{at_once}\nhero wall > spawn stype=parcel"), "A p h  hw"), None);
+    assert_eq!(unpaid(&format!("{at_once}\nhero house > spawn stype=parcel"), short), None);
     assert_eq!(
-        unpaid(&format!("{at_once}\nhero wall > transformToAll stype=wall stypeTo=house"), "A p h  hw"),
+        unpaid(&format!("hero house > transformToAll stype=wall stypeTo=house\n{at_once}"), "A p h  hw"),
         None
     );
 }
