@@ -137,7 +137,10 @@ fn gates_are_asked_of_a_game_with_all_its_levels() {
     let asked: Vec<&str> = judged.iter().filter_map(|judgement| judgement["criterion"].as_str()).collect();
     assert!(validators::GATES.iter().all(|gate| asked.contains(gate)), "{asked:?}");
     let refused = run(folder.path(), &["validate", ".", "1", "--gates"], 2);
-    assert!(text(&refused.stderr).contains("--gates judges a game with all its levels"));
+    let refused = text(&refused.stderr);
+    assert!(refused.contains("names 1 of 2: `arcade validate . --gates`"), "{refused}");
+    let refused = text(&run(folder.path(), &["play", ".", "--text"], 2).stderr);
+    assert!(refused.contains("`arcade play . --ascii`"), "{refused}");
 }
 
 #[test]
