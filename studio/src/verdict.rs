@@ -55,7 +55,14 @@ impl Subject<'_> {
                         SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
                     lines.send(&criterion(&self.why_not(&criteria), source))?;
                 }
-                Solution::Unknown => {}
+                Solution::Unknown => {
+                    lines.check()?;
+                    // Nothing is proved, but a win of a game that differs in one line tells where to look.
+                    let judged = self.why_not(&criteria);
+                    if !judged.finding.evidence.is_empty() {
+                        lines.send(&criterion(&judged, source))?;
+                    }
+                }
             },
         }
         let is_open = impossible.is_none() && witness.is_some();

@@ -1,12 +1,13 @@
 //! The `ablation` criterion: disables one rule at a time and tests whether play changes.
 
+use crate::comparison::{Comparison, compare};
 use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
 use crate::recording::{Recorded, Use};
 use crate::rule_use::with_count;
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
-use engine::analysis::Role;
+use engine::analysis::{Motion, Role};
 use engine::{Action, Analysis, Chance, Episode, Game, Outcome, Seed, SpriteRecord, SpriteType, State};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -14,15 +15,15 @@ use rayon::prelude::*;
 /// Every executed interaction matters: with its consequences disabled but its random draws kept ([`Game::without`]),
 /// some outcome or score changes.
 ///
-/// There are three tests, the cheapest first: replaying recorded episodes that execute the rule, without it; random
-/// futures from just before its execution, with and without it on the same seeds; and the episode of a searching
-/// player that plays without the rule, replayed with it. One change is enough. A rule is idle, and the criterion
-/// fails, if every level was won and even the sprites look the same in every episode that executes it. If they compare
-/// but no tried episode ends otherwise, the answer is unknown. Rules on walls and the edge of the screen are reported
-/// but never fail: they are guards, and sprites that they remove far from the player may never matter.
+/// There are three tests, the cheapest first: replaying recorded episodes that execute the rule, without it; futures
+/// from just before its execution, with and without it on the same seeds; and the episode of a searching player that
+/// plays without the rule, replayed with it. One change is enough. If no test shows a change, the answer is unknown.
+/// The criterion fails only if a rule is proved idle: on every level, all sequences of actions end and score alike
+/// without it. Rules on walls and the edge of the screen are reported but never fail: they are guards, and sprites
+/// that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub struct RulesMatter {
-    /// Forward-model calls for each interaction.
+    /// Forward-model calls for each interaction; up to a quarter more for a proof that it is idle.
     pub calls: u64,
     /// Forward-model calls of all interactions together, if bounded: tests that do not fit are skipped.
     pub total: Option<u64>,
@@ -37,15 +38,17 @@ const DECISION: Budget = Budget(300);
 const LOOK_AHEAD: u32 = 20;
 /// Ticks of an episode of the searching player.
 const PLAY: usize = 400;
+/// The divisor of a rule's calls for the proof that it is idle.
+const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.
 enum Effect {
     /// Something ends otherwise without it.
     Matters,
-    /// The state differs, but no tried episode ends otherwise.
-    Unproven,
-    /// Not even the state differs.
-    Idle,
+    /// No test shows a change; in some the sprites differ, at least.
+    Unshown { differs: bool },
+    /// Proved: nothing ends or scores otherwise, in this number of states.
+    Idle(usize),
 }
 
 impl GameValidator for RulesMatter {
@@ -63,32 +66,46 @@ impl GameValidator for RulesMatter {
         let found: Vec<(Effect, u64)> =
             lines.par_iter().map(|(line, uses)| self.try_without(case, *line, uses, lines.len())).collect();
         let spent = found.iter().map(|(_, spent)| spent).sum();
-        let (mut idle, mut unproven, mut guards) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut idle, mut unshown, mut guards) = (Vec::new(), Vec::new(), Vec::new());
         for ((line, uses), (found, _)) in lines.iter().zip(&found) {
             let rule = Line::interaction(case.game, *line);
-            let (text, list) = match found {
+            let (text, advice, list) = match found {
                 Effect::Matters => continue,
                 _ if is_guard(case.analysis, *line) => {
                     let text = format!("no test shows that `{}` matters; it may be a guard", rule.text);
                     guards.push(Evidence::new(text).of_rule(rule));
                     continue;
                 }
-                Effect::Idle => (format!("`{}` runs, but changes nothing", rule.text), &mut idle),
-                Effect::Unproven => {
-                    let text = format!("disabling `{}` changes no outcome or score in the tests", rule.text);
-                    (text, &mut unproven)
-                }
+                Effect::Idle(states) => (
+                    format!(
+                        "`{}` runs, but changes nothing: all {states} reachable states end and score alike without it",
+                        rule.text
+                    ),
+                    "remove it, or make its effect count for the score or the outcome",
+                    &mut idle,
+                ),
+                Effect::Unshown { differs } => (
+                    match differs {
+                        true => format!(
+                            "no test shows that `{}` matters: the board differs without it, but no outcome or score",
+                            rule.text
+                        ),
+                        false => format!("no test shows that `{}` matters", rule.text),
+                    },
+                    "these tests are no proof: play with and without it before you remove it",
+                    &mut unshown,
+                ),
             };
             let first = &uses[0];
             let seen = Evidence { text, tick: Some(first.tick + 1), rule: Some(rule), ..Evidence::default() };
-            list.push(seen.advise("remove it, or make its effect count for the score or the outcome"));
+            list.push(seen.advise(swapped(case, *line).unwrap_or_else(|| advice.to_owned())));
         }
-        let verdict = match (idle.first(), unproven.is_empty()) {
+        let verdict = match (idle.first(), unshown.is_empty()) {
             (Some(first), _) => Verdict::fail(with_count(&first.text, idle.len() - 1)),
             (None, false) => Verdict::Unknown { spent },
             (None, true) => Verdict::pass(),
         };
-        Finding::from(verdict).seen(idle).seen(unproven).seen(guards)
+        Finding::from(verdict).seen(idle).seen(unshown).seen(guards)
     }
 }
 
@@ -151,13 +168,57 @@ impl RulesMatter {
                 return (Effect::Matters, calls);
             }
         }
-        // A rule that may have an effect later is not idle as long as no level is won.
-        (if differs || cut || !case.usage.won { Effect::Unproven } else { Effect::Idle }, calls)
+        if differs {
+            return (Effect::Unshown { differs }, calls);
+        }
+        let (found, spent) = self.prove(case, &without, most / PROOF);
+        (found, calls + spent)
+    }
+
+    /// Compares play with and without the rule in all reachable states of every level, with at most that many calls.
+    fn prove(&self, case: GameCase<'_>, without: &Game, most: u64) -> (Effect, u64) {
+        let unknown = Effect::Unshown { differs: false };
+        let (mut pairs, mut calls) = (0, 0);
+        if !case.game.is_deterministic() {
+            return (unknown, calls);
+        }
+        let without = Analysis::of(without);
+        for (number, recorded) in (0..).zip(case.recording) {
+            let seed = case.seed.child("proof", number);
+            let left = most.saturating_sub(calls);
+            let (found, spent) = compare([case.analysis, &without], recorded.level, seed, left);
+            calls += spent;
+            match found {
+                Comparison::Differs => return (Effect::Matters, calls),
+                Comparison::Open => return (unknown, calls),
+                Comparison::Equal(states) => pairs += states,
+            }
+        }
+        (Effect::Idle(pairs), calls)
     }
 }
 
+/// Returns the advice for a rule that is to move back sprites that never move, where the avatar is its partner.
+fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
+    let GameCase { game, analysis, .. } = case;
+    let written = &game.description().interactions[line];
+    let encounter = analysis.encounters().iter().find(|encounter| encounter.line == line)?;
+    let family =
+        |written: SpriteType| game.sprite_types().filter(move |&stype| analysis.applies(written, stype));
+    let is_avatar = |stype: SpriteType| analysis.role(stype) == Role::Avatar;
+    let stands = |stype: SpriteType| analysis.facts(stype).motion == Motion::Still && !is_avatar(stype);
+    let is_swapped = encounter.blocks()
+        && family(encounter.first).all(stands)
+        && encounter.second.is_some_and(|second| family(second).any(is_avatar));
+    let [second] = &written.second[..] else { return None };
+    let (first, second) = (&written.first.text, &second.text);
+    is_swapped.then(|| {
+        format!("`{first}` never moves by itself; did you mean `{second} {first} > {}`?", written.effect.text)
+    })
+}
+
 /// Returns `true` if a rule only keeps sprites on the board: its partners are walls and the edge of the screen.
-fn is_guard(analysis: &Analysis, line: usize) -> bool {
+pub(crate) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     let game = analysis.game();
     let is_wall = |written: SpriteType| {
         let mut family = game.sprite_types().filter(|&stype| analysis.applies(written, stype));
@@ -176,7 +237,7 @@ fn result_of(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]
     (state.outcome(), state.score())
 }
 
-/// Random futures of an episode, from just before a rule is executed for the first time: with it and without it.
+/// Futures of an episode, with keys held and with random keys, from just before a rule is executed for the first time: with it and without it.
 struct Futures<'a> {
     with: &'a Game,
     without: &'a Game,
@@ -210,7 +271,11 @@ impl Futures<'_> {
                 break;
             }
         }
-        for number in 0..FUTURES {
+        // A key held all the time, and none, show what a rule does to an avatar that waits or goes on.
+        let held = self.held_keys(&before[0]);
+        for number in 0..FUTURES + held.len() as u64 {
+            let key = held.get(number as usize).copied();
+            let number = number.saturating_sub(held.len() as u64);
             let mut choices = seed.child("keys", number).sampler();
             let chance = Chance::from_java(choices.bits() as i64);
             for (scratch, before) in scratch.iter_mut().zip(&before) {
@@ -218,9 +283,10 @@ impl Futures<'_> {
             }
             let [with, without] = &mut scratch;
             for ahead in 0..DEPTH {
-                let action = match ahead {
-                    0 => self.episode.actions[self.tick],
-                    _ => *choices.choose(self.with.actions(with)),
+                let action = match (ahead, key) {
+                    (0, _) => self.episode.actions[self.tick],
+                    (_, Some(key)) => key,
+                    (_, None) => *choices.choose(self.with.actions(with)),
                 };
                 self.with.step(with, action);
                 self.without.step(without, action);
@@ -234,6 +300,12 @@ impl Futures<'_> {
             }
         }
         (false, differs, calls)
+    }
+
+    /// Returns the keys to hold: none, and each that the avatar has.
+    fn held_keys(&self, state: &State) -> Vec<Action> {
+        let keys = self.with.actions(state).iter().copied().filter(|&key| key != Action::Nil);
+        [Action::Nil].into_iter().chain(keys).collect()
     }
 
     /// Returns the observable state, without the internal memory of its rules.
@@ -278,9 +350,50 @@ mod tests {
         let Verdict::Fail { reason, .. } = &used.verdict else { panic!("{used:?}") };
         assert_eq!(reason.0, "`dew` never appears");
         let Verdict::Fail { reason, .. } = &matter.verdict else { panic!("{matter:?}") };
-        assert_eq!(reason.0, "`avatar fern > killIfHasMore resource=dew limit=2` runs, but changes nothing");
+        let proved = "`avatar fern > killIfHasMore resource=dew limit=2` runs, but changes nothing: all 6 reachable states";
+        assert!(reason.0.starts_with(proved), "{reason:?}");
         let texts: Vec<&str> = matter.evidence.iter().map(|seen| seen.text.as_str()).collect();
-        assert!(texts[1].starts_with("disabling `mud avatar > transformTo"), "{texts:?}");
+        assert!(texts[1].starts_with("no test shows that `mud avatar > transformTo"), "{texts:?}");
+    }
+
+    #[test]
+    fn what_no_test_shows_is_unknown_where_nothing_is_proved() {
+        let wild = GAME
+            .replace("    avatar > Mov", "    bug > RandomNPC\n    avatar > Mov")
+            .replace("    m > mud", "    m > mud\n    b > bug")
+            .replace("    dew > Resource limit=2\n", "")
+            .replace(
+                "    avatar fern > killIfHasMore resource=dew limit=2\n",
+                "    fern avatar > stepBack\n    bug wall > stepBack\n",
+            );
+        let game = Game::from_source(&wild).unwrap();
+        let level = game.level("wwwwwwww\nwAfmpwbw\nwwwwwwww\n").unwrap();
+        let criteria = Criteria {
+            ask: ["not-random", "winnable", "ablation"].map(str::to_owned).to_vec(),
+            budget: 20_000,
+            ablation_calls: 5_000,
+            ..Criteria::full()
+        };
+        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
+        let finding = &report.judgements[0].finding;
+        assert!(matches!(finding.verdict, Verdict::Unknown { .. }), "{finding:?}");
+        assert_eq!(finding.evidence[0].text, "no test shows that `fern avatar > stepBack` matters");
+        let advice: Vec<&str> = finding.evidence.iter().filter_map(|seen| seen.advice.as_deref()).collect();
+        assert_eq!(advice[0], "`fern` never moves by itself; did you mean `avatar fern > stepBack`?");
+        assert!(advice[1].starts_with("these tests are no proof"), "{advice:?}");
+    }
+
+    /// A boat that carries the avatar: whoever waits on it drowns without the rule, and players that hurry do not.
+    #[test]
+    fn a_carrier_matters_to_an_avatar_that_waits() {
+        let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    pond > Immovable\n    raft > Missile orientation=RIGHT speed=0.2\n    nest > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    ~ > pond\n    r > pond raft\n    n > nest\n  InteractionSet\n    avatar wall > stepBack\n    avatar EOS > stepBack\n    raft EOS > wrapAround\n    avatar raft > shieldFrom stype=pond ftype=killSprite\n    avatar raft > pullWithIt\n    avatar pond > killSprite\n    nest avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=nest win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=150 win=False\n";
+        let level = "wwwwwwwwwwwwww\nw           nw\n~r~~~r~~~r~~r~\nw            w\nw A          w\nwwwwwwwwwwwwww\n";
+        let game = Game::from_source(source).unwrap();
+        let level = game.level(level).unwrap();
+        let criteria = Criteria { budget: 100_000, ladder_calls: 100_000, ..Criteria::full() };
+        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
+        let matter = report.judgements.iter().find(|judgement| judgement.criterion == "ablation").unwrap();
+        assert!(matter.finding.verdict.is_pass(), "{matter:?}");
     }
 
     #[test]

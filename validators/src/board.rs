@@ -11,12 +11,15 @@ pub struct Board {
     pub rows: Vec<String>,
     /// The type that each character on the board stands for.
     pub legend: Vec<(char, String)>,
+    /// Those of the characters that the LevelMapping does not have for their type.
+    #[serde(skip)]
+    stand_ins: Vec<char>,
 }
 
 impl Board {
     /// Draws a state as a player sees it. Cost: O(sprites + cells).
     pub fn of(game: &Game, state: &State) -> Board {
-        let symbols = symbols(game);
+        let (symbols, own) = symbols(game);
         let seen = game.observe(state);
         let mut legend = BTreeSet::new();
         let symbol = |cell: &Vec<String>| {
@@ -27,21 +30,42 @@ impl Board {
         };
         let cells: Vec<char> = seen.cells.iter().map(symbol).map(|symbol| symbol.unwrap_or(' ')).collect();
         let rows = cells.chunks(seen.columns.max(1)).map(|row| row.iter().collect()).collect();
-        Board { rows, legend: legend.into_iter().collect() }
+        let characters: BTreeSet<char> = legend.iter().map(|(symbol, _)| *symbol).collect();
+        let stand_ins = characters.into_iter().filter(|symbol| !own.contains(symbol)).collect();
+        Board { rows, legend: legend.into_iter().collect(), stand_ins }
+    }
+
+    /// Returns the legend in words: `A avatar, ~ water; not in the LevelMapping by itself: s shot`.
+    pub fn key(&self) -> String {
+        let (others, own): (Vec<_>, Vec<_>) =
+            self.legend.iter().partition(|(symbol, _)| self.stand_ins.contains(symbol));
+        let named = |list: &[&(char, String)]| {
+            list.iter().map(|(symbol, name)| format!("{symbol} {name}")).collect::<Vec<_>>().join(", ")
+        };
+        match (&own[..], &others[..]) {
+            (own, []) => named(own),
+            ([], others) => format!("no character of the LevelMapping shows: {}", named(others)),
+            (own, others) => {
+                format!("{}; no character of the LevelMapping shows: {}", named(own), named(others))
+            }
+        }
     }
 }
 
 /// Characters for types that no level character places alone, in order of preference.
 const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
 
+/// The character of types for which no other one is left.
+const OTHER: char = '·';
+
 /// Returns a character for every type with a class: the one that places it on top in the LevelMapping, or the first
-/// free character of its name, then of the alphabet. Types beyond those share `~`.
-fn symbols(game: &Game) -> Vec<(SpriteType, char)> {
-    let mut free: BTreeSet<char> = (' '..='~').filter(|&symbol| symbol != ' ' && symbol != '~').collect();
+/// free character of its name, then of the alphabet; and the characters of the LevelMapping among them.
+fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
+    let mut free: BTreeSet<char> = ('!'..='~').collect();
     let mut symbols: Vec<(SpriteType, char)> = Vec::new();
     // Characters that place fewer sprites say more about the one on top.
     let mut mapped: Vec<(usize, char, SpriteType)> = Vec::new();
-    for symbol in '!'..='}' {
+    for symbol in '!'..='~' {
         let placed = game.places(symbol as u8);
         let top = placed.iter().max_by_key(|stype| drawn(game, **stype));
         mapped.extend(top.map(|&top| (placed.len(), symbol, top)));
@@ -53,16 +77,17 @@ fn symbols(game: &Game) -> Vec<(SpriteType, char)> {
             symbols.push((top, symbol));
         }
     }
+    let own = symbols.iter().map(|(_, symbol)| *symbol).collect();
     for stype in game.sprite_types().filter(|&stype| game.class(stype).is_some()) {
         if symbols.iter().any(|(known, _)| *known == stype) {
             continue;
         }
         let wanted = game.name(stype).chars().chain(SPARE.chars()).find(|symbol| free.contains(symbol));
-        let symbol = wanted.unwrap_or('~');
+        let symbol = wanted.unwrap_or(OTHER);
         free.remove(&symbol);
         symbols.push((stype, symbol));
     }
-    symbols
+    (symbols, own)
 }
 
 /// The position of a type in the drawing order.

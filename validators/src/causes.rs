@@ -4,7 +4,7 @@
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Verdict};
 use engine::analysis::{
-    Blocker, Cause, Chain, EffectSummary, Missing, Motion, Obstacle, Shortage, Side, Unreachable,
+    Blocker, Cause, Chain, EffectSummary, Missing, Motion, Obstacle, Shortage, Side, Unpaid, Unreachable,
 };
 use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_rule};
 
@@ -46,6 +46,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
         let links: Vec<&str> = words.links.iter().map(|link| link.text.as_str()).collect();
         reason.get_or_insert_with(|| match &chain.obstacles[..] {
             [Obstacle { missing: Missing::Resource(_), .. }, ..] => links.join("; "),
+            [] if matches!(chain.cause, Cause::Unpaid(_)) => [links[0], links[links.len() - 1]].join("; "),
             _ => format!("{}: {}", lower(sentence), links.join("; ")),
         });
         let first = words.ending(chain, sentence);
@@ -76,7 +77,7 @@ impl Explanation<'_> {
         let goal = &self.analysis.goals()[chain.goal];
         let cell = match &chain.cause {
             Cause::Permanent(sprites) => sprites.first().map(|(_, cell)| self.place(*cell)),
-            Cause::AtMost(_) => None,
+            Cause::AtMost(_) | Cause::Unpaid(_) => None,
         };
         let rule = Some(Line::termination(self.analysis.game(), goal.line));
         let text = sentence.trim_end_matches('.').to_owned();
@@ -84,6 +85,9 @@ impl Explanation<'_> {
     }
 
     fn chain(&mut self, chain: &Chain) {
+        if let Cause::Unpaid(unpaid) = &chain.cause {
+            return self.unpaid(unpaid);
+        }
         if !chain.obstacles.is_empty() {
             return chain.obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
         }
@@ -102,11 +106,36 @@ impl Explanation<'_> {
                     ),
                 }
             }
-            Cause::AtMost(_) => (
+            Cause::AtMost(_) | Cause::Unpaid(_) => (
                 "no rule creates more of the counted sprites".to_owned(),
                 "place more of the counted sprites, or lower the limit".to_owned(),
             ),
         };
+        self.links.push(Evidence::new(text).advise(advice));
+    }
+
+    /// Removals that cost more of a resource than there is.
+    fn unpaid(&mut self, unpaid: &Unpaid) {
+        let Unpaid { target, removals, resource, each, most, removing, taking } = unpaid;
+        let (game, name) = (self.analysis.game(), self.name(*resource).to_owned());
+        let target = self.name(*target).to_owned();
+        let text = format!("{} must go, and each takes {}", count(*removals, &target), count(*each, &name));
+        let rule = removing.first().map(|&line| Line::interaction(game, line));
+        self.links.push(Evidence { rule, ..Evidence::new(text) });
+        if let Some(&line) = taking.iter().find(|line| !removing.contains(line)) {
+            let text = format!("this rule takes {}", count(*each, &name));
+            self.links.push(Evidence::new(text).of_rule(Line::interaction(game, line)));
+        }
+        let wanted = removals.saturating_mul(*each);
+        let text = format!(
+            "{wanted} would be needed, and {} can be collected",
+            if *most == 0 { "none".to_owned() } else { format!("only {most}") }
+        );
+        let advice = format!(
+            "place {} more, or {} fewer",
+            count(wanted - most, &name),
+            count(removals - most / each, &target)
+        );
         self.links.push(Evidence::new(text).advise(advice));
     }
 

@@ -1,6 +1,8 @@
 //! The `length` criterion: a level is neither over at once nor endless.
 
 use crate::ending::Ending;
+use crate::evidence::Evidence;
+use crate::level_report::Report;
 use crate::verdict::{Case, Finding, Validator, Verdict};
 
 /// The witness takes a number of ticks within bounds.
@@ -10,6 +12,22 @@ pub struct LengthWithin {
     pub least: usize,
     /// Ticks at most.
     pub most: usize,
+}
+
+/// The start of the reason for a win that takes too long: a shorter one may exist.
+const TOO_LONG: &str = "the shortest win found takes";
+
+/// Turns a failure into an unknown answer where a shorter win may exist: the search proved nothing about the shortest.
+pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
+    let Verdict::Fail { reason, .. } = &finding.verdict else { return };
+    let searched = report.finding("winnable");
+    let is_proved = searched.is_some_and(|searched| searched.optimal.is_some());
+    if !reason.0.starts_with(TOO_LONG) || is_proved {
+        return;
+    }
+    let note = Evidence::new(format!("{}; a shorter win may exist", reason.0));
+    finding.verdict = Verdict::Unknown { spent: searched.map_or(0, Finding::calls).max(1) };
+    finding.evidence.insert(0, note);
 }
 
 impl Validator for LengthWithin {
@@ -29,7 +47,7 @@ impl Validator for LengthWithin {
             let reason = format!("won in {ticks} ticks, fewer than {}", self.least);
             Finding::from(Verdict::fail(reason)).seen(seen("move the goal farther away"))
         } else if ticks > self.most {
-            let reason = format!("the shortest win found takes {ticks} ticks, more than {}", self.most);
+            let reason = format!("{TOO_LONG} {ticks} ticks, more than {}", self.most);
             Finding::from(Verdict::fail(reason)).seen(seen("make the level smaller, or raise `most_ticks`"))
         } else {
             Verdict::pass().into()

@@ -3,9 +3,11 @@
 use crate::ablation::RulesMatter;
 use crate::allowance::Allowance;
 use crate::causes;
+use crate::culprits;
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::gates::{self, CarelessPlays};
+use crate::length;
 use crate::level_report::{Judgement, OVER, Report};
 use crate::recording::{Recorded, Usage, explore};
 use crate::too_soon;
@@ -327,7 +329,9 @@ impl Panel {
             let mut finding = validator.validate_until(case, stopped);
             if stage == Stage::Search && !screen && !stopped() {
                 causes::explain(case, &mut finding);
-                too_soon::explain(case, &mut finding, &self.search);
+                if !too_soon::explain(case, &mut finding, &self.search) {
+                    culprits::explain(case, &mut finding, &self.search);
+                }
             }
             Judgement { criterion, finding }
         };
@@ -350,8 +354,10 @@ impl Panel {
                 continue;
             }
             let mut judgement = run(*stage, &**validator, report.witness.as_ref());
-            if *stage == Stage::Search {
-                report.accept(&mut judgement);
+            match stage {
+                Stage::Search => report.accept(&mut judgement),
+                Stage::Win => length::without_proof(&mut judgement.finding, &report),
+                _ => {}
             }
             let passed = judgement.finding.verdict.is_pass();
             let is_decided = matches!(judgement.finding.verdict, Verdict::Fail { witness: Some(_), .. });
@@ -366,13 +372,17 @@ impl Panel {
         // A player of the ladder may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
             report.witness = Some(won);
+            let searched = report.clone();
             for ((stage, validator), judged) in self.validators.iter().zip(&mut report.judgements) {
                 let Verdict::Unknown { .. } = judged.finding.verdict else { continue };
                 match stage {
                     Stage::Search => {
                         judged.finding.verdict = Verdict::Pass { witness: report.witness.clone() }
                     }
-                    Stage::Win => *judged = run(*stage, &**validator, report.witness.as_ref()),
+                    Stage::Win => {
+                        *judged = run(*stage, &**validator, report.witness.as_ref());
+                        length::without_proof(&mut judged.finding, &searched);
+                    }
                     _ => continue,
                 }
                 if !heard(judged) {

@@ -42,6 +42,7 @@ impl<V: Validator> Validator for Reachable<V> {
                     (first.map(|(_, cell)| (cell % columns + 1, cell / columns + 1)), advice)
                 }
                 Cause::AtMost(_) => (None, "place more of the counted sprites, or lower the limit"),
+                Cause::Unpaid(_) => (None, "place more of the resource, or fewer of what must go"),
             };
             let rule = Some(Line::termination(game, analysis.goals()[impossible_goal.goal].line));
             Evidence { text: sentence.clone(), cell, rule, ..Evidence::default() }.advise(advice)

@@ -92,9 +92,11 @@ impl Validator for SkillPays {
         };
         let Answer { ladder, advantages: [advantages, held], won, shown, accepted } = answer;
         let unsure = advantages.iter().chain(&held).any(|advantage| advantage.unsure);
+        // Where no player ever wins and all score alike, the players are too weak to tell.
+        let telling = played.plays.iter().flatten().any(is_won) || range(&played) > 0.0;
         let verdict = if shown && accepted {
             Verdict::pass()
-        } else if unsure || !won || (shown && !accepted) || cut > 0 {
+        } else if unsure || !won || !telling || (shown && !accepted) || cut > 0 {
             Verdict::Unknown { spent }
         } else {
             let strongest = advantages.last().or(held.last()).map(|advantage| advantage.text.as_str());

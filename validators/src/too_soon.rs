@@ -8,11 +8,12 @@ use engine::analysis::Condition;
 use engine::{Analysis, Description, Game};
 
 /// Rewrites the failure of a level that a search proved unwinnable, if a search without the game's losing Timeouts
-/// finds a win: they are the cause. Other findings are left unchanged. Cost: the rest of the first search's budget.
-pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
+/// finds a win: they are the cause. Other findings are left unchanged. Returns whether they are. Cost: the rest of the
+/// first search's budget.
+pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) -> bool {
     let Case { game, level, analysis, seed, .. } = case;
     let Some(spent) = finding.searched.filter(|_| matches!(finding.verdict, Verdict::Fail { .. })) else {
-        return;
+        return false;
     };
     let left = search.budget.saturating_sub(spent);
     let mut timeouts: Vec<(i32, usize)> = Vec::new();
@@ -21,17 +22,17 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
             timeouts.push((limit, goal.line));
         }
     }
-    let Some(&(_, line)) = timeouts.iter().min().filter(|_| left > 0) else { return };
+    let Some(&(_, line)) = timeouts.iter().min().filter(|_| left > 0) else { return false };
     let lines = game.description().terminations.iter().enumerate();
     let kept = lines.filter(|(at, _)| timeouts.iter().all(|(_, timeout)| timeout != at));
     let terminations = kept.map(|(_, line)| line.clone()).collect();
     let endless = Description { terminations, ..game.description().clone() };
-    let Ok(endless) = Game::compile(&endless) else { return };
-    let Ok(again) = endless.level(&level.to_string()) else { return };
+    let Ok(endless) = Game::compile(&endless) else { return false };
+    let Ok(again) = endless.level(&level.to_string()) else { return false };
     let config = PortfolioConfig { budget: left, ..search.clone() };
     let solved = solve(&Analysis::of(&endless), &again, &config, seed.child("endless", 0));
     finding.searched = Some(spent + solved.calls);
-    let Solution::Won { episode, shortest } = solved.solution else { return };
+    let Solution::Won { episode, shortest } = solved.solution else { return false };
     let ticks = episode.actions.len();
     let fewest = if shortest { " at the earliest" } else { "" };
     let rule = Line::termination(game, line);
@@ -57,6 +58,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
         ..Evidence::default()
     };
     finding.evidence = vec![seen.advise(format!("raise its `limit=` beyond {ticks}, or shorten the path"))];
+    true
 }
 
 #[cfg(test)]

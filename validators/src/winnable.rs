@@ -6,6 +6,7 @@ use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
 use agents::{PortfolioConfig, Solution, Stopped, solve_until};
 use engine::Action;
 use engine::analysis::Condition;
+use engine::describe::plural;
 
 /// The portfolio ([`agents::solve`]) looks for a win, which is the witness. In a deterministic game it may also prove
 /// that there is none, or that the win found is the shortest.
@@ -32,7 +33,7 @@ impl Validator for Winnable {
             }
             Solution::Impossible { states, nearest } => {
                 let reason = format!("the level cannot be won: all {states} reachable states were searched");
-                let note = "no single cause is known: the static analysis does not exclude a win";
+                let note = "the rules alone do not show why; no play wins";
                 Finding::from(Verdict::fail(reason))
                     .seen([Evidence::new(note)])
                     .seen(nearest_to_a_win(case, &nearest))
@@ -64,18 +65,25 @@ fn nearest_to_a_win(
     let goal = winning.min_by_key(|goal| analysis.missing(goal, &state))?;
     let missing = analysis.missing(goal, &state);
     let types = goal.condition.types().iter().filter(|stype| analysis.facts(**stype).possible);
-    let names: Vec<String> = types.map(|&stype| format!("`{}`", game.name(stype))).take(MAX_NAMED).collect();
+    let names: Vec<String> = types
+        .map(|&stype| match missing {
+            1 => game.name(stype).to_owned(),
+            _ => plural(game.name(stype)),
+        })
+        .take(MAX_NAMED)
+        .collect();
     let names = names.join(" or ");
     let text = match goal.condition {
-        Condition::AtMost(..) => format!("{missing} too many of {names} are left"),
-        Condition::AtLeast(..) => format!("{missing} of {names} are still missing"),
+        Condition::AtMost(_, ..=0) => format!("{missing} {names} left"),
+        Condition::AtMost(..) => format!("{missing} {names} too many"),
+        Condition::AtLeast(..) => format!("{missing} {names} missing"),
         Condition::Exactly(..) => format!("the number of {names} is off by {missing}"),
-        Condition::Tick(_) => format!("{missing} ticks are still left"),
+        Condition::Tick(_) => format!("{missing} ticks left"),
     };
     let tick = Some(actions.len()).filter(|&tick| tick > 0);
     let rule = Some(Line::termination(game, goal.line));
     let board = Some(Board::of(game, &state));
-    let text = format!("in the reachable state closest to a win, {text}");
+    let text = format!("the closest any play can come: {text}");
     Some(
         Evidence { text, tick, rule, board, ..Evidence::default() }
             .advise("make a win possible from this state, or place more of what it requires"),

@@ -6,7 +6,7 @@ use crate::play::board::Signs;
 use crate::play::screen;
 use crate::play::session::{MAX_PACE, Player, Session};
 use crate::play::view::View;
-use crate::{episodes, input, paths};
+use crate::{episodes, input, paths, shell};
 use agents::{Budget, PLANNERS, PlannerSpec};
 use engine::describe::Guide;
 use engine::{Analysis, Seed};
@@ -56,12 +56,18 @@ pub(crate) struct Args {
     /// Use no symbols beyond ASCII
     #[arg(long)]
     ascii: bool,
+    #[arg(long, hide = true)]
+    text: bool,
     /// Load the game as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    if args.text {
+        let plain = shell::command(["play", &args.game, "--ascii"]);
+        bail!("there is no flag --text: to play with plain characters, `{plain}`");
+    }
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
     let (named, level, recorded) =

@@ -137,7 +137,10 @@ fn gates_are_asked_of_a_game_with_all_its_levels() {
     let asked: Vec<&str> = judged.iter().filter_map(|judgement| judgement["criterion"].as_str()).collect();
     assert!(validators::GATES.iter().all(|gate| asked.contains(gate)), "{asked:?}");
     let refused = run(folder.path(), &["validate", ".", "1", "--gates"], 2);
-    assert!(text(&refused.stderr).contains("--gates judges a game with all its levels"));
+    let refused = text(&refused.stderr);
+    assert!(refused.contains("names 1 of 2: `arcade validate . --gates`"), "{refused}");
+    let refused = text(&run(folder.path(), &["play", ".", "--text"], 2).stderr);
+    assert!(refused.contains("`arcade play . --ascii`"), "{refused}");
 }
 
 #[test]
@@ -595,5 +598,71 @@ fn non_unicode_paths_are_harmless() {
     for verb in ["validate", "describe", "fmt", "play", "run"] {
         let output = command(&[verb], &[strange]);
         assert_eq!(output.status.code(), Some(2), "{verb}: {}", text(&output.stderr));
+    }
+}
+
+/// A raft that carries a duckling over a pond.
+const FERRY: &str = include_str!("../../../tests/suite/levels/good/one-ferry/game.vgdl");
+const POND: &str = include_str!("../../../tests/suite/levels/good/one-ferry/lvl0.txt");
+
+#[test]
+fn a_rule_that_carries_is_not_called_idle() {
+    let folder = folder(FERRY, POND);
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "100000"], 0);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let ablation = &document["judgements"][1];
+    assert_eq!((&ablation["criterion"], &ablation["verdict"]), (&"ablation".into(), &"pass".into()));
+}
+
+#[test]
+fn the_line_that_keeps_a_level_from_being_won_is_named() {
+    let shield = "        duckling raft > shieldFrom stype=pond ftype=killSprite\n";
+    let kill = "        duckling pond > killSprite\n";
+    let late = FERRY.replace(kill, "").replace(shield, &format!("{kill}{shield}"));
+    let late = folder(&late, POND);
+    let said = text(&run(late.path(), &["validate", ".", "--budget", "100000"], 1).stdout);
+    for words in [
+        "; it can be won without `duckling pond > killSprite`: a search wins it in 13 ticks",
+        "(./game.vgdl:20)\n",
+        "where a `raft` is, too; tick ",
+        "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
+        "the closest any play can come: 1 nest left",
+        // The author's own characters.
+        "D duckling, ",
+        "~ pond",
+    ] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("the rules alone do not show why"), "{said}");
+    // Not found, and not proved either.
+    let hedge = POND.replace("nw\n", "nw\nwwwwwwwwwwwwww\n");
+    let hedge = folder(FERRY, &hedge);
+    let said = text(&run(hedge.path(), &["validate", ".", "--budget", "40000"], 1).stdout);
+    let headline = "not shown to pass winnable: no win found with ";
+    assert!(said.contains(headline), "{said}");
+    assert!(said.contains("it can be won without `duckling wall > stepBack`: a search wins it in"), "{said}");
+}
+
+#[test]
+fn warnings_about_files_follow_the_verdict() {
+    let game = GAME.replace("        SpriteCounter stype=avatar limit=0 win=False\n", "");
+    let game = game.replace("        Timeout limit=300 win=False\n", "");
+    let folder = folder(&game, &LEVEL.replace("t..w\n", "t..\n"));
+    for arguments in
+        [&["validate", ".", "--budget", "2000"][..], &["-q", "validate", ".", "--budget", "2000"]]
+    {
+        let said = text(&run(folder.path(), arguments, 1).stdout);
+        let place = |words: &str| said.find(words).unwrap_or_else(|| panic!("`{words}` is not in\n{said}"));
+        let criteria = place("well-formed");
+        assert!(
+            place("game.vgdl  does not pass") < place("no-lose") && place("no-lose") < criteria,
+            "{said}"
+        );
+        assert!(place("ragged-level") < criteria, "{said}");
+        place(
+            "removes the player's `avatar`, and nothing is lost by that: add `SpriteCounter stype=avatar win=False`",
+        );
+        // What is asked stands where the answer is not yes.
+        place("asks: ");
     }
 }

@@ -32,7 +32,7 @@ pub use goal::{Aims, Condition, Goal};
 pub use lock::{Fate, Key, Lock, Pushable, Resource, Sink};
 pub use pairs::MAX_RULES_PER_PAIR;
 pub use reach::{
-    Blocker, Cause, Chain, ImpossibleGoal, Missing, Obstacle, Reach, Shortage, Source, Unreachable,
+    Blocker, Cause, Chain, ImpossibleGoal, Missing, Obstacle, Reach, Shortage, Source, Unpaid, Unreachable,
 };
 pub use requirement::{MAX_GOALS, Reason, Requirement};
 pub use role::Role;

@@ -1,8 +1,8 @@
 //! The description of one level, in words.
 
 use super::rules;
-use super::words::list;
-use crate::analysis::{Analysis, Cause, ImpossibleGoal, Reach};
+use super::words::{list, plural};
+use crate::analysis::{Analysis, Cause, ImpossibleGoal, Reach, Unpaid};
 use crate::level::Level;
 use crate::rules::SpriteType;
 
@@ -42,6 +42,17 @@ fn impossible_goals(
             Cause::Permanent(sprites) => format!("nothing can ever end {}", placed(analysis, level, sprites)),
             Cause::AtMost(0) => "there can never be any".to_owned(),
             Cause::AtMost(most) => format!("there can never be more than {most}"),
+            Cause::Unpaid(Unpaid { target, removals, resource, each, most, .. }) => {
+                let name = |stype: SpriteType, number: i64| match number {
+                    1 => analysis.game().name(stype).to_owned(),
+                    _ => plural(analysis.game().name(stype)),
+                };
+                let (target, takes) = (name(*target, *removals), name(*resource, *each));
+                let must = if *removals == 1 { "takes" } else { "must go, each takes" };
+                let there = if *most == 1 { "is" } else { "are" };
+                let left = if *most == 0 { "none".to_owned() } else { format!("only {most}") };
+                format!("{removals} {target} {must} {each} {takes}, and there {there} {left}")
+            }
         };
         format!("{ending}, but here {but}.")
     };

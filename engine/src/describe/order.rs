@@ -38,8 +38,18 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     let rests = |stype: &SpriteType| {
         matches!(analysis.facts(*stype).motion, Motion::Straight(_)) && traits(*stype).cooldown < 2
     };
-    if movers.iter().any(rests) {
-        lines.push(Phrase::Rest.with(&[]));
+    let resting: Vec<SpriteType> = movers.iter().copied().filter(rests).collect();
+    if !resting.is_empty() {
+        let is_missile = |stype: &SpriteType| {
+            let class = analysis.game().0.types[stype.index()].class;
+            class.is_some_and(|class| class.is_a(SpriteClass::Missile))
+        };
+        let all = resting.iter().all(is_missile);
+        let movers = if all { "Missiles" } else { "Sprites that move straight on" };
+        // A shot's first tick is the one in which it appears.
+        let is_soon = resting.iter().any(|&stype| is_updated_at_once(analysis, stype).0);
+        let phrase = if is_soon { Phrase::RestFirst } else { Phrase::Rest };
+        lines.push(phrase.with(&[("movers", movers)]));
     }
     let glides = |&stype: &SpriteType| {
         let (pace, traits) = (analysis.facts(stype).pace, traits(stype));
@@ -178,7 +188,11 @@ fn tie(analysis: &Analysis) -> Option<String> {
         (false, true) => Phrase::TieLost.with(&[]),
         (true, false) => Phrase::TieWon.with(&[]),
         (true, true) if is_run && !goals.iter().any(Goal::is_open) => {
-            Phrase::TieMixed.with(&[("ways", &told(&goals[..first_win], "or"))])
+            let ways = told(&goals[..first_win], "or");
+            match ways == Phrase::Gone.text() {
+                true => Phrase::TieUnlessDead.with(&[]),
+                false => Phrase::TieMixed.with(&[("ways", &ways)]),
+            }
         }
         (true, true) => {
             let each = goals.iter().map(|goal| {

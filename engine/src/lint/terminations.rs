@@ -1,7 +1,9 @@
 //! Terminations that end a game too early, or never.
 
 use super::{Linter, swapped};
-use crate::analysis::{Analysis, Attainable, Condition as Counted, EffectSummary, Goal, Precondition, Side};
+use crate::analysis::{
+    Analysis, Attainable, Condition as Counted, EffectSummary, Encounter, Goal, Precondition, Side,
+};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::Game;
 use crate::limits::MAX_TICKS;
@@ -151,9 +153,34 @@ impl Linter<'_> {
             // The compiler reports that no termination wins.
             let Some(first) = lines.first().filter(|_| !win) else { return };
             let reason = "no termination has `win=False`".to_owned();
-            (first, reason, "add a Timeout, or another termination with `win=False`".to_owned())
+            let help = match self.deadly_rule() {
+                Some((avatar, rule)) => format!(
+                    "`{rule}` removes the player's `{avatar}`, and nothing is lost by that: add \
+                     `SpriteCounter stype={avatar} win=False`"
+                ),
+                None => "add a Timeout, or another termination with `win=False`".to_owned(),
+            };
+            (first, reason, help)
         };
         problems.push(Diagnostic::warning(code, line.class.span, format!("{fault}: {reason}")).help(help));
+    }
+
+    /// Returns an avatar type, and the first rule that removes the avatar.
+    fn deadly_rule(&self) -> Option<(String, String)> {
+        let avatar = self.analysis.start_avatar()?.stype;
+        let kills = |encounter: &&Encounter| {
+            let first = self.analysis.applies(encounter.first, avatar);
+            let second = encounter.second.is_some_and(|second| self.analysis.applies(second, avatar));
+            encounter.does(|effect| {
+                *effect == EffectSummary::Kill(Side::First) && first
+                    || *effect == EffectSummary::Kill(Side::Second) && second
+            })
+        };
+        let line = self.analysis.encounters().iter().find(kills)?.line;
+        let written = &self.game.description().interactions[line];
+        let partners: Vec<&str> = written.second.iter().map(|word| word.text.as_str()).collect();
+        let rule = format!("{} {} > {}", written.first.text, partners.join(" "), written.effect.text);
+        Some((self.game.name(avatar).to_owned(), rule))
     }
 
     /// Returns the reason why play cannot attain a goal, and a suggestion; None if another warning gives it.

@@ -61,14 +61,14 @@ How you lose:
 
 How a tick goes:
   Each tick you act, then the others act, then contacts count, in the order of the lines below.
-  Sprites touch in each tick in which they overlap after the moves; swapping places is no touch. Pairs that no line names do nothing.
+  Sprites touch in each tick in which they overlap after the moves; swapping places is no touch. Sprites with no rule for each other ignore each other.
   What moves every N ticks does so N, 2N, 3N ticks after it appeared; a blocked move is lost.
-  What lies in two cells between steps touches what is in either.
+  While gliding between two cells, a sprite touches everything in both.
   What disappears still blocks and touches others in that tick.
   At the limit of what can be held, more stays where it is and brings no points.
   Chasers take a step nearer, not around obstacles, at random if several are.
   Fleeing ones take a step further away, sideways too, at random if several are.
-  A tick that both wins and loses is won, but lost when you are gone.
+  If you win and lose in the same tick, you win, unless you died.
 
 What the others do:
   The pear can be held, up to 3.
@@ -334,11 +334,11 @@ fn endings_that_are_decided_late_win_or_lose() {
     assert!(!tie(&format!("{score}\n    Timeout limit=9 count_score=True")).starts_with("A tick"));
     assert_eq!(
         tie(&format!("{score}\n    SpriteCounter stype=pear win=True")),
-        "A tick that both wins and loses is lost."
+        "If you win and lose in the same tick, you lose."
     );
     assert_eq!(
         tie(&format!("SpriteCounter stype=pear win=True\n    {score}")),
-        "A tick that both wins and loses is won."
+        "If you win and lose in the same tick, you win."
     );
     assert_eq!(
         tie(&format!("{score}\n    Timeout limit=9\n    SpriteCounter stype=pear win=True")),

@@ -26,6 +26,8 @@ pub(super) struct Ruling {
     pub(super) ladder: Option<Ladder>,
     /// Forward-model calls.
     pub(super) calls: u64,
+    /// `true` if only its difficulty is wrong, and no player of the ladder wins it.
+    pub(super) is_unbeaten: bool,
 }
 
 impl<'a> LevelGate<'a> {
@@ -46,7 +48,7 @@ impl<'a> LevelGate<'a> {
         let report = self.panel.screen(game, level, seed.child("panel", 0));
         let calls = report.judgements.iter().map(|judgement| judgement.finding.calls()).sum();
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
-        let mut judged = Ruling { obstacle, report, ladder: None, calls };
+        let mut judged = Ruling { obstacle, report, ladder: None, calls, is_unbeaten: false };
         let (None, Some(witness)) = (obstacle, judged.report.witness.clone()) else {
             judged.obstacle = obstacle.or(Some("winnable"));
             return judged;
@@ -71,6 +73,7 @@ impl<'a> LevelGate<'a> {
                 let ladder = climb.ladder(case);
                 judged.calls += ladder.rungs.iter().map(|fared| fared.rate.calls).sum::<u64>();
                 let is_met = is_within(&ladder, asked, margin);
+                judged.is_unbeaten = !is_met && wins(&ladder) == 0.0;
                 judged.ladder = Some(ladder);
                 if !is_met {
                     judged.obstacle = Some("difficulty");

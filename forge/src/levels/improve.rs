@@ -61,6 +61,9 @@ impl Maker<'_> {
                 if judged.obstacle.is_none() {
                     return (Some(made(number, level, judged)), cost);
                 }
+                if self.is_hopeless(&cost) {
+                    return (None, cost);
+                }
             }
             // A round costs something even if all its looks are cheap, and all that a round may cost if nothing could be proposed.
             let least = if spent > 0.0 { LEAST_EFFORT } else { 1.0 };

@@ -10,7 +10,7 @@ use generators::{GenerateError, Generator};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use validators::{CriteriaError, Ladder, Report};
+use validators::{CriteriaError, Difficulty, Ladder, Report};
 
 /// A level that was made.
 #[derive(Clone, Debug)]
@@ -36,6 +36,15 @@ pub struct Cost {
     pub calls: u64,
     /// Rejections by criterion, of a look or of the panel, or by the generator.
     pub rejections: BTreeMap<String, u64>,
+    /// Levels that met all criteria but the difficulty, and that no player of the ladder wins.
+    #[serde(skip_serializing_if = "is_none")]
+    pub unbeaten: u64,
+}
+
+/// Tests whether there are none, which a document need not say.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 impl Cost {
@@ -47,6 +56,7 @@ impl Cost {
 
     pub(super) fn judged(&mut self, judged: &Ruling) {
         self.judged += 1;
+        self.unbeaten += u64::from(judged.is_unbeaten);
         self.calls += judged.calls;
         judged.obstacle.into_iter().for_each(|obstacle| self.reject(obstacle));
     }
@@ -59,7 +69,31 @@ impl Cost {
         self.looks += other.looks;
         self.judged += other.judged;
         self.calls += other.calls;
+        self.unbeaten += other.unbeaten;
         add_rejections(&mut self.rejections, &other.rejections);
+    }
+
+    /// The meaning of the most frequent rejection for the game or the order.
+    fn hint(&self) -> Option<String> {
+        if self.unbeaten > 0 && Some(&self.unbeaten) >= self.rejections.get("difficulty") {
+            let unbeaten = self.unbeaten;
+            return Some(format!(
+                "no planner of the ladder wins any of the {unbeaten} levels that met all other criteria, and difficulty \
+                 is measured by these planners: ask for no difficulty, or make the game easier for them"
+            ));
+        }
+        let (most, _) = self.rejections.iter().max_by_key(|(_, count)| **count)?;
+        let hint = match most.as_str() {
+            "winnable" => {
+                "no win was found on most of them: `arcade validate` tells whether the game can be won, and why not"
+            }
+            "not-random" => "random keys win most of them: the rules ask too little of the player",
+            "not-idle" => "doing nothing wins most of them: the rules ask nothing of the player",
+            "early-death" => "the player cannot live through the first ticks of most of them",
+            "difficulty" => "most of them are easier or harder for the planners: ask for another difficulty",
+            _ => return None,
+        };
+        Some(hint.to_owned())
     }
 
     /// The rejections in words, the most frequent first.
@@ -88,7 +122,7 @@ pub enum LevelsError {
     #[error("the criteria: {0}")]
     Criteria(#[from] CriteriaError),
     /// No candidate passed.
-    #[error("no level was accepted of {looks} that were looked at and {judged} that were judged: {why}")]
+    #[error("no level was accepted of {looks} that were looked at and {judged} that were judged: {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
     NoneAccepted {
         /// Candidates that a search looked at.
         looks: u64,
@@ -96,6 +130,8 @@ pub enum LevelsError {
         judged: u64,
         /// Their obstacles.
         why: String,
+        /// The meaning of the most frequent obstacle for the game or the order, if it has one.
+        hint: Option<String>,
     },
     /// Not one board could be furnished.
     #[error("no board holds what is asked: {0}")]
@@ -152,6 +188,7 @@ pub fn make_levels(
             looks: set.cost.looks,
             judged: set.cost.judged,
             why: set.cost.reasons(),
+            hint: set.cost.hint(),
         });
     }
     Ok(set)
@@ -202,6 +239,9 @@ impl Maker<'_> {
                     if judged.obstacle.is_none() {
                         return (Some(made(number, level, judged)), cost);
                     }
+                    if self.is_hopeless(&cost) {
+                        break;
+                    }
                 }
                 Err(_) => cost.reject(NO_BOARD),
             }
@@ -239,10 +279,22 @@ impl Maker<'_> {
         set
     }
 
+    /// Tests whether no player of the ladder has won a single one of the levels judged for a difficulty that they must win
+    /// often: the next ones will hardly be easier.
+    pub(super) fn is_hopeless(&self, cost: &Cost) -> bool {
+        let by_difficulty = cost.rejections.get("difficulty").copied().unwrap_or_default();
+        let often =
+            !matches!(self.order.difficulty, None | Some(Difficulty::VeryHard | Difficulty::Unbeaten));
+        often && cost.unbeaten >= HOPELESS && cost.unbeaten == by_difficulty
+    }
+
     pub(super) fn level_seed(&self, number: u32) -> Seed {
         self.seed.child("level", u64::from(number))
     }
 }
+
+/// Levels that no player of the ladder wins after which none is expected to be won.
+const HOPELESS: u64 = 6;
 
 /// Boards that are drawn for a level that nobody judges.
 const DRAWS: u64 = 20;

@@ -5,7 +5,7 @@ use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_lev
 use crate::evidence::Evidence;
 use crate::game_measures::{Guards, mechanics};
 use crate::game_report::{GameCase, GameValidator};
-use crate::verdict::Finding;
+use crate::verdict::{Finding, Verdict};
 use agents::Stopped;
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
@@ -23,6 +23,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 ///    differently;
 /// 3. a search that foresees the chance of the win finds one that is shorter by [`Gates::plan_change`] than that, and than the
 ///    one it finds with the element.
+///
+/// The gate fails only if it would fail even if every element mattered that is not proved to be idle: in a deterministic game, by
+/// searches that prove the shortest wins with and without the element. Else the answer is unknown.
 ///
 /// A moving type shifts the random draws of a stochastic game, so that its win is not replayed without it. Cost: the replays,
 /// the careless plays, and for each element that these do not show to matter, a search of [`Gates::needed_calls`] calls on each
@@ -71,26 +74,54 @@ impl GameValidator for Necessity {
         let mut elements = elements(case, &executed);
         elements.retain(|element| !is_open(element));
         let judge = |element| match stopped() {
-            true => (false, String::new()),
+            true => (Need::NotShown, String::new()),
             false => self.matters(case, element, &subjects, stopped),
         };
-        let matters: Vec<(bool, String)> = elements.par_iter().map(judge).collect();
-        let needed = matters.iter().filter(|(matters, _)| *matters).count();
-        let share = if elements.is_empty() { 1.0 } else { needed as f64 / elements.len() as f64 };
-        let idle = elements.iter().zip(&matters).filter(|(_, (matters, _))| !matters);
+        let matters: Vec<(Need, String)> = elements.par_iter().map(judge).collect();
+        let count = |wanted: Need| matters.iter().filter(|(need, _)| *need == wanted).count();
+        let (needed, open) = (count(Need::Shown), count(Need::NotShown));
+        let share_of = |count: usize| match elements.len() {
+            0 => 1.0,
+            all => count as f64 / all as f64,
+        };
+        let share = share_of(needed);
+        let idle = elements.iter().zip(&matters).filter(|(_, (need, _))| *need != Need::Shown);
         let idle_types =
             idle.clone().filter(|(element, _)| element.is_type).map(|(element, _)| element.text.clone());
         let idle_types = idle_types.collect();
         let idle: Vec<Evidence> = idle.map(|(element, (_, why))| element.problem(why.clone())).collect();
         let text = format!("{needed} of {} rules and types change how the game is won", elements.len());
         let note = Evidence::new(text);
-        let found = match share >= gates.needed_share {
-            true => finding(Vec::new(), [note].into_iter().chain(idle).collect(), Some(share)),
-            false => finding(idle, vec![note], Some(share)),
-        };
         let spent = subjects.iter().map(|subject| subject.spent.load(Ordering::Relaxed)).sum();
+        let found = if share >= gates.needed_share {
+            finding(Vec::new(), [note].into_iter().chain(idle).collect(), Some(share))
+        } else if share_of(needed + open) >= gates.needed_share {
+            // Those that no test shows to matter may matter all the same.
+            let found = Finding::from(Verdict::Unknown { spent }).seen(idle).seen([note]);
+            Finding { figure: Some(share), ..found }
+        } else {
+            finding(idle, vec![note], Some(share))
+        };
         Finding { searched: Some(spent), idle_types, ..found }
     }
+}
+
+/// The answer on one element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Need {
+    /// Tests show that it matters.
+    Shown,
+    /// No test shows that it matters, and the searches were not exhaustive.
+    NotShown,
+    /// Proved: it does not matter in the sense of the tests.
+    Refuted,
+}
+
+/// The length of the shortest win that is known, if one is; `sure` if it is proved that there is no shorter one.
+#[derive(Clone, Copy)]
+struct Shortest {
+    ticks: Option<usize>,
+    sure: bool,
 }
 
 /// A level with its win and careless plays.
@@ -98,42 +129,53 @@ struct Subject<'a> {
     won: WonLevel<'a>,
     careless: &'a [Episode],
     /// Ticks of the shortest win that is known with everything, once a search has looked for it.
-    shortest: OnceLock<usize>,
+    shortest: OnceLock<Shortest>,
     /// Forward-model calls of the searches on it.
     spent: AtomicU64,
 }
 
 impl Necessity {
-    /// Returns whether an element matters, and a sentence that says on how many of its levels.
+    /// Returns whether an element is shown to matter, and a sentence that says on how many of its levels.
     fn matters(
         &self,
         case: GameCase<'_>,
         element: &Element,
         subjects: &[Subject<'_>],
         stopped: Stopped<'_>,
-    ) -> (bool, String) {
+    ) -> (Need, String) {
         let on = subjects.iter().filter(|subject| element.levels.contains(&subject.won.number));
         let on: Vec<&Subject<'_>> = on.collect();
         if on.is_empty() {
-            return (false, format!("`{}` never takes part in play", element.text));
+            let text = format!("no recorded play has `{}`, and no test shows that it matters", element.text);
+            return (Need::NotShown, text);
         }
         let wanted = ((on.len() as f64 * self.0.needed_levels).ceil() as usize).max(1);
         let shown: Vec<bool> = on.iter().map(|subject| self.shows(element, subject)).collect();
         let mut count = shown.iter().filter(|shown| **shown).count();
         let open: Vec<&Subject<'_>> =
             on.iter().zip(&shown).filter(|(_, shown)| !**shown).map(|(subject, _)| *subject).collect();
+        let mut refuted = 0;
         for (tried, subject) in open.iter().enumerate() {
             if count >= wanted || count + (open.len() - tried) < wanted || stopped() {
                 break;
             }
-            count += usize::from(self.hinders(case, element, subject));
+            let (hinders, sure) = self.hinders(case, element, subject);
+            count += usize::from(hinders);
+            refuted += usize::from(!hinders && sure);
         }
-        let text = format!(
-            "winning does not depend on `{}`: it matters on {count} of {} levels, {wanted} wanted",
-            element.text,
-            on.len()
-        );
-        (count >= wanted, text)
+        let need = if count >= wanted {
+            Need::Shown
+        } else if on.len() - refuted < wanted {
+            Need::Refuted
+        } else {
+            Need::NotShown
+        };
+        let start = match need {
+            Need::Refuted => "winning does not depend on",
+            _ => "no test shows that winning depends on",
+        };
+        let (text, all) = (&element.text, on.len());
+        (need, format!("{start} `{text}`: it matters on {count} of {all} levels, {wanted} wanted"))
     }
 
     /// Returns `true` if replays show that the element matters on a level.
@@ -156,36 +198,42 @@ impl Necessity {
         differing as f64 >= self.0.plan_change * subject.careless.len() as f64
     }
 
-    /// Returns `true` if a search shows that a level is won much sooner without the element.
-    fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> bool {
+    /// Returns whether a search shows that a level is won much sooner without the element, and whether that is proved.
+    fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> (bool, bool) {
         let WonLevel { level, win, .. } = subject.won;
+        let known = win.actions.len();
         let shortest = *subject.shortest.get_or_init(|| {
             let found = self.search(case.analysis, level, subject);
-            found.map_or(win.actions.len(), |ticks| ticks.min(win.actions.len()))
+            Shortest { ticks: Some(found.ticks.map_or(known, |ticks| ticks.min(known))), ..found }
         });
-        let Some(level) = element.level(level) else { return true };
+        let Some(level) = element.level(level) else { return (true, true) };
         let analysis = Analysis::of(&element.without);
         let found = self.search(&analysis, &level, subject);
-        found.is_some_and(|ticks| (ticks as f64) <= shortest as f64 * (1.0 - self.0.plan_change))
+        let most = shortest.ticks.unwrap_or(known) as f64 * (1.0 - self.0.plan_change);
+        let hinders = found.ticks.is_some_and(|ticks| (ticks as f64) <= most);
+        (hinders, found.sure && shortest.sure && case.game.is_deterministic())
     }
 
     /// Returns the ticks of a win that a search finds under the chance of the known win: the shortest one, or else any.
-    fn search(&self, analysis: &Analysis, level: &Level, subject: &Subject<'_>) -> Option<usize> {
+    fn search(&self, analysis: &Analysis, level: &Level, subject: &Subject<'_>) -> Shortest {
         let start = analysis.game().start(level, subject.won.win.seed);
         if start.is_over() {
-            return None;
+            return Shortest { ticks: None, sure: true };
         }
         let pushes = Pushes::of(analysis, level);
         let limits = SearchLimits { bytes: BYTES, ..SearchLimits::calls(self.0.needed_calls / 2) };
         let won = |searched: Searched| {
             subject.spent.fetch_add(searched.calls, Ordering::Relaxed);
             match searched.answer {
-                Answer::Won { actions, .. } => Some(actions.len()),
-                _ => None,
+                Answer::Won { actions, shortest } => Shortest { ticks: Some(actions.len()), sure: shortest },
+                answer => Shortest { ticks: None, sure: answer == Answer::Impossible },
             }
         };
-        won(a_star(analysis, &pushes, &start, limits))
-            .or_else(|| won(best_first(analysis, &pushes, &start, limits)))
+        let found = won(a_star(analysis, &pushes, &start, limits));
+        match found.ticks.is_none() {
+            true => won(best_first(analysis, &pushes, &start, limits)),
+            false => found,
+        }
     }
 }
 

@@ -6,7 +6,7 @@ mod text;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named};
-use crate::{diagnostics, episodes};
+use crate::{diagnostics, episodes, shell};
 use document::{Document, LevelDocument};
 use engine::{Analysis, Diagnostic, Diagnostics, Game, Level, LevelMapping, Seed, describe};
 use rayon::prelude::*;
@@ -15,9 +15,9 @@ use validators::{Criteria, GATES, Panel, Report};
 
 /// Judges a game and its levels: all problems of all files first, then each criterion of a release.
 ///
-/// The verdict comes first, a line for each level and one for the game; then the reasons, each with the observations
-/// and advice. The use of every rule is checked for the game over all its levels, if no level is left out. See
-/// `arcade docs validate` for the criteria.
+/// The verdict comes first, a line for each level and one for the game. The warnings about the files follow; then the
+/// criteria, each with the observations and advice. The use of every rule is checked for the game over all its levels,
+/// if no level is left out. See `arcade docs validate` for the criteria.
 ///
 /// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file
 /// is malformed.
@@ -74,7 +74,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut criteria = Criteria { budget: args.budget, ..Criteria::full() };
     if args.gates {
         if levels.len() < input.count() {
-            bail!("--gates judges a game with all its levels in order: name none, or all");
+            let (all, some) = (input.count(), levels.len());
+            let command = shell::command(["validate", &args.game, "--gates"]);
+            bail!("--gates judges a game with all its levels, and names {some} of {all}: `{command}`");
         }
         criteria.ask.extend(GATES.iter().map(|&gate| gate.to_owned()));
     }
@@ -120,15 +122,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         judgements: &of_game,
     };
     console.document(&document)?;
-    console.say(text::review(&document, &input.source).trim_end());
     let warnings = game.warnings().iter().map(|warning| (&input.source, warning));
     let of_levels = judged.iter().flat_map(|judged| {
         let warnings = judged.level.iter().flat_map(Level::warnings);
         warnings.map(|warning| (judged.named, warning))
     });
-    for (source, warning) in warnings.chain(of_levels) {
-        console.say(format_args!("\n{}", diagnostics::one_in_words(source, warning).trim_end()));
-    }
+    let warnings = warnings.chain(of_levels);
+    let warnings: Vec<String> =
+        warnings.map(|(source, warning)| diagnostics::one_in_words(source, warning)).collect();
+    console.say(text::review(&document, &input.source, &warnings).trim_end());
     if !malformed.is_empty() {
         return Err(Failure::malformed(malformed.join("\n")));
     }

@@ -14,8 +14,8 @@ const MOST_SEEN: usize = 6;
 /// The most links of a chain of causes to show.
 const MOST_LINKS: usize = 16;
 
-/// Returns the whole answer.
-pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
+/// Returns the whole answer: the verdicts, the warnings about the files, the criteria.
+pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String]) -> String {
     let mut text = String::new();
     let names = document.levels.iter().map(|level| level.level.len());
     let width = names.chain([source.name.len()]).max().unwrap_or_default();
@@ -38,6 +38,9 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
         "{:<width$}  {word}: {passed} of {count} levels meet every criterion{of_game}",
         source.name
     );
+    for warning in warnings {
+        let _ = writeln!(text, "\n{}", warning.trim_end());
+    }
     for level in &document.levels {
         if let Some(report) = level.report {
             let _ = writeln!(text, "\n{}", level.level);
@@ -72,10 +75,15 @@ fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
     let won =
         report.witness.as_ref().map_or(String::new(), |won| format!(": won in {} ticks", won.actions.len()));
     let hard = report.ladder().map_or(String::new(), |ladder| match ladder.difficulty {
-        Difficulty::Unbeaten => "; too hard for every player of the ladder".to_owned(),
-        difficulty => format!(", {difficulty}"),
+        Difficulty::Unbeaten => "; no planner of the ladder wins it".to_owned(),
+        difficulty => format!(", {} for the planners", in_words(difficulty)),
     });
     format!("passes{won}{hard}")
+}
+
+/// A label of difficulty as words: `very hard`.
+fn in_words(difficulty: Difficulty) -> String {
+    difficulty.to_string().replace('_', " ")
 }
 
 /// Returns the reason why a criterion is not passed, in one line, with the place of the rule that it quotes.
@@ -113,6 +121,11 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     };
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
+    // A name alone says little: what it asks is told where the answer matters.
+    let is_asked = mark == "FAIL" || mark == "?" && !words.starts_with("needs a win");
+    if let (true, Some(question)) = (is_asked, validators::question(criterion)) {
+        let _ = writeln!(text, "       asks: {question}");
+    }
     // The reason repeats the first evidence.
     let is_new = |seen: &&Evidence| {
         seen.rule.is_some() || *criterion == "winnable" || !words.contains(seen.text.as_str())
@@ -129,8 +142,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
         if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {
             *boards += 1;
             board(text, &seen.rows);
-            let legend = seen.legend.iter().map(|(symbol, name)| format!("{symbol} {name}"));
-            let _ = writeln!(text, "       ({})", legend.collect::<Vec<_>>().join(", "));
+            let _ = writeln!(text, "       ({})", seen.key());
         }
     }
     if shown.len() > most {
@@ -176,11 +188,14 @@ fn board(text: &mut String, rows: &[String]) {
 
 fn ladder_results(text: &mut String, ladder: &Ladder) {
     let ease = ladder.ease.map_or(String::new(), |ease| format!(" (ease {ease:.2})"));
-    let who = match ladder.difficulty {
-        Difficulty::Unbeaten => " by the players of the ladder",
-        _ => "",
+    let _ = match ladder.difficulty {
+        Difficulty::Unbeaten => writeln!(text, "       difficulty: no planner of the ladder wins it{ease}"),
+        difficulty => writeln!(text, "       difficulty: {} for the planners{ease}", in_words(difficulty)),
     };
-    let _ = writeln!(text, "       difficulty: {}{who}{ease}", ladder.difficulty);
+    let _ = writeln!(
+        text,
+        "       (the planners below play with little thought; people may find it much easier or harder)"
+    );
     let players = ladder.rungs.iter().chain(&ladder.held_out);
     let width = players.clone().map(|result| result.player.len()).max().unwrap_or_default();
     for result in players {

@@ -155,6 +155,7 @@ impl<'a, 'e> Chains<'a, 'e> {
                 let lacking = types.iter().flat_map(|&stype| self.unmade(stype, &mut reported));
                 lacking.take(MAX_RULES).collect()
             }
+            Cause::Unpaid(_) => Vec::new(),
         };
         Chain { goal, cause, obstacles }
     }

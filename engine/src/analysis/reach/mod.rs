@@ -17,7 +17,8 @@
 //! - Continuous physics: a sprite whose velocity is changed by forces moves in any direction, as far in a tick as its
 //!   greatest speed allows: it flies. An avatar that falls and jumps (see `jump.rs`) gets no higher above the ground
 //!   than a jump lifts it, but in the air it moves sideways without limit.
-//! - Keys are counted, but the cost of opening is not.
+//! - Keys are counted, and the cost of opening only where every removal that a win needs takes some of one resource
+//!   (`payment`).
 //!
 //! Algorithm: `meetings` lists which types can meet with what effect; `model` derives from that the movement of each
 //! type (`mobility` by itself, `contact` by others), before any cell is examined. Then `events` iterates: types spread
@@ -41,6 +42,7 @@ mod makers;
 mod meetings;
 mod mobility;
 mod model;
+mod payment;
 mod tally;
 
 use super::Analysis;
@@ -58,6 +60,7 @@ pub use chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable
 use events::{Events, Placed};
 use flood::Flood;
 use model::Model;
+pub use payment::Unpaid;
 use tally::Tally;
 
 /// The cells of one level where sprites of each type can ever be. This is an over-approximation: it is proved that
@@ -95,6 +98,8 @@ pub enum Cause {
     Permanent(Vec<(SpriteType, usize)>),
     /// There can never be more sprites of its types than this number.
     AtMost(i64),
+    /// Each of the removals that it needs takes some of a resource, and there is too little of it.
+    Unpaid(Unpaid),
 }
 
 impl Reach {
@@ -249,8 +254,11 @@ impl Analysis {
         let (removable, made) = (&flood.removable, &flood.made);
         let tally =
             Tally { rules: &self.game.0, model: flood.model, placed: events.placed(), removable, made };
-        let impossible_goal =
-            |goal: usize| Some(ImpossibleGoal { goal, cause: tally.hinders(&self.goals[goal].condition)? });
+        let impossible_goal = |goal: usize| {
+            let condition = &self.goals[goal].condition;
+            let cause = tally.hinders(condition).or_else(|| self.unpaid(condition, events))?;
+            Some(ImpossibleGoal { goal, cause })
+        };
         let impossible_goals: Vec<ImpossibleGoal> =
             (0..self.goals.len()).filter_map(impossible_goal).collect();
         let cells = |of: fn(&flood::Region) -> &Cells| flood.regions.iter().map(of).cloned().collect();

@@ -115,3 +115,47 @@ fn in_disguise() {
     check(sprites, rules, "hurg", "hrug");
     check(sprites, rules, "hurg", "hurw\nwwwg");
 }
+
+/// Returns the removals that are too dear, if a win by removing all houses is proved to be so.
+fn unpaid(rules: &str, level: &str) -> Option<(i64, i64, i64)> {
+    let sprites = "wall > Immovable\nhouse > Immovable\nparcel > Resource limit=9\nhero > MovingAvatar";
+    let mapping = "w > wall\nh > house\np > parcel\nA > hero";
+    let rules = format!("hero wall > stepBack\nparcel hero > collectResource\n{rules}");
+    let analysis = Analysis::of(&game(sprites, mapping, &rules, "SpriteCounter stype=house win=True"));
+    match &reach(&analysis, level).impossible_goals() {
+        [] => None,
+        [ImpossibleGoal { cause: Cause::Unpaid(unpaid), .. }] => {
+            Some((unpaid.removals, unpaid.each, unpaid.most))
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn removals_that_cost_more_than_there_is_are_counted() {
+    let at_once = "house hero > killIfOtherHasMore resource=parcel limit=1 subtract=True";
+    let kill = "house hero > killIfOtherHasMore resource=parcel limit=1";
+    let take = "hero house > changeResource resource=parcel value=-1";
+    let (short, enough, near) = ("A p h  h", "App h  h", "A p hh  ");
+    assert_eq!(unpaid(at_once, short), Some((2, 1, 1)));
+    assert_eq!(unpaid(at_once, enough), None);
+    assert_eq!(unpaid(at_once, near), Some((2, 1, 1)));
+    let later = format!("{kill}\n{take}");
+    assert_eq!(unpaid(&later, short), Some((2, 1, 1)));
+    assert_eq!(unpaid(&later, enough), None);
+    // Two houses side by side: one payment might serve both.
+    assert_eq!(unpaid(&later, near), None);
+    // Whoever is put back in between does not pay; without the payment nothing is taken; another rule opens for free.
+    assert_eq!(unpaid(&format!("{kill}\nhero house > stepBack\n{take}"), short), None);
+    assert_eq!(unpaid(kill, short), None);
+    assert_eq!(
+        unpaid(&format!("{at_once}\nhouse hero > killIfOtherHasMore resource=parcel limit=0"), short),
+        None
+    );
+    // Parcels that come again, and houses that do.
+    assert_eq!(unpaid(&format!("{at_once}\nhero house > spawn stype=parcel"), short), None);
+    assert_eq!(
+        unpaid(&format!("hero house > transformToAll stype=wall stypeTo=house\n{at_once}"), "A p h  hw"),
+        None
+    );
+}
