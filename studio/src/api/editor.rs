@@ -61,6 +61,10 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     let Compiled { source, game, looks, .. } = compiled;
     let order = game.drawing_order();
+    let interacts = |name: &str| {
+        let mut lines = game.description().interactions.iter();
+        lines.any(|line| line.first.text == name || line.second.iter().any(|second| second.text == name))
+    };
     let entry = |symbol: u8| {
         let types = game.places(symbol);
         let visible = types.iter().filter(|&&stype| looks.is_visible(stype));
@@ -68,7 +72,7 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let tile = on_top.map(|&stype| tiles.number(&render::sprite_tile(looks, stype)));
         let names: Vec<&str> = types.iter().map(|&stype| game.name(stype)).collect();
         let label = on_top.map_or("", |&stype| looks.meaning(stype));
-        let is_floor = types.iter().all(|&stype| !looks.is_visible(stype));
+        let is_floor = types.iter().all(|&stype| !looks.is_visible(stype) && !interacts(game.name(stype)));
         json!({ "symbol": char::from(symbol), "types": names, "label": label, "tile": tile, "floor": is_floor })
     };
     // Those that the game maps, in its order, then those that are mapped by default to a type that the game names.
