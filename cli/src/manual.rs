@@ -97,9 +97,11 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
         let mut best: Option<(usize, usize, &str)> = None;
         let mut others = 0;
         let mut is_first_paragraph = true;
+        let mut is_fenced = false;
         let mut is_missing = vec![true; wanted.len()];
         for (number, line) in page.text.lines().enumerate() {
             is_first_paragraph &= number < 2 || !line.trim().is_empty();
+            is_fenced ^= line.starts_with("```");
             let has: Vec<bool> =
                 wanted.iter().map(|word| words(line).any(|own| is_form(&own, word))).collect();
             let count = has.iter().filter(|&&has| has).count();
@@ -109,7 +111,7 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
             is_missing.iter_mut().zip(&has).for_each(|(missing, has)| *missing &= !has);
             let kind = match number {
                 0 => 0,
-                _ if is_first_paragraph || line.starts_with('#') => 1,
+                _ if !is_fenced && (is_first_paragraph || line.starts_with('#')) => 1,
                 _ => 2,
             };
             others += usize::from(kind == 2);
@@ -164,7 +166,12 @@ const LINE: usize = 80;
 
 /// Returns a line of Markdown as the results of a search show it: without marks of headings, lists and tables.
 fn shown(line: &str) -> String {
-    let plain = line.trim_matches(['#', '|', '-', '*', '>', ' ']);
+    let mut words = line.to_owned();
+    for (link, inner, _) in links(line).into_iter().rev() {
+        words.replace_range(link, &line[inner]);
+    }
+    let words = words.replace("**", "");
+    let plain = words.trim_matches(['#', '|', '-', '*', '>', ' ']);
     match plain.char_indices().nth(LINE) {
         Some((end, _)) => format!("{}…", plain[..end].trim_end()),
         None => plain.to_owned(),

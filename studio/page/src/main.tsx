@@ -103,7 +103,7 @@ function Top({ view, workspace, game }: { view: string; workspace: Workspace; ga
             {workspace.judge && link('judge', 'Judge', 'judge')}
           </>
         )}
-        {live && link('help', 'Help', 'help', 'first-game')}
+        {live && view !== 'design' && link('help', 'Help', 'help', 'first-game')}
       </nav>
     </header>
   );
