@@ -3,6 +3,7 @@
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::manual::{self, Page, Shelf};
+use crate::shell;
 use itertools::Itertools;
 use serde_json::json;
 use std::fmt::Write;
@@ -35,7 +36,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let about_verb = VERBS.iter().find(|(verb, _)| *verb == wanted).map_or(&[][..], |(_, pages)| pages);
     if let Ok(page) = manual::page(&wanted) {
         if !about_verb.is_empty() {
-            let pages = about_verb.iter().map(|page| format!("`arcade docs {page}`")).join(" and ");
+            let pages =
+                about_verb.iter().map(|page| format!("`{}`", shell::command(["docs", page]))).join(" and ");
             console.remark(format_args!("the verb `arcade {wanted}` is described in {pages}\n"));
         }
         console.document(&json!({ "page": page.name, "title": page.title(), "text": page.text }))?;
@@ -54,7 +56,7 @@ const VERBS: [(&str, &[&str]); 23] = [
     ("contamination", &["memory"]),
     ("describe", &["prompts"]),
     ("docs", &["command-line"]),
-    ("fmt", &["lsp", "first-game"]),
+    ("fmt", &["lsp"]),
     ("gallery", &["studio"]),
     ("generate", &["generate-levels", "generate-games"]),
     ("keygen", &["trust", "first-month"]),
