@@ -174,7 +174,7 @@ test('the time to the first paint is printed', async ({ page, studio }) => {
 
 test('a game is begun where there is none, and the manual is a click away', async ({ page, studio }) => {
   test.skip(isMock, 'the mock cannot write');
-  await open(page, await studio('empty'));
+  await open(page, await studio('empty'), '');
   await expect(page.getByText('There are no games here yet.')).toBeVisible();
   await page.getByRole('button', { name: 'New game' }).click();
   await page.getByLabel('Title').fill('River Post');
