@@ -140,7 +140,7 @@ fn list(pages: &[Page]) -> String {
             }
         }
     }
-    text.push_str("\narcade docs PAGE prints a page; arcade docs WORD lists the pages about a word\n");
+    text.push_str("\narcade docs PAGE prints a page, or lists the pages about any other word\n");
     text
 }
 

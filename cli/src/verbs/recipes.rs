@@ -84,7 +84,7 @@ fn show(name: &str, console: &Console) -> Answer {
 }
 
 /// The recipe of `arcade recipes new`, with `NAME` for the name.
-const NEW: &str = include_str!("recipes/new.toml");
+const NEW: &str = include_str!("new-recipe.toml");
 
 fn new(path: &Path, console: &Console) -> Answer {
     let shown = path.display();
