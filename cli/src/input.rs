@@ -193,6 +193,29 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
+/// Tests whether games can be begun at a place: there is nothing, or a folder without a game and without visible folders in it. A
+/// name with an extension is that of a file, and one of the corpus is that of a game.
+pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
+    let Some(found) = paths::metadata(place)? else {
+        let is_known = embedded::corpus()?.find(&place.to_string_lossy()).is_some();
+        return Ok(!is_known && place.extension().is_none());
+    };
+    if !found.is_dir() || game_in(place)?.is_some() {
+        return Ok(false);
+    }
+    let is_hidden =
+        |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+    Ok(!sorted_entries(place)?.iter().any(|path| path.is_dir() && !is_hidden(path)))
+}
+
+/// Returns the game or path that a place that does not exist may be a misspelling of.
+pub(crate) fn nearest_place(place: &Path) -> Result<Option<String>, Failure> {
+    let corpus = embedded::corpus()?;
+    let names = corpus.games.iter().map(|game| game.name.as_str());
+    let near = engine::nearest(&place.to_string_lossy(), names).map(str::to_owned);
+    Ok(near.or_else(|| nearest_sibling(place)))
+}
+
 /// Advice for a folder without a game: it may be a release, whose games are in subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.display();

@@ -57,59 +57,72 @@ struct Cli {
     quiet: bool,
 }
 
-/// Declares the verbs in one place, in the order of the help: the variant, and the module with its `Args` and `run`.
+/// Declares the verbs in one place, in the groups and the order of the help: the variant, and the module with its `Args` and
+/// `run`.
 macro_rules! verbs {
-    ($($(#[$attribute:meta])* $verb:ident: $module:ident),* $(,)?) => {
+    ($($group:literal { $($(#[$attribute:meta])* $verb:ident: $module:ident),* $(,)? })*) => {
         #[derive(Subcommand)]
-        enum Verb { $($(#[$attribute])* $verb(Box<verbs::$module::Args>)),* }
+        enum Verb { $($($(#[$attribute])* $verb(Box<verbs::$module::Args>),)*)* }
+
+        /// The groups of the help, each with the number of its verbs.
+        const GROUPS: &[(&str, usize)] = &[$(($group, [$(stringify!($verb)),*].len())),*];
 
         fn answer(verb: &Verb, console: &Console) -> Answer {
             // The guard of a player runs without a pool of threads.
             if !matches!(verb, Verb::PlayerGuard(_)) {
                 threads::start()?;
             }
-            match verb { $(Verb::$verb(args) => verbs::$module::run(args, console)),* }
+            match verb { $($(Verb::$verb(args) => verbs::$module::run(args, console),)*)* }
         }
     };
 }
 
 verbs! {
-    Release: release,
-    Merge: merge,
-    Regenerate: regenerate,
-    Verify: verify,
-    Keygen: keygen,
-    Keys: keys,
-    Sign: sign,
-    Log: log,
-    Validate: validate,
-    Generate: generate,
-    Run: run,
-    Evaluate: evaluate,
-    Mailbox: mailbox,
-    ServePlayer: serve_player,
-    #[command(hide = true)]
-    PlayerGuard: player_guard,
-    Report: report,
-    Calibrate: calibrate,
-    Scale: scale,
-    Timeline: timeline,
-    Contamination: contamination,
-    Diff: diff,
-    Export: export,
-    Studio: studio,
-    Gallery: gallery,
-    Play: play,
-    Render: render,
-    Describe: describe,
-    Fmt: fmt,
-    Lsp: lsp,
-    Conformance: conformance,
-    Clean: clean,
-    Recipes: recipes,
-    Docs: docs,
-    Completions: completions,
-    Man: man,
+    "Make games" {
+        New: new,
+        Studio: studio,
+        Play: play,
+        Validate: validate,
+        Generate: generate,
+        Describe: describe,
+        Render: render,
+        Fmt: fmt,
+        Lsp: lsp,
+    }
+    "Publish benchmarks" {
+        Recipes: recipes,
+        Release: release,
+        Merge: merge,
+        Verify: verify,
+        Regenerate: regenerate,
+        Keygen: keygen,
+        Keys: keys,
+        Sign: sign,
+        Log: log,
+        Diff: diff,
+        Export: export,
+        Gallery: gallery,
+    }
+    "Evaluate players" {
+        Evaluate: evaluate,
+        Report: report,
+        Run: run,
+        Mailbox: mailbox,
+        ServePlayer: serve_player,
+        #[command(hide = true)]
+        PlayerGuard: player_guard,
+        Calibrate: calibrate,
+        Scale: scale,
+        Timeline: timeline,
+        Contamination: contamination,
+    }
+    "This program" {
+        Docs: docs,
+        Conformance: conformance,
+        Clean: clean,
+        Completions: completions,
+        Man: man,
+    }
 }
 
 fn main() -> ExitCode {

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use include_dir::{Dir, include_dir};
+use itertools::Itertools;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::ops::Range;
 
@@ -15,6 +16,37 @@ pub(crate) struct Page {
     /// Markdown.
     pub(crate) text: &'static str,
 }
+
+/// The shelves of the manual, in the order of the list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Shelf {
+    /// The pages for beginners.
+    Start,
+    /// What users do, and what they read while they do it.
+    Guides,
+    /// The words of VGDL and the codes of diagnostics.
+    Reference,
+    /// How the suite works inside, what was measured, and why it was decided so.
+    Internals,
+}
+
+/// The pages for beginners, in their order.
+const START: [&str; 2] = ["first-game", "first-month"];
+
+/// The pages of the top level that are about the inside of the suite.
+const INTERNALS: [&str; 11] = [
+    "blind-review",
+    "compatibility",
+    "constructive-levels",
+    "examinees",
+    "gallery",
+    "kernels",
+    "library",
+    "novelty",
+    "real-model",
+    "searched-levels",
+    "side-by-side",
+];
 
 /// Returns all pages, sorted by path; the page of a folder comes before those in it.
 pub(crate) fn pages() -> Vec<Page> {
@@ -31,12 +63,119 @@ pub(crate) fn pages() -> Vec<Page> {
 /// Returns the page with this name or path.
 pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     let mut pages = pages();
-    if let Some(found) = find(&pages, wanted) {
-        return Ok(pages.swap_remove(found));
+    match find(&pages, wanted) {
+        Some(found) => Ok(pages.swap_remove(found)),
+        None => Err(absent(&pages, wanted)),
     }
+}
+
+/// The failure of a word that is not a page, nor in one.
+pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
     let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
     let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
-    Err(malformed!("there is no page `{wanted}`; {near}`arcade docs` lists all pages"))
+    malformed!("there is no page `{wanted}`; {near}`arcade docs` lists all pages")
+}
+
+/// A page that has the words that are looked for.
+pub(crate) struct Hit<'a> {
+    pub(crate) page: &'a Page,
+    /// The line that has them first, a title or heading if there is one.
+    pub(crate) line: String,
+}
+
+/// The points of a page for each line with a wanted word: its title; a heading, or a line of the first paragraph; any other line.
+/// So many of the others count.
+const POINTS: [usize; 3] = [30, 8, 1];
+const COUNTED: usize = 10;
+
+/// Returns the pages that have all of some words, the best first.
+pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
+    let wanted: Vec<String> = words(wanted).collect();
+    let mut hits: Vec<(usize, Hit<'a>)> = Vec::new();
+    for page in pages {
+        let mut points = 0;
+        let mut best: Option<(usize, usize, &str)> = None;
+        let mut others = 0;
+        let mut is_first_paragraph = true;
+        let mut is_fenced = false;
+        let mut is_missing = vec![true; wanted.len()];
+        for (number, line) in page.text.lines().enumerate() {
+            is_first_paragraph &= number < 2 || !line.trim().is_empty();
+            is_fenced ^= line.starts_with("```");
+            let has: Vec<bool> =
+                wanted.iter().map(|word| words(line).any(|own| is_form(&own, word))).collect();
+            let count = has.iter().filter(|&&has| has).count();
+            if count == 0 || line.starts_with("```") {
+                continue;
+            }
+            is_missing.iter_mut().zip(&has).for_each(|(missing, has)| *missing &= !has);
+            let kind = match number {
+                0 => 0,
+                _ if !is_fenced && (is_first_paragraph || line.starts_with('#')) => 1,
+                _ => 2,
+            };
+            others += usize::from(kind == 2);
+            if kind < 2 || others <= COUNTED {
+                points += POINTS[kind] * count;
+            }
+            let rank = (count, POINTS[kind], line);
+            if best.is_none_or(|(c, p, _)| (c, p) < (count, POINTS[kind])) {
+                best = Some(rank);
+            }
+        }
+        let Some((_, _, line)) = best.filter(|_| !wanted.is_empty() && !is_missing.contains(&true)) else {
+            continue;
+        };
+        let weight = match page.shelf() {
+            Shelf::Start => 4,
+            Shelf::Guides | Shelf::Reference if page.folder() != "diagnostics" => 2,
+            _ => 1,
+        };
+        hits.push((points * weight, Hit { page, line: shown(line) }));
+    }
+    // Stable: pages with equal points stay in the order of the manual.
+    hits.sort_by_key(|(points, _)| std::cmp::Reverse(*points));
+    hits.into_iter().map(|(_, hit)| hit).collect()
+}
+
+/// The words of a text, in small letters; `killSprite` is two words.
+fn words(text: &str) -> impl Iterator<Item = String> + '_ {
+    let is_inner = |c: char| c.is_alphanumeric();
+    text.split(move |c| !is_inner(c))
+        .flat_map(|name| {
+            let starts = name
+                .char_indices()
+                .filter(|&(at, c)| at > 0 && c.is_uppercase() && name[..at].ends_with(char::is_lowercase));
+            let cuts = [0].into_iter().chain(starts.map(|(at, _)| at)).chain([name.len()]);
+            cuts.tuple_windows().map(|(from, to)| name[from..to].to_lowercase()).collect_vec()
+        })
+        .filter(|word| !word.is_empty())
+}
+
+/// The endings of forms of a word.
+const ENDINGS: [&str; 7] = ["", "s", "es", "ed", "ing", "er", "ers"];
+
+/// Tests whether a word is a form of a wanted one: `pushes` and `pushing` of `push`, `boat` of `boats`.
+fn is_form(own: &str, wanted: &str) -> bool {
+    let stem = wanted.strip_suffix('s').unwrap_or(wanted);
+    own == wanted || own.strip_prefix(stem).is_some_and(|end| ENDINGS.contains(&end))
+}
+
+/// The characters of a line that the results of a search show.
+const LINE: usize = 80;
+
+/// Returns a line of Markdown as the results of a search show it: without marks of headings, lists and tables.
+fn shown(line: &str) -> String {
+    let mut words = line.to_owned();
+    for (link, inner, _) in links(line).into_iter().rev() {
+        words.replace_range(link, &line[inner]);
+    }
+    let words = words.replace("**", "");
+    let plain = words.trim_matches(['#', '|', '-', '*', '>', ' ']);
+    match plain.char_indices().nth(LINE) {
+        Some((end, _)) => format!("{}…", plain[..end].trim_end()),
+        None => plain.to_owned(),
+    }
 }
 
 fn find(pages: &[Page], wanted: &str) -> Option<usize> {
@@ -66,6 +205,16 @@ impl Page {
         match DOCS.get_file(format!("{}/README.md", self.path)) {
             Some(_) => &self.path,
             None => self.path.rsplit_once('/').map_or("", |(folder, _)| folder),
+        }
+    }
+
+    pub(crate) fn shelf(&self) -> Shelf {
+        match self.folder() {
+            "" if START.contains(&self.name.as_str()) => Shelf::Start,
+            "" if INTERNALS.contains(&self.name.as_str()) => Shelf::Internals,
+            "" => Shelf::Guides,
+            folder if folder == "diagnostics" || folder.starts_with("ontology") => Shelf::Reference,
+            _ => Shelf::Internals,
         }
     }
 
@@ -159,8 +308,60 @@ mod tests {
         {
             assert!(page(name).is_ok(), "{name}");
         }
+        // Each page of the lists is there.
+        for name in START.iter().chain(&INTERNALS) {
+            assert!(page(name).is_ok(), "{name}");
+        }
         let error = page("promts").err().expect("there is no such page").to_string();
         assert!(error.contains("did you mean `prompts`?"), "{error}");
+    }
+
+    #[test]
+    fn words_lead_to_the_pages_about_them() {
+        let pages = pages();
+        let first = |wanted: &str, count: usize| -> Vec<String> {
+            search(&pages, wanted).into_iter().take(count).map(|hit| hit.page.name.clone()).collect()
+        };
+        for (wanted, page) in [
+            ("push", "bounceForward"),
+            ("water", "waterPhysics"),
+            ("wrap", "wrapAround"),
+            ("avatar", "MovingAvatar"),
+            ("boat", "first-game"),
+            ("boats", "first-game"),
+            ("tutorial", "first-game"),
+            ("getting-started", "first-game"),
+            ("quickstart", "first-game"),
+            ("vgdl", "first-game"),
+            ("language", "first-game"),
+            ("seal", "first-month"),
+            ("commitment", "first-month"),
+        ] {
+            let found = first(wanted, 8);
+            assert!(found.contains(&page.to_owned()), "{wanted}: {found:?}");
+        }
+        // All words have to be in a page; marks and codes are not shown.
+        assert!(search(&pages, "boat qwertzuiop").is_empty() && search(&pages, "promts").is_empty());
+        assert!(search(&pages, "").is_empty() && search(&pages, "-").is_empty());
+        let hits = search(&pages, "snapshots");
+        assert_eq!(
+            (hits[0].page.name.as_str(), hits[0].line.as_str()),
+            ("snapshots", pages_title(&pages, "snapshots"))
+        );
+        for (own, wanted, expect) in [
+            ("pushes", "push", true),
+            ("boat", "boats", true),
+            ("keys", "key", true),
+            ("keyboard", "key", false),
+            ("logic", "log", false),
+            ("signals", "sign", false),
+        ] {
+            assert_eq!(is_form(own, wanted), expect, "{own} {wanted}");
+        }
+    }
+
+    fn pages_title<'a>(pages: &'a [Page], name: &str) -> &'a str {
+        pages.iter().find(|page| page.name == name).map_or("", Page::title)
     }
 
     #[track_caller]

@@ -8,12 +8,45 @@ use clap::{Command, CommandFactory, FromArgMatches};
 use std::any::TypeId;
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
-use std::io::Write;
+use std::fmt::Write as _;
+use std::io::Write as _;
 use std::num::{IntErrorKind, ParseIntError};
 
 /// Returns the command line with all its verbs.
 pub(crate) fn command() -> Command {
-    numeric_flags_take_negative_numbers(Cli::command())
+    let command = numeric_flags_take_negative_numbers(Cli::command());
+    let verbs = grouped(&command);
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{verbs}\nOptions:\n{{options}}{{after-help}}"
+    ))
+}
+
+/// The columns of the help.
+const COLUMNS: usize = 100;
+
+/// Returns the verbs in their groups, each with the first clause of its help.
+fn grouped(command: &Command) -> String {
+    let mut verbs = command.get_subcommands();
+    let width = command.get_subcommands().map(|verb| verb.get_name().len()).max().unwrap_or_default();
+    let mut text = String::new();
+    for (group, count) in crate::GROUPS {
+        let _ = writeln!(text, "\n{group}:");
+        for verb in verbs.by_ref().take(*count).filter(|verb| !verb.is_hide_set()) {
+            let about = verb.get_about().map(ToString::to_string).unwrap_or_default();
+            let end = [". ", ": ", "; "].iter().filter_map(|end| about.find(end)).min();
+            let about = &about[..end.unwrap_or(about.len())];
+            let mut line = format!("  {:<width$} ", verb.get_name());
+            for word in about.split_whitespace() {
+                if line.chars().count() + 1 + word.chars().count() > COLUMNS {
+                    let _ = writeln!(text, "{line}");
+                    line = " ".repeat(width + 3);
+                }
+                let _ = write!(line, " {word}");
+            }
+            let _ = writeln!(text, "{line}");
+        }
+    }
+    text
 }
 
 /// Parses the arguments, or returns the exit status of their rejection. Asking for help is not an error.
@@ -137,6 +170,21 @@ pub(crate) mod tests {
         assert!(error.render().to_string().contains("player-guard"), "{error}");
         let error = without_hidden_verbs(error).render().to_string();
         assert!(error.contains("release") && !error.contains("player-guard"), "{error}");
+    }
+
+    #[test]
+    fn the_help_lists_every_verb_in_its_group() {
+        let help = command().render_long_help().to_string();
+        let shown = help.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+        let shown: Vec<&str> = shown.filter_map(|line| line.split_whitespace().next()).collect();
+        for_each_verb(&mut |path, _| {
+            let words: Vec<&str> = path.split(' ').collect();
+            assert!(words.len() != 2 || shown.contains(&words[1]), "{path}\n{help}");
+        });
+        assert!(!help.contains("player-guard"), "{help}");
+        let of = |word: &str| help.lines().position(|line| line.trim_start().starts_with(word));
+        assert!(of("Make games:") < of("new ") && of("new ") < of("Publish benchmarks:"), "{help}");
+        assert!(help.lines().all(|line| line.chars().count() <= COLUMNS), "{help}");
     }
 
     #[test]

@@ -151,9 +151,7 @@ impl<'a> Context<'a, '_> {
                 let sections = if first { self.sections() } else { Vec::new() };
                 [self.sprites(), edges.into(), sections].concat()
             }
-            Place::Body(Section::InteractionSet) if !seen(Role::Effect) => {
-                EFFECTS.iter().map(|effect| of_page(effect, ItemKind::Effect)).collect()
-            }
+            Place::Body(Section::InteractionSet) if !seen(Role::Effect) => effects(),
             Place::Body(Section::InteractionSet) => self.parameters(),
             Place::Body(Section::TerminationSet) if first => {
                 let all = TERMINATIONS.iter().map(|name| of_page(name, ItemKind::Termination));
@@ -226,7 +224,7 @@ impl<'a> Context<'a, '_> {
     fn values(&self, key: &str) -> Vec<Item> {
         match values::kind(self.owner(), key) {
             Some(Kind::Sprites) => self.sprites(),
-            Some(Kind::Effect) => EFFECTS.iter().map(|effect| of_page(effect, ItemKind::Effect)).collect(),
+            Some(Kind::Effect) => effects(),
             Some(kind) => {
                 let all = values::values(kind).iter();
                 all.map(|value| Item::new(value, ItemKind::Value, String::new())).collect()
@@ -236,13 +234,59 @@ impl<'a> Context<'a, '_> {
     }
 }
 
+/// The classes and effects that games use most, in the order in which they are offered; all others follow.
+const COMMON: [&str; 24] = [
+    "Immovable",
+    "MovingAvatar",
+    "ShootAvatar",
+    "FlakAvatar",
+    "Missile",
+    "Resource",
+    "Passive",
+    "RandomNPC",
+    "Chaser",
+    "SpawnPoint",
+    "Door",
+    "Portal",
+    "stepBack",
+    "killSprite",
+    "killBoth",
+    "collectResource",
+    "killIfOtherHasMore",
+    "bounceForward",
+    "undoAll",
+    "transformTo",
+    "pullWithIt",
+    "wrapAround",
+    "turnAround",
+    "teleportToExit",
+];
+
 fn classes() -> Vec<Item> {
-    SpriteClass::ALL.iter().map(|class| of_page(class.name(), ItemKind::Class)).collect()
+    common_first(SpriteClass::ALL.iter().map(|class| of_page(class.name(), ItemKind::Class)).collect())
 }
+
+fn effects() -> Vec<Item> {
+    common_first(EFFECTS.iter().map(|effect| of_page(effect, ItemKind::Effect)).collect())
+}
+
+fn common_first(mut items: Vec<Item>) -> Vec<Item> {
+    let rank = |item: &Item| COMMON.iter().position(|word| *word == item.label).unwrap_or(COMMON.len());
+    items.sort_by_key(rank);
+    items
+}
+
+/// The characters of a meaning beside a word.
+const SHORT: usize = 60;
 
 fn of_page(word: &str, kind: ItemKind) -> Item {
     let summary = pages::summary(word).unwrap_or_default();
-    Item { markdown: summary, ..Item::new(word, kind, String::new()) }
+    let sentence = summary.split(['.', ':', ';']).next().unwrap_or_default().replace('`', "");
+    let detail = match sentence.char_indices().nth(SHORT) {
+        Some((end, _)) => format!("{}…", sentence[..end].trim_end()),
+        None => sentence,
+    };
+    Item { markdown: summary, ..Item::new(word, kind, detail) }
 }
 
 #[cfg(test)]
@@ -301,6 +345,25 @@ mod tests {
             &["TerminationSet", "fox"],
             &["SpriteSet"],
         );
+    }
+
+    #[test]
+    fn common_words_come_first_with_their_meaning() {
+        let game = GAME.replace('|', "").replace("fox wall > killSprite", "fox wall > ");
+        let at = game.find("fox wall > ").unwrap() + "fox wall > ".len();
+        let items = complete(&game, at).items;
+        let first: Vec<_> =
+            items.iter().take(2).map(|item| (item.label.as_str(), item.detail.as_str())).collect();
+        assert_eq!(first[1], ("killSprite", "Removes the first sprite"));
+        assert_eq!(first[0].0, "stepBack");
+        assert!(items.iter().all(|item| !item.detail.is_empty() && item.detail.chars().count() <= SHORT + 1));
+        assert_eq!(items.len(), EFFECTS.len());
+        for word in COMMON {
+            assert!(
+                SpriteClass::ALL.iter().any(|class| class.name() == word) || EFFECTS.contains(&word),
+                "{word}"
+            );
+        }
     }
 
     #[test]

@@ -71,27 +71,29 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     }
 }
 
-/// Writes a file: it is complete, or unchanged. The beginning and end of the temporary name are those that `arcade clean` knows.
+/// Writes a file, as [`put`] does.
 pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
-    let written = || {
-        let folder = file.parent().unwrap_or(Path::new("."));
-        let mut builder = Builder::new();
-        builder.prefix(".arcade-").suffix(".partial");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut fresh = builder.tempfile_in(folder)?;
-        fresh.write_all(text.as_bytes())?;
-        if let Ok(before) = fs::metadata(file) {
-            fresh.as_file().set_permissions(before.permissions())?;
-        }
-        fresh.as_file().sync_all()?;
-        fresh.persist(file).map_err(|failed| failed.error)?;
-        Ok(())
-    };
-    written().map_err(|error: io::Error| {
+    put(file, text).map_err(|error| {
         Refusal::failed(format_args!("cannot write {}: {}", shown(file), error.kind()))
             .help("check the folder and the space on the disk")
     })
+}
+
+/// Writes a file: it is complete, or unchanged. The beginning and end of the temporary name are those that `arcade clean` knows.
+pub(crate) fn put(file: &Path, text: &str) -> io::Result<()> {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    let mut builder = Builder::new();
+    builder.prefix(".arcade-").suffix(".partial");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut fresh = builder.tempfile_in(folder)?;
+    fresh.write_all(text.as_bytes())?;
+    if let Ok(before) = fs::metadata(file) {
+        fresh.as_file().set_permissions(before.permissions())?;
+    }
+    fresh.as_file().sync_all()?;
+    fresh.persist(file).map_err(|failed| failed.error)?;
+    Ok(())
 }
 
 /// Removes a file.

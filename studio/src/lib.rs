@@ -19,10 +19,12 @@ mod running;
 mod server;
 mod sessions;
 mod studio;
+mod templates;
 mod verdict;
 mod workspace;
 
 pub use gallery::{Gallery, GalleryError};
 pub use server::{Server, Stop};
 pub use studio::Studio;
+pub use templates::{TEMPLATES, Template};
 pub use workspace::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};

@@ -20,6 +20,7 @@ pub(crate) mod lsp;
 pub(crate) mod mailbox;
 pub(crate) mod man;
 pub(crate) mod merge;
+pub(crate) mod new;
 pub(crate) mod play;
 pub(crate) mod player_guard;
 pub(crate) mod recipes;

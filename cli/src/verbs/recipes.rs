@@ -3,12 +3,18 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::{protected, shell, whole_file};
 use serde_json::json;
 use snapshots::Recipe;
+use std::ffi::OsStr;
+use std::fs::OpenOptions;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
-/// Lists the recipes that come with arcade, or prints one unchanged: a starting point for your own.
+/// Lists the recipes that come with arcade, prints one unchanged, or writes a new one with comments to begin with.
 ///
-/// Example: arcade recipes show starter > mine.toml
+/// Examples: arcade recipes new 2027-01
+/// and: arcade recipes show starter > mine.toml
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]
@@ -25,12 +31,23 @@ enum What {
         #[arg(value_name = "NAME")]
         name: String,
     },
+    /// Writes NAME.toml: a recipe with comments, for a release with gates and measured difficulty
+    ///
+    /// From this file to a month that is sealed, signed and logged: `arcade docs first-month`.
+    ///
+    /// Example: arcade recipes new 2027-01
+    New {
+        /// The name of the release: lower-case letters, digits and dashes
+        #[arg(value_name = "NAME")]
+        name: PathBuf,
+    },
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match &args.what {
         None => list(console),
         Some(What::Show { name }) => show(name, console),
+        Some(What::New { name }) => new(name, console),
     }
 }
 
@@ -54,7 +71,7 @@ fn list(console: &Console) -> Answer {
         let what = recipe.description.trim();
         console.say(format_args!("{:<width$}  {games:>3} games, {levels:>3} levels  {what}", recipe.name));
     }
-    console.say("\nprint one: arcade recipes show starter; what each line means: arcade docs recipes");
+    console.say("\nprint one: arcade recipes show starter; begin your own: arcade recipes new NAME; what each line means: arcade docs recipes");
     Ok(true)
 }
 
@@ -63,6 +80,49 @@ fn show(name: &str, console: &Console) -> Answer {
     let text = text_of(name)?;
     console.document(&json!({ "name": name, "text": text, "recipe": parsed(name, text)? }))?;
     console.file(text);
+    Ok(true)
+}
+
+/// The recipe of `arcade recipes new`, with `NAME` for the name.
+const NEW: &str = include_str!("new-recipe.toml");
+
+fn new(path: &Path, console: &Console) -> Answer {
+    let shown = path.display();
+    let name = path.file_name().and_then(OsStr::to_str).unwrap_or_default();
+    let name = name.strip_suffix(".toml").unwrap_or(name);
+    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if !(1..=40).contains(&name.len()) || !name.chars().all(is_plain) {
+        bail!(
+            "`{shown}` is not a name for a release: it takes 1 to 40 lower-case letters, digits and `-`, such as \
+             `arcade recipes new 2027-01`"
+        );
+    }
+    let file = path.with_file_name(format!("{name}.toml"));
+    let text = NEW.replace("NAME", name);
+    let recipe = parsed(name, &text)?;
+    protected::check(&file)?;
+    whole_file::create(&mut OpenOptions::new(), &file, text.as_bytes()).map_err(|error| {
+        match error.kind() {
+            ErrorKind::AlreadyExists => {
+                malformed!("`{}` exists, and no recipe is overwritten: choose another name", file.display())
+            }
+            _ => Failure::write(&file, error),
+        }
+    })?;
+    let next = ["--dry-run", "", "--commit"].map(|flag| {
+        let flag = Some(OsStr::new(flag)).filter(|flag| !flag.is_empty());
+        shell::command([OsStr::new("release"), file.as_os_str()].into_iter().chain(flag))
+    });
+    console.document(&json!({ "file": file.display().to_string(), "recipe": recipe, "next": next }))?;
+    console.say(format_args!(
+        "{}: a release of {} games with {} levels; the comments say what to change\n",
+        file.display(),
+        recipe.games(),
+        recipe.levels()
+    ));
+    for (label, command) in ["tell its cost:", "mint it, open:", "or seal it:"].iter().zip(next) {
+        console.say(format_args!("{label:<15} {command}"));
+    }
     Ok(true)
 }
 

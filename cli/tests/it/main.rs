@@ -2,6 +2,7 @@
 
 mod altered_rows;
 mod arcade;
+mod begin;
 mod conformance;
 mod contamination;
 mod evaluate;

@@ -1,6 +1,6 @@
 //! `arcade studio` and `arcade gallery` as users run them.
 
-use crate::arcade::{TINY, arcade, copy_of_tiny, run, text};
+use crate::arcade::{TINY, arcade, copy_of_tiny, files, run, text};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -83,8 +83,43 @@ fn the_studio_opens_what_it_is_given() {
     let body = json!({ "text": "new", "base": opened["levels"][0]["digest"] });
     let (status, _) = mine.ask("PUT", "/api/games/my-hail/files/lvl0.txt", &body);
     assert_eq!((status, fs::read_to_string(at("mine/my-hail/lvl0.txt")).unwrap().as_str()), (200, "new"));
-    run(home.path(), &["studio", "nothing-there"], 2);
+    run(home.path(), &["studio", "nothing-there.vgdl"], 2);
     run(home.path(), &["studio", "--port", &corpus.port.to_string(), "--no-open"], 3);
+}
+
+#[test]
+fn games_are_begun_where_there_are_none() {
+    let home = tempfile::tempdir().unwrap();
+    let at = |path: &str| home.path().join(path);
+    fs::create_dir_all(at("empty/.git")).unwrap();
+    for place in ["empty", "not-there/yet", "hailglas"] {
+        let running = Running::start(home.path(), &[place]);
+        let workspace = running.get("/api/workspace");
+        assert_eq!(
+            (&workspace["kind"], workspace["games"].as_array().map(Vec::len)),
+            (&json!("games"), Some(0))
+        );
+        let genres: Vec<&str> = workspace["templates"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(|one| one["genre"].as_str())
+            .collect();
+        assert!(genres.contains(&"puzzle"), "{genres:?}");
+        assert!(place == "empty" || !at(place).exists(), "nothing is written before a game is begun");
+        let body = json!({ "genre": "puzzle", "title": "River Post" });
+        let (status, begun) = running.ask("POST", "/api/new", &body);
+        assert_eq!((status, &begun["id"]), (200, &json!("river-post")), "{begun}");
+        // The same files as those of `arcade new`.
+        run(home.path(), &["new", &format!("{place}/like"), "--like", "puzzle"], 0);
+        assert_eq!(files(&at(place).join("river-post")), files(&at(place).join("like")));
+        let (_, again) = running.ask("POST", "/api/new", &body);
+        assert_eq!(again["id"], "river-post-2");
+        assert_eq!(running.ask("POST", "/api/new", &json!({ "genre": "x", "title": "y" })).0, 400);
+    }
+    // A folder of other things is not a place for games.
+    fs::create_dir_all(at("releases/2027-01")).unwrap();
+    run(home.path(), &["studio", "releases", "--no-open"], 2);
 }
 
 #[test]

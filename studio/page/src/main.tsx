@@ -9,6 +9,7 @@ import { useAsked } from './parts/hooks';
 import { href, type Route, useRoute } from './parts/route';
 import { Browse } from './views/Browse';
 import { GamePage } from './views/GamePage';
+import { HelpPage } from './views/HelpPage';
 import { Judge, JudgeReportPage } from './views/Judge';
 import { Play } from './views/Play';
 import { ReleasePage } from './views/ReleasePage';
@@ -37,15 +38,17 @@ function Views({ route, workspace, onChanged }: { route: Route; workspace: Works
   return (
     <>
       <Top view={view} workspace={workspace} game={null} />
-      <Plain view={view} rest={route[1] ?? null} workspace={workspace} />
+      <Plain view={view} rest={route[1] ?? null} workspace={workspace} onChanged={onChanged} />
     </>
   );
 }
 
-function Plain({ view, rest, workspace }: { view: string; rest: string | null; workspace: Workspace }) {
+function Plain({ view, rest, workspace, onChanged }: { view: string; rest: string | null; workspace: Workspace; onChanged: () => void }) {
   switch (view) {
     case 'browse':
-      return <Browse workspace={workspace} />;
+      return <Browse workspace={workspace} onChanged={onChanged} />;
+    case 'help':
+      return <HelpPage key={rest} name={rest ?? 'first-game'} />;
     case 'release':
       return <ReleasePage />;
     case 'results':
@@ -94,12 +97,13 @@ function Top({ view, workspace, game }: { view: string; workspace: Workspace; ga
           </>
         ) : (
           <>
-            {workspace.games.length > 0 && <a href="#/" aria-current={view === 'browse' ? 'page' : undefined}>Games</a>}
+            {(workspace.games.length > 0 || workspace.templates.length > 0) && !workspace.judge && <a href="#/" aria-current={view === 'browse' ? 'page' : undefined}>Games</a>}
             {workspace.kind === 'snapshot' && link('release', 'Release', 'release')}
             {workspace.kind === 'results' && link('results', 'Results', 'results')}
             {workspace.judge && link('judge', 'Judge', 'judge')}
           </>
         )}
+        {live && view !== 'design' && link('help', 'Help', 'help', 'first-game')}
       </nav>
     </header>
   );

@@ -171,3 +171,23 @@ test('the time to the first paint is printed', async ({ page, studio }) => {
   }));
   console.log(`first contentful paint: ${Math.round(paint)} ms`);
 });
+
+test('a game is begun where there is none, and the manual is a click away', async ({ page, studio }) => {
+  test.skip(isMock, 'the mock cannot write');
+  await open(page, await studio('empty'), '');
+  await expect(page.getByText('There are no games here yet.')).toBeVisible();
+  await page.getByRole('button', { name: 'New game' }).click();
+  await page.getByLabel('Title').fill('River Post');
+  await page.getByLabel(/crossing/).check();
+  await page.getByRole('button', { name: 'Begin' }).click();
+  await expect(page.getByRole('navigation', { name: 'Levels' }).getByRole('link', { name: '0' })).toBeVisible();
+  await expect(page.getByText(/^Can be won in/)).toBeVisible();
+  await expect(page.getByRole('radio', { name: /symbol A/ })).toHaveCount(0);
+  await page.getByRole('button', { name: 'Help' }).click();
+  await expect(page.getByRole('heading', { name: 'Your first game in VGDL' })).toBeVisible();
+  await page.locator('.cm-line', { hasText: 'hedgehog boat' }).getByText('pullWithIt').click();
+  await page.getByRole('button', { name: /^Explain/ }).click();
+  await expect(page.getByRole('heading', { name: 'pullWithIt' })).toBeVisible();
+  await page.goto(page.url().replace(/#.*/, '#/help/first-game'));
+  await expect(page.getByRole('heading', { name: 'Your first game in VGDL' })).toBeVisible();
+});

@@ -319,3 +319,19 @@ test('the last level is removed after a question, and no other', async ({ page, 
   await expect(page.getByText('lvl1.txt was removed outside.')).toBeVisible();
   await expect(tabs.getByRole('link')).toHaveCount(1);
 });
+
+test('a game without a character for the floor has an eraser', async ({ page, studio }) => {
+  test.skip(isMock, 'the mock does not compile rules');
+  await open(page, await studio('games'), VIEW);
+  await expect(page.getByText('Can be won in 4 ticks')).toBeVisible();
+  await expect(page.getByRole('radio', { name: /^eraser/ })).toHaveCount(0);
+  const line = page.locator('.cm-line', { hasText: '. > floor' });
+  await line.click();
+  await page.keyboard.press('End');
+  await page.keyboard.press('Shift+Home');
+  await page.keyboard.press('Delete');
+  await page.getByRole('radio', { name: /^eraser/ }).click();
+  await paint(page, 1, 3);
+  await page.getByRole('button', { name: 'Text', exact: true }).click();
+  await expect(page.getByLabel('Level as text')).toHaveValue(/\nw /);
+});

@@ -18,7 +18,7 @@ export interface Studio {
   folder: string;
 }
 
-export type Mode = 'games' | 'corpus' | 'snapshot' | 'line' | 'judge' | 'results';
+export type Mode = 'games' | 'empty' | 'corpus' | 'snapshot' | 'line' | 'judge' | 'results';
 
 interface Fixtures {
   /** Starts a studio on a fresh copy of the tests' games, and ends it after the test. */
@@ -35,6 +35,8 @@ function command(mode: Mode, folder: string): [string, string[]] {
   switch (mode) {
     case 'games':
       return [ARCADE, [...common, folder]];
+    case 'empty':
+      return [ARCADE, [...common, join(folder, 'fresh')]];
     case 'corpus':
       return [ARCADE, [...common, '--out', folder]];
     case 'snapshot':

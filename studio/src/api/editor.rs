@@ -59,8 +59,12 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
 
 /// Returns the characters of levels, with what each places and looks like.
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
-    let Compiled { game, looks, .. } = compiled;
+    let Compiled { source, game, looks, .. } = compiled;
     let order = game.drawing_order();
+    let interacts = |name: &str| {
+        let mut lines = game.description().interactions.iter();
+        lines.any(|line| line.first.text == name || line.second.iter().any(|second| second.text == name))
+    };
     let entry = |symbol: u8| {
         let types = game.places(symbol);
         let visible = types.iter().filter(|&&stype| looks.is_visible(stype));
@@ -68,15 +72,24 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let tile = on_top.map(|&stype| tiles.number(&render::sprite_tile(looks, stype)));
         let names: Vec<&str> = types.iter().map(|&stype| game.name(stype)).collect();
         let label = on_top.map_or("", |&stype| looks.meaning(stype));
-        json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile })
+        let is_floor = types.iter().all(|&stype| !looks.is_visible(stype) && !interacts(game.name(stype)));
+        json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile, "floor": is_floor })
     };
-    // Those that the game maps, in its order, then those that are mapped by default.
+    // Those that the game maps, in its order, then those that are mapped by default to a type that the game names.
     let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());
     let mut symbols: Vec<u8> = written.collect();
     let by_default = (b'!'..=b'~').filter(|symbol| !symbols.contains(symbol));
+    let is_used = |symbol: &u8| game.places(*symbol).iter().any(|&stype| is_named(source, game.name(stype)));
+    let by_default = by_default.filter(is_used);
     symbols.extend(by_default.collect::<Vec<u8>>());
     symbols.retain(|&symbol| !game.places(symbol).is_empty());
     symbols.into_iter().map(entry).collect()
+}
+
+/// Tests whether a game's text has a word, outside of comments.
+fn is_named(source: &str, name: &str) -> bool {
+    let code = source.lines().filter_map(|line| line.split('#').next());
+    code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_')).any(|word| word == name)
 }
 
 /// A place in the text of a game, in UTF-16 code units.

@@ -28,6 +28,7 @@ pub(crate) fn routes() -> Router<Serving> {
         .route("/api/games/{id}/witness/{name}", of_part(workspace::witness))
         .route("/api/games/{id}/files/{name}", files)
         .route("/api/copy", asked(workspace::copy))
+        .route("/api/new", asked(workspace::begin))
         .route("/api/check", asked(editor::check))
         .route("/api/hover", asked(editor::hover))
         .route("/api/complete", asked(editor::complete))

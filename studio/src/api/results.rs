@@ -6,7 +6,7 @@ use crate::refusal::Refusal;
 use crate::studio::Studio;
 use engine::{Action, Outcome};
 use evaluation::client::Role;
-use evaluation::log::{Event, ReplyClass};
+use evaluation::log::{Event, ReplyClass, Status};
 use evaluation::run::Task;
 use evaluation::{Evaluation, Validity};
 use rayon::prelude::*;
@@ -54,13 +54,14 @@ fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Opt
         _ => None,
     });
     let Some((steps, ended, score)) = last else { return Ok(None) };
+    let is_limited = log.iter().any(|event| matches!(event, Event::End { status: Status::StepLimit, .. }));
     Ok(Some(json!({
         "index": index,
         "game": task.subject.facts.title,
         "id": task.subject.id,
         "level": task.level.number,
         "run": task.run,
-        "outcome": outcome(ended),
+        "outcome": if is_limited { "limit" } else { outcome(ended) },
         "score": score,
         "steps": steps,
     })))

@@ -4,6 +4,7 @@ use crate::files;
 use crate::frames::{Frame, TileSvg, Tiles};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
+use crate::templates::{GAME_FILE, TEMPLATES, Template};
 use crate::workspace::{GameEntry, NamedText, Place};
 use axum::http::StatusCode;
 use engine::{Digest, Episode, Seed, describe};
@@ -12,7 +13,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::sync::PoisonError;
 
@@ -25,6 +26,7 @@ pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
         "version": studio.version,
         "games": listed,
         "judge": studio.judging.is_some(),
+        "templates": TEMPLATES.map(|Template { genre, about, .. }| json!({ "genre": genre, "about": about })),
     }))
 }
 
@@ -182,33 +184,62 @@ const MAX_FOLDER: usize = 60;
 pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {
     let game = studio.workspace.game(&asked.id)?;
     let (source, levels) = game.read()?;
-    let name = folder_name(&asked.title);
+    let summary = format!("a copy of {}", game.title);
+    add(studio, asked.title, summary, |folder| {
+        fs::create_dir(folder)?;
+        for (number, level) in levels.iter().enumerate() {
+            files::put(&folder.join(format!("lvl{number}.txt")), &level.text)?;
+        }
+        files::put(&folder.join(GAME_FILE), &source.text)
+    })
+}
+
+/// The genre and the title of a new game.
+#[derive(Deserialize)]
+pub(crate) struct Begin {
+    genre: String,
+    title: String,
+}
+
+pub(crate) fn begin(studio: &Studio, asked: Begin) -> Result<Value, Refusal> {
+    let Some(template) = Template::of(&asked.genre) else {
+        return Err(Refusal::bad("there is no such genre").help("load the page again"));
+    };
+    add(studio, asked.title, template.about.to_owned(), |folder| template.begin(folder))
+}
+
+/// Writes a game into a new folder among the copies, named after the title, and adds the game to the workspace.
+fn add(
+    studio: &Studio,
+    title: String,
+    summary: String,
+    write: impl Fn(&Path) -> io::Result<()>,
+) -> Result<Value, Refusal> {
+    let name = folder_name(&title);
     if name.is_empty() {
         return Err(Refusal::bad("the title has no letter or digit").help("write some of a to z or 0 to 9"));
     }
+    let failed = |name: &str, error: io::Error| {
+        Refusal::failed(format_args!("cannot write the folder {name}: {}", error.kind()))
+            .help("open the studio where folders can be made, or name another place with --out")
+    };
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
     let copies = &studio.workspace.copies;
+    // The opened folder may not exist yet.
+    fs::create_dir_all(copies).map_err(|error| failed(&studio.workspace.name, error))?;
     let numbered = std::iter::once(name.clone()).chain((2..1000).map(|number| format!("{name}-{number}")));
     for name in numbered {
         let folder = copies.join(&name);
-        match fs::create_dir(&folder) {
+        match write(&folder) {
             Ok(()) => {}
             Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
-            Err(error) => {
-                return Err(Refusal::failed(format_args!("cannot make the folder {name}: {}", error.kind()))
-                    .help("open the studio where folders can be made, or name another place with --out"));
-            }
+            Err(error) => return Err(failed(&name, error)),
         }
-        files::write(&folder.join("game.vgdl"), &source.text)?;
-        for (number, level) in levels.iter().enumerate() {
-            files::write(&folder.join(format!("lvl{number}.txt")), &level.text)?;
-        }
-        let place = Place::Folder { folder, source: "game.vgdl".to_owned(), writable: true };
-        let (title, summary) = (asked.title, format!("a copy of {}", game.title));
-        let copy = GameEntry { id: name, title, place, card: None, summary, witnesses: Vec::new() };
-        return Ok(json!({ "id": studio.workspace.add(copy) }));
+        let place = Place::Folder { folder, source: GAME_FILE.to_owned(), writable: true };
+        let game = GameEntry { id: name, title, place, card: None, summary, witnesses: Vec::new() };
+        return Ok(json!({ "id": studio.workspace.add(game) }));
     }
-    Err(Refusal::bad("there are too many copies of that title").help("choose another title"))
+    Err(Refusal::bad("there are too many games of that title").help("choose another title"))
 }
 
 /// Returns the name of a folder for a title: small letters, digits and dashes.

@@ -46,6 +46,30 @@ fn problems_come_with_places_and_repairs() {
     assert_eq!(key["types"], json!(["key", "floor"]));
     assert!(key["tile"].as_u64().expect("a tile") < sound["tiles"].as_array().expect("tiles").len() as u64);
     assert!(legend.iter().any(|entry| entry["symbol"] == "w"), "mapped by default");
+    let floors = |legend: &Value| -> Vec<Value> {
+        let entries = legend.as_array().expect("a legend").iter();
+        entries.filter(|entry| entry["floor"] == true).map(|entry| entry["symbol"].clone()).collect()
+    };
+    assert_eq!(floors(&sound["legend"]), ["."]);
+    // What is mapped by default to a type that the game does not name is no brush; neither is a hidden trap a floor.
+    let snail = GAME.replace("avatar", "snail").replace(". > floor", ". > trap").replace("floor >", "trap >");
+    let snail =
+        snail.replace("floor", "trap").replace("snail wall", "snail trap > killSprite\n    snail wall");
+    let answer = running.ask("/api/check", &json!({ "source": snail, "levels": [] }));
+    let symbols: Vec<&str> = answer["legend"]
+        .as_array()
+        .expect("a legend")
+        .iter()
+        .filter_map(|entry| entry["symbol"].as_str())
+        .collect();
+    assert_eq!(symbols, [".", "k", "d", "A", "w"], "{answer}");
+    assert!(floors(&answer["legend"]).is_empty(), "{answer}");
+    let unmapped = snail.replace("A > snail", "s > snail");
+    let answer = running.ask("/api/check", &json!({ "source": unmapped, "levels": [] }));
+    assert!(
+        answer["legend"].as_array().expect("a legend").iter().all(|entry| entry["symbol"] != "A"),
+        "{answer}"
+    );
 }
 
 #[test]

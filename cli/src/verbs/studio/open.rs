@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::{self, GameInput};
-use crate::{embedded, episodes, paths, protected};
+use crate::{console, embedded, episodes, paths, protected};
 use evaluation::Evaluation;
 use serde_json::json;
 use snapshots::MANIFEST_FILE;
@@ -49,6 +49,14 @@ pub(crate) fn workspace(
         let mut workspace = Workspace::new(Kind::Results, place, copies(here)?, Vec::new());
         workspace.results = results;
         return Ok(workspace);
+    }
+    if input::is_without_games(path)? {
+        // A folder that is to hold games; the first one begun creates it.
+        protected::check(path)?;
+        if let Some(near) = input::nearest_place(path)?.filter(|_| !path.exists()) {
+            console::warn(format_args!("{place} does not exist yet; did you mean `{near}`?"));
+        }
+        return Ok(Workspace::new(Kind::Games, place, copies(path)?, Vec::new()));
     }
     let inputs = input::games(place)?;
     let games = inputs.iter().map(entry).collect::<Result<Vec<_>, Failure>>()?;

@@ -14,6 +14,7 @@ export async function workspace(): Promise<Workspace> {
     name: release.name,
     version: '',
     judge: false,
+    templates: [],
     games: release.games.map((game) => ({
       id: game.id,
       title: game.title,
@@ -44,6 +45,11 @@ export async function board(of: Game, level: number, signal?: AbortSignal): Prom
 
 export async function replay(source: string, level: string, episode: Episode): Promise<Replay> {
   return post('/api/replay', { source, level, episode });
+}
+
+/** The number of a level, which is that of its file everywhere. */
+export function numberOf(levels: readonly { name: string }[], index: number): number {
+  return Number(/^lvl(\d+)/.exec(levels[index]?.name ?? '')?.[1] ?? index);
 }
 
 /** The level that a witness belongs to, as an index: witnesses name the file, its number or its stem. */

@@ -73,6 +73,8 @@ export interface Workspace {
   version: string;
   games: GameEntry[];
   judge: boolean;
+  /** The games to begin with, if the page can write. */
+  templates: { genre: string; about: string }[];
 }
 
 export interface SourceFile {
@@ -102,6 +104,8 @@ export interface LegendEntry {
   types: string[];
   label: string;
   tile: number | null;
+  /** Places only what is drawn as nothing. */
+  floor: boolean;
 }
 
 export interface Check {

@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Failure, get, post, put, remove, segment, words } from '../data/api';
-import { replay } from '../data/studio';
+import { numberOf, replay } from '../data/studio';
 import { Run } from '../data/run';
 import type { Check, Edit, Episode, Game, Problem, RuleSpan } from '../data/types';
 import type { Highlight } from '../parts/Board';
@@ -64,6 +64,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
   const pages = useRef(0);
   const at = Math.max(0, Math.min(level, levels.length - 1));
   const now = levels[at];
+  const number = numberOf(levels, at);
   const texts = useMemo(() => levels.map((one) => one.text), [levels]);
   const dirty = [source, ...levels].filter((one) => one.text !== one.saved);
   const state = useRef({ source, levels });
@@ -345,7 +346,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         <nav class="tabs" aria-label="Levels">
           {levels.map((one, index) => (
             <a href={`#/design/${segment(game.id)}/${index}`} aria-current={index === at ? 'page' : undefined} title={one.name} class={check.levels[index]?.problems.some((problem) => problem.severity === 'error') ? 'wrong' : ''}>
-              {index + 1}{one.text !== one.saved && <span class="unsaved" aria-label="unsaved">●</span>}
+              {numberOf(levels, index)}{one.text !== one.saved && <span class="unsaved" aria-label="unsaved">●</span>}
             </a>
           ))}
           <button type="button" aria-label="Add a level" title="Add a level" onClick={() => addLevel(now?.text ?? '')}><Icon name="plus" /></button>
@@ -360,12 +361,16 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         {run === null
           ? <button type="button" onClick={tryOut}><Icon name="play" /> Try it</button>
           : <button type="button" onClick={stopRun}>Back to painting</button>}
+        <button type="button" class="quiet" onClick={() => showPage('first-game')}>Help</button>
         <button type="button" class={dirty.length > 0 ? 'strong' : ''} onClick={() => void save()} title="Save (Ctrl-S)"><Icon name="save" /> {game.writable ? 'Save' : 'Save a copy'}</button>
       </div>
 
       <section class="pane rules-pane" aria-label="Rules">
         <header><h2>{source.name}{source.text !== source.saved && <span class="unsaved" aria-label="unsaved">●</span>}</h2>
-          <button type="button" class="quiet" onClick={format} title="Format (Shift-Alt-F)">Format</button>
+          <span class="row">
+            <button type="button" class="quiet" onClick={() => editor.current?.explain()} title="Explain the word at the cursor (F1)">Explain <kbd>F1</kbd></button>
+            <button type="button" class="quiet" onClick={format} title="Format (Shift-Alt-F)">Format</button>
+          </span>
         </header>
         <RulesEditor
           handle={editor}
@@ -381,9 +386,9 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         <Problems name="Problems" problems={problems} onShow={showProblem} onPage={showPage} onFix={(edits) => { if (checked === source.text) editor.current?.apply(edits); }} />
       </section>
 
-      <section class="pane board-pane" aria-label={run ? runName : `Level ${at + 1}`}>
+      <section class="pane board-pane" aria-label={run ? runName : `Level ${number}`}>
         {run ? (
-          <div class="stage"><p class="run-name">{runName}</p><Player run={run} keys="page" label={`${game.title}, level ${at + 1}`} /></div>
+          <div class="stage"><p class="run-name">{runName}</p><Player run={run} keys="page" label={`${game.title}, level ${number}`} /></div>
         ) : now ? (
           <LevelEditor
             key={now.name}
@@ -470,7 +475,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
           }}
         />
       )}
-      {removing && now && <RemoveDialog level={at + 1} name={now.name} isSaved={now.base !== null} onClose={() => setRemoving(false)} onRemove={removeLevel} />}
+      {removing && now && <RemoveDialog level={number} name={now.name} isSaved={now.base !== null} onClose={() => setRemoving(false)} onRemove={removeLevel} />}
       {copying && (
         <CopyWithChanges
           game={game}

@@ -53,8 +53,9 @@ export function LevelEditor(props: Props) {
   const rows = grid.length;
   const legendTiles = useMemo(() => new Tileset(tiles), [tiles]);
   const bySymbol = useMemo(() => new Map(legend.map((entry) => [entry.symbol, entry])), [legend]);
-  const symbol = brush !== null && bySymbol.has(brush) ? brush : (legend[0]?.symbol ?? '.');
-  const floor = useMemo(() => floorOf(grid), [grid]);
+  const symbol = brush !== null && (bySymbol.has(brush) || brush === ' ') ? brush : (legend[0]?.symbol ?? '.');
+  // What the eraser and Delete leave behind: the symbol of the bare floor, or an empty square.
+  const floor = legend.find((entry) => entry.floor)?.symbol ?? ' ';
 
   useEffect(() => {
     const abort = new AbortController();
@@ -274,6 +275,12 @@ export function LevelEditor(props: Props) {
             </button>
           );
         })}
+        {legend.length > 0 && floor === ' ' && (
+          <button type="button" role="radio" tabIndex={symbol === ' ' ? 0 : -1} aria-checked={symbol === ' '} title="Erases: a space is an empty square" aria-label="eraser, an empty square" onClick={() => setBrush(' ')}>
+            <span class="swatch"><Icon name="eraser" /></span>
+            <span class="name">eraser</span>
+          </button>
+        )}
         {legend.length === 0 && <p class="soft">The palette appears when the rules compile.</p>}
       </div>
       {asText ? (
@@ -305,11 +312,4 @@ export function LevelEditor(props: Props) {
 export function spanOf(problem: Problem): [number, number][] {
   const isWhole = problem.code === 'no-avatar' || problem.start === problem.end;
   return isWhole ? [] : Array.from({ length: problem.end - problem.start }, (_, step) => [problem.column - 1 + step, problem.line - 1]);
-}
-
-/** The commonest symbol inside the border: what Delete leaves behind. */
-function floorOf(grid: Grid): string {
-  const counts = new Map<string, number>();
-  grid.slice(1, -1).forEach((row) => row.slice(1, -1).forEach((one) => counts.set(one, (counts.get(one) ?? 0) + 1)));
-  return [...counts].sort((a, b) => b[1] - a[1])[0]?.[0] ?? '.';
 }

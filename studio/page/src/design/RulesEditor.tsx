@@ -22,6 +22,8 @@ export interface EditorHandle {
   show: (start: number, end: number) => void;
   apply: (edits: Edit[]) => void;
   replace: (text: string) => void;
+  /** Opens the manual's page on the problem or the word at the cursor. */
+  explain: () => void;
 }
 
 interface Props {
@@ -58,6 +60,9 @@ function markdownNode(text: string): HTMLElement {
   return node;
 }
 
+/** The number of words at the beginning of a completion that come first because they are likely. */
+const LIKELY = 20;
+
 async function complete(context: CompletionContext): Promise<CompletionResult | null> {
   const word = context.matchBefore(/[\w.]+$/);
   const before = context.state.sliceDoc(Math.max(0, context.pos - 1), context.pos);
@@ -70,9 +75,10 @@ async function complete(context: CompletionContext): Promise<CompletionResult | 
       from: answer.start,
       to: answer.end,
       validFor: /^[\w.]*$/,
-      options: answer.items.map((item) => {
+      options: answer.items.map((item, index) => {
         const markdown = item.markdown;
-        return { label: item.label, apply: item.insert, ...(item.detail ? { detail: item.detail } : {}), ...(markdown ? { info: () => markdownNode(markdown) } : {}) };
+        // The server's order, likely words first, decides among those that fit equally well.
+        return { label: item.label, apply: item.insert, boost: Math.max(0, LIKELY - index), ...(item.detail ? { detail: item.detail } : {}), ...(markdown ? { info: () => markdownNode(markdown) } : {}) };
       }),
     };
   } catch {
@@ -177,6 +183,9 @@ export function RulesEditor(props: Props) {
       const at = Math.min(made.state.selection.main.head, text.length);
       made.dispatch({ changes: { from: 0, to: made.state.doc.length, insert: text }, selection: { anchor: at } });
     },
+    explain() {
+      if (view.current) explain(view.current, latest.current);
+    },
   }), []);
 
   return <div class="rules" ref={box} />;
@@ -236,7 +245,7 @@ function explain(view: EditorView, props: Props): void {
   const problem = props.problems.find((one) => one.page && one.start <= at && at <= one.end);
   const word = view.state.wordAt(at);
   if (problem?.page) props.onPage(problem.page);
-  else if (word) props.onPage(view.state.sliceDoc(word.from, word.to));
+  else props.onPage(word ? view.state.sliceDoc(word.from, word.to) : 'first-game');
 }
 
 /** Applies the first fix on the cursor's line; shows the list of problems if there is none. */

@@ -280,7 +280,7 @@ function Whole({ settled, ...props }: Props & { settled: boolean }) {
       for await (const line of stream<VerdictLine>('/api/necessity', { source: props.source, levels: props.levels }, control.signal)) {
         if (control.signal.aborted) return;
         if (line.stage === 'criterion') criteria.push(line);
-        else if (line.stage === 'judging') setProgress(`judging level ${line.level + 1} of ${line.of}`);
+        else if (line.stage === 'judging') setProgress(`judging level ${line.level}, ${line.level + 1} of ${line.of}`);
         else if (line.stage === 'error') error = line.error;
       }
     } catch (failure) {

@@ -15,6 +15,7 @@ const PATHS = {
   open: 'M8 9.5v-7M5 5.5l3-3 3 3M3 12.5h10',
   plus: 'M8 3v10M3 8h10',
   minus: 'M3 8h10',
+  eraser: 'M6.5 13 2.5 9l6-6 5 5-5 5zM5.5 6l5 5M6 13h8',
 } as const;
 
 export type IconName = keyof typeof PATHS;

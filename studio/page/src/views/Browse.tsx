@@ -3,8 +3,10 @@ import { live } from '../data/studio';
 import * as studio from '../data/studio';
 import type { GameEntry, Release, Workspace } from '../data/types';
 import { Thumb } from '../parts/Board';
+import { Icon } from '../parts/Icon';
 import { useAsked, useTitle } from '../parts/hooks';
 import { go, href } from '../parts/route';
+import { NewDialog } from './NewDialog';
 
 /** What the gallery shows of a game, with a release's facts where there are any. */
 interface Shown {
@@ -55,8 +57,10 @@ function counted(count: number, of: string): string {
   return `${count} ${of}${count === 1 ? '' : 's'}`;
 }
 
-export function Browse({ workspace }: { workspace: Workspace }) {
+export function Browse({ workspace, onChanged }: { workspace: Workspace; onChanged: () => void }) {
   useTitle('');
+  const [beginning, setBeginning] = useState(false);
+  const writes = workspace.templates.length > 0 && (workspace.kind === 'games' || workspace.kind === 'corpus');
   const [text, setText] = useState('');
   const [kind, setKind] = useState('');
   const [tier, setTier] = useState('');
@@ -92,6 +96,7 @@ export function Browse({ workspace }: { workspace: Workspace }) {
           <input type="search" placeholder="Find a game" aria-label="Find a game" value={text} onInput={(event) => setText(event.currentTarget.value)} />
           {kinds.length > 1 && <Choice label="Kind" all="All kinds" value={kind} options={kinds} onChange={setKind} />}
           {tiers.length > 1 && <Choice label="Tier" all="All tiers" value={tier} options={tiers} words={tierWords} onChange={setTier} />}
+          {writes && all.length > 0 && <button type="button" onClick={() => setBeginning(true)}><Icon name="plus" /> New game</button>}
           {eases.length > 1 && <Choice label="Difficulty" all="Any difficulty" value={ease} options={eases} words={easeWords} onChange={setEase} />}
         </form>
       </header>
@@ -99,6 +104,7 @@ export function Browse({ workspace }: { workspace: Workspace }) {
       {games.length === 0 && (
         <p class="empty">
           {all.length === 0 ? 'There are no games here yet.' : 'No game matches.'}
+          {all.length === 0 && writes && <button type="button" class="strong" onClick={() => setBeginning(true)}><Icon name="plus" /> New game</button>}
           {all.length > 0 && <button type="button" onClick={() => { setText(''); setKind(''); setTier(''); setEase(''); }}>Show all</button>}
         </p>
       )}
@@ -120,6 +126,7 @@ export function Browse({ workspace }: { workspace: Workspace }) {
           </li>
         ))}
       </ul>
+      {beginning && <NewDialog workspace={workspace} onClose={() => setBeginning(false)} onBegun={onChanged} />}
     </main>
   );
 }

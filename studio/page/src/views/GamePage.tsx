@@ -47,7 +47,7 @@ export function GamePage({ game, workspace, onCopied }: { game: Game; workspace:
           return (
             <li key={level.name}>
               <LevelBoard game={game} index={index} />
-              <p class="name">{`Level ${index + 1}`}</p>
+              <p class="name">{`Level ${studio.numberOf(game.levels, index)}`}</p>
               {intent && <p class="summary">{intent}</p>}
               <p class="facts">
                 {facts?.tier && <span class="chip">{tierWords(facts.tier)}</span>}
@@ -84,10 +84,11 @@ function text(value: unknown): string | null {
 
 function LevelBoard({ game, index }: { game: Game; index: number }) {
   const asked = useAsked((signal) => studio.board(game, index, signal), [game, index]);
-  const label = `Board of level ${index + 1}`;
+  const number = studio.numberOf(game.levels, index);
+  const label = `Board of level ${number}`;
   if (asked.error) return <p class="notice bad">{asked.error}</p>;
   const board = <Thumb tiles={asked.value?.tiles ?? []} frame={asked.value?.frame ?? null} label={label} />;
-  return live ? <a class="board-link" href={href('play', game.id, index)} aria-label={`Play level ${index + 1}`}>{board}</a> : board;
+  return live ? <a class="board-link" href={href('play', game.id, index)} aria-label={`Play level ${number}`}>{board}</a> : board;
 }
 
 const SHOWN_ELSEWHERE = new Set(['title', 'description', 'goal', 'levels', 'rules', 'id']);

@@ -166,11 +166,11 @@ function One({ pair, side, game, onPlayed, onWatched }: { pair: number; side: Si
       <header>
         <h2 title={game.title}><span class="soft">{name}</span> {game.title}</h2>
         <nav class="tabs" aria-label={`Levels of the ${side} game`}>
-          {game.levels.map((_, index) => <button type="button" aria-pressed={index === level} onClick={() => { setWatching(false); setLevel(index); }}>{index + 1}</button>)}
+          {game.levels.map((_, index) => <button type="button" aria-pressed={index === level} onClick={() => { setWatching(false); setLevel(index); }}>{index}</button>)}
         </nav>
       </header>
       {error && <p class="notice bad" role="alert">{error}</p>}
-      {run ? <Player run={run} keys="focus" compact label={`${name} game, level ${level + 1}${run.kind === 'replay' ? ', played by a program' : ''}`} /> : <div class="board" aria-busy="true" />}
+      {run ? <Player run={run} keys="focus" compact label={`${name} game, level ${level}${run.kind === 'replay' ? ', played by a program' : ''}`} /> : <div class="board" aria-busy="true" />}
       <p class="row">
         <button type="button" class={watching ? 'strong' : ''} onClick={toggle}>{watching ? 'Play it yourself' : <><Icon name="play" /> Watch a program play it</>}</button>
         {watching && !shown && <span class="soft" role="status"><span class="spinner" aria-hidden="true" /> A program is playing</span>}

@@ -29,7 +29,8 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
   const holds = useRef(0);
   const witness = watch === null ? null : (game.witnesses.find((one) => one.name === watch) ?? null);
   const shownLevel = witness ? studio.levelOf(game, witness) : Math.min(level, game.levels.length - 1);
-  useTitle(`${game.title}, level ${shownLevel + 1}`);
+  const number = studio.numberOf(game.levels, shownLevel);
+  useTitle(`${game.title}, level ${number}`);
   useRun(run);
 
   /** Shows a run when it is there, unless another one was asked for meanwhile. */
@@ -79,7 +80,7 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
   const download = async (): Promise<void> => {
     if (!run) return;
     try {
-      save(`${game.id}-level-${shownLevel + 1}.json`, JSON.stringify(await run.episode(), null, 1));
+      save(`${game.id}-lvl${number}.json`, JSON.stringify(await run.episode(), null, 1));
     } catch (failure) {
       setError(words(failure));
     }
@@ -92,17 +93,17 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
     <main class="play">
       <div class="stage">
         {error && <p class="notice bad" role="alert">{error}</p>}
-        {run ? <Player run={run} keys="page" label={`${game.title}, level ${shownLevel + 1}`} /> : !error && <div class="board" aria-busy="true" />}
+        {run ? <Player run={run} keys="page" label={`${game.title}, level ${number}`} /> : !error && <div class="board" aria-busy="true" />}
       </div>
       <aside class="side" aria-label="About this level">
         <div>
-          <h1>{`Level ${shownLevel + 1}`}<span class="hidden">{` of ${game.title}`}</span></h1>
+          <h1>{`Level ${number}`}<span class="hidden">{` of ${game.title}`}</span></h1>
           {intent && <p class="soft">{intent}</p>}
         </div>
         {game.levels.length > 1 && (
           <nav class="tabs" aria-label="Levels">
             {game.levels.map((one, index) => (
-              <a href={live ? href('play', game.id, index) : watchHref(game, index)} aria-current={index === shownLevel ? 'page' : undefined} title={one.name}>{index + 1}</a>
+              <a href={live ? href('play', game.id, index) : watchHref(game, index)} aria-current={index === shownLevel ? 'page' : undefined} title={one.name}>{studio.numberOf(game.levels, index)}</a>
             ))}
           </nav>
         )}
@@ -154,7 +155,7 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
             <h2>Recorded wins</h2>
             <ul class="plain">
               {game.witnesses.map((one) => (
-                <li><a href={href('watch', game.id, one.name)} aria-current={one.name === watch ? 'page' : undefined}>{`Level ${studio.levelOf(game, one) + 1}`}<span class="soft"> {one.name}</span></a></li>
+                <li><a href={href('watch', game.id, one.name)} aria-current={one.name === watch ? 'page' : undefined}>{`Level ${studio.numberOf(game.levels, studio.levelOf(game, one))}`}<span class="soft"> {one.name}</span></a></li>
               ))}
             </ul>
           </div>

@@ -44,9 +44,9 @@ export function ResultsPage() {
   );
 }
 
-/** An episode that is still playing was stopped by a limit of the evaluation. */
+/** The outcome as the report names it. */
 function outcomeWords(outcome: string): string {
-  return outcome === 'playing' ? 'unfinished' : outcome;
+  return outcome === 'playing' ? 'not finished' : outcome === 'limit' ? 'limit of steps' : outcome;
 }
 
 function Row({ player, episode }: { player: string; episode: ResultEpisode }) {

@@ -1,0 +1,67 @@
+//! Games to begin with: a commented game and two levels for each of a few genres.
+
+use crate::files;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
+/// A game to begin with.
+#[derive(Clone, Copy, Debug)]
+pub struct Template {
+    /// The genre, which names the template.
+    pub genre: &'static str,
+    /// The task of its player, in a sentence without a full stop.
+    pub about: &'static str,
+    /// The files, by name. The game comes last, so that a folder without all of its levels is not a game.
+    pub files: [(&'static str, &'static str); 3],
+}
+
+/// The file of a game in its folder.
+pub(crate) const GAME_FILE: &str = "game.vgdl";
+
+macro_rules! template {
+    ($genre:literal, $about:literal) => {
+        Template {
+            genre: $genre,
+            about: $about,
+            files: [
+                ("lvl0.txt", include_str!(concat!("../templates/", $genre, "/lvl0.txt"))),
+                ("lvl1.txt", include_str!(concat!("../templates/", $genre, "/lvl1.txt"))),
+                (GAME_FILE, include_str!(concat!("../templates/", $genre, "/game.vgdl"))),
+            ],
+        }
+    };
+}
+
+/// The templates. The first one is the simplest.
+pub const TEMPLATES: [Template; 5] = [
+    template!("collect", "pick up every shell, and keep away from the gulls"),
+    template!("crossing", "cross the river on boats, and visit every house"),
+    template!("maze", "fetch the key, open the gate, and escape the cat"),
+    template!("puzzle", "push logs until every leak is filled"),
+    template!("shooter", "shoot the beetles before they have eaten all cabbages"),
+];
+
+impl Template {
+    /// Returns the template of a genre.
+    pub fn of(genre: &str) -> Option<Template> {
+        TEMPLATES.into_iter().find(|template| template.genre == genre)
+    }
+
+    /// Writes the game into a folder, which must be absent or empty; the folder above it must exist.
+    ///
+    /// # Errors
+    /// [`ErrorKind::AlreadyExists`] if there is a file, or a folder that is not empty; or what the system refuses.
+    pub fn begin(&self, folder: &Path) -> io::Result<()> {
+        match fs::create_dir(folder) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                let is_empty = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+                if !is_empty {
+                    return Err(error);
+                }
+            }
+            made => made?,
+        }
+        self.files.iter().try_for_each(|(name, text)| files::put(&folder.join(name), text))
+    }
+}
