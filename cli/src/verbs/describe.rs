@@ -37,7 +37,10 @@ struct Prospects {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
-    let named = args.level.as_ref().map(|name| input.level(name)).transpose()?;
+    let named = match &args.level {
+        Some(name) => Some(input.level(name)?),
+        None => input.asked()?,
+    };
     let game = input.compile(args.as_reference)?;
     let analysis = Analysis::of(&game);
     let prospects = named.map(|named| prospects(&analysis, &named)).transpose()?;

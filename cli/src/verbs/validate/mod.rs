@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let levels = levels(args, &input)?;
     if levels.is_empty() {
         let name = &input.source.name;
-        let help = "name a level file after it, or put lvl0.txt beside game.vgdl";
+        let help = "name a level file after it, or put lvl0.txt beside it";
         bail!("{name}: the game compiles, but there is no level to judge; {help}");
     }
     if args.witness.is_some() && levels.len() > 1 {
@@ -145,10 +145,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
-    match args.levels[..] {
-        [] => input.levels(),
-        _ => args.levels.iter().map(|name| input.level(name)).collect(),
-    }
+    input.named_levels(&args.levels)
 }
 
 /// Returns the problems of a game that does not compile, and the certain problems of its levels.
