@@ -266,7 +266,9 @@ fn of_source(path: &Path, text: String, title: String, names: &[String]) -> Game
 /// Advice for a level without a game beside it: the game may be in the folder above.
 fn lost_level(path: &Path) -> Failure {
     let name = path.display();
-    let above = folder_of(path).parent().map(|above| if above.as_os_str().is_empty() { Path::new(".") } else { above });
+    let above = folder_of(path)
+        .parent()
+        .map(|above| if above.as_os_str().is_empty() { Path::new(".") } else { above });
     let games = above.and_then(|above| games_in(above).ok()).unwrap_or_default();
     let game = match &games[..] {
         [only] => only.source.name.as_str(),
@@ -311,7 +313,9 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
         return Ok(vec![game(name)?]);
     }
     let mut games = games_in(path)?;
-    if let [only] = &games[..] && has_whole_game(only) {
+    if let [only] = &games[..]
+        && has_whole_game(only)
+    {
         return Ok(games);
     }
     for folder in sorted_entries(path)? {
@@ -374,7 +378,9 @@ fn no_game_in(folder: &Path) -> Failure {
             below.display(),
             first.display()
         ),
-        None => malformed!("{name}: no game.vgdl or game.txt in this folder, and no NAME.txt with NAME_lvl0.txt beside it"),
+        None => malformed!(
+            "{name}: no game.vgdl or game.txt in this folder, and no NAME.txt with NAME_lvl0.txt beside it"
+        ),
     }
 }
 
@@ -419,7 +425,8 @@ fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
         let path = folder.join(&found.source);
         let stem = path.file_stem().filter(|stem| !stem.eq_ignore_ascii_case("game"));
         let own = stem.or_else(|| folder.file_name());
-        let title = own.map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let title =
+            own.map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned());
         Ok(of_source(&path, game_text(&path)?, title, &names))
     };
     games.into_iter().map(input).collect()

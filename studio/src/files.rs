@@ -22,7 +22,8 @@ pub(crate) fn level_number(name: &str) -> Option<usize> {
 /// Returns the levels of a game in a folder, each with its number and the name of its file, in order.
 pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, String)>, Refusal> {
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
-    let names: Vec<String> = listed.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    let names: Vec<String> =
+        listed.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
     let mut levels = engine::files::levels(source, names.iter().map(String::as_str));
     levels.retain(|(number, _)| *number < MAX_LEVELS);
     levels.dedup_by_key(|(number, _)| *number);
@@ -137,7 +138,9 @@ mod tests {
     fn levels_keep_the_names_of_their_files() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path();
-        for name in ["zelda.txt", "zelda_lvl0.txt", "zelda_LVL2.TXT", "aliens.txt", "aliens_lvl0.txt", "pond.vgdl"] {
+        for name in
+            ["zelda.txt", "zelda_lvl0.txt", "zelda_LVL2.TXT", "aliens.txt", "aliens_lvl0.txt", "pond.vgdl"]
+        {
             std::fs::write(path.join(name), "w").unwrap();
         }
         let numbers: Vec<usize> =

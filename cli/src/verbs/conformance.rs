@@ -121,7 +121,8 @@ struct Subject {
 
 /// Returns the game of that name: a folder, or a file with its levels beside it.
 fn load_game(games: &Path, name: &str) -> Result<Subject, Failure> {
-    let places = [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
+    let places =
+        [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
     let Some(place) = places.iter().find(|place| place.exists()) else {
         bail!("{}: no folder or file of the game `{name}`, but there are traces of it", games.display());
     };

@@ -14,7 +14,7 @@ use serde_json::json;
 /// Example: arcade describe hailglass 0
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
     /// A level file, or the number of one of the game's own levels

@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named, read_text};
-use crate::{diagnostics, paths, protected};
+use crate::{diagnostics, paths, protected, shell};
 use clap::ValueEnum;
 use engine::{Diagnostics, MAX_SOURCE, dialect, syntax};
 use serde_json::json;
@@ -44,7 +44,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.from.is_some() {
         return convert(args, console);
     }
-    let source = input::game(&args.game)?.source;
+    let input = input::game(&args.game)?;
+    if input.asked()?.is_some() {
+        let game = shell::quoted(&input.source.name);
+        bail!("{}: this is a level, not a game; its game is {game}: arcade fmt {game}", args.game);
+    }
+    let source = input.source;
     let (description, problems) = syntax::parse(&source.text);
     if Diagnostics::has_errors(&problems) {
         // A line that cannot be parsed has no canonical form: printing the rest would lose it.
@@ -102,7 +107,10 @@ fn convert(args: &Args, console: &Console) -> Answer {
         None => {
             console.file(&converted.text);
             if !levels.is_empty() && Path::new(&args.game).is_file() {
-                console.remark(format_args!("the levels are not printed; --out DIR writes the game and {} of them", levels.len()));
+                console.remark(format_args!(
+                    "the levels are not printed; --out DIR writes the game and {} of them",
+                    levels.len()
+                ));
             }
         }
     }

@@ -27,7 +27,12 @@ impl Kind {
         let name = name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         match name {
             name if is_level(name) => Kind::Level,
-            name if name.ends_with(".vgdl") || name.eq_ignore_ascii_case("game.txt") || language == "vgdl" => Kind::Game,
+            name if name.ends_with(".vgdl")
+                || name.eq_ignore_ascii_case("game.txt")
+                || language == "vgdl" =>
+            {
+                Kind::Game
+            }
             _ => Kind::Other,
         }
     }
@@ -149,7 +154,8 @@ impl Documents {
     /// The levels of a game, with their URIs: those that are open, and those on disk.
     pub(super) fn levels_of(&self, game: &str) -> Vec<(String, Text)> {
         let Some(path) = uri::path(game) else { return Vec::new() };
-        let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
+        let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
+        else {
             return Vec::new();
         };
         let names = self.names_in(folder);
@@ -159,7 +165,8 @@ impl Documents {
 
     /// The names of the files in a folder, open or on disk.
     fn names_in(&self, folder: &Path) -> BTreeSet<String> {
-        let open = self.0.keys().filter_map(|uri| uri::path(uri)).filter(|path| path.parent() == Some(folder));
+        let open =
+            self.0.keys().filter_map(|uri| uri::path(uri)).filter(|path| path.parent() == Some(folder));
         let open = open.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()));
         let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
         open.chain(files.filter_map(|entry| entry.file_name().into_string().ok())).collect()

@@ -79,7 +79,8 @@ impl Sprites {
             let meant = || match meaning(Place::Class, &class.text) {
                 Some(_) if class.text.to_lowercase().ends_with("avatar") => Some("MovingAvatar"),
                 Some(found) => found.write.first().copied(),
-                None => nearest(&class.text, names()),
+                None => nearest(&class.text, names())
+                    .or(Some("MovingAvatar").filter(|_| class.text.to_lowercase().ends_with("avatar"))),
             };
             SpriteClass::from_name(&class.text).or_else(|| meant().and_then(SpriteClass::from_name))
         };

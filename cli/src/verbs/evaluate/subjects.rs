@@ -213,7 +213,9 @@ fn slug(title: &str) -> String {
     let path = Path::new(title);
     let parts = path.iter().rev().filter_map(|part| part.to_str());
     let stem = |part: &str| match part.rsplit_once('.') {
-        Some((stem, ending)) if ["vgdl", "txt"].iter().any(|known| ending.eq_ignore_ascii_case(known)) => stem.to_owned(),
+        Some((stem, ending)) if ["vgdl", "txt"].iter().any(|known| ending.eq_ignore_ascii_case(known)) => {
+            stem.to_owned()
+        }
         _ => part.to_owned(),
     };
     let said = parts.map(stem).find(|part| part != "game" && !part.is_empty()).unwrap_or_default();

@@ -25,7 +25,7 @@ use validators::{Criteria, GATES, Panel, Report};
 /// Example: arcade validate my-game/ --witness win.json
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
     /// Level files, or numbers of the game's own levels; by default all of those
