@@ -305,6 +305,7 @@ impl LevelReader<'_> {
             let near = around(at, columns, cells).filter(|_| count == 1 && !symbol.is_alphanumeric());
             let shown = symbol.escape_default();
             let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
+                _ if symbol == '\t' => (None, "write blanks instead: a tab is a single cell".to_owned()),
                 (Some(meant), ..) => (Some(meant), format!("did you mean `{meant}`?")),
                 (None, &[unused], _) if kinds == 1 && count > 1 => (
                     Some(unused),
@@ -322,7 +323,6 @@ impl LevelReader<'_> {
                         ),
                     )
                 }
-                _ if symbol == '\t' => (None, "write blanks instead: a tab is a single cell".to_owned()),
                 _ if symbol.is_ascii_graphic() && symbol != '#' => (
                     None,
                     format!("add a line `{shown} > …` to the LevelMapping, or use a character that is in it"),
