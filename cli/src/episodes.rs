@@ -83,7 +83,7 @@ fn level(
     let Some(episode) = episode else {
         let first = levels.into_iter().next().ok_or_else(|| {
             let name = &input.source.name;
-            malformed!("{name}: the game has no levels of its own; name a level file after it")
+            malformed!("{name}: the game has no levels beside it; name a level file after it")
         })?;
         return checked(first);
     };

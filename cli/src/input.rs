@@ -1,9 +1,9 @@
 //! Games and levels as the user names them: files, folders, names of the corpus.
 
-use crate::embedded;
 use crate::failure::Failure;
-use crate::paths;
-use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE};
+use crate::{embedded, paths, shell};
+use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE, dialect, files};
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -30,27 +30,32 @@ pub(crate) struct GameInput {
     /// The file of the game; none for a game of the corpus.
     pub(crate) path: Option<PathBuf>,
     levels: Vec<LevelInput>,
+    /// The levels that the user named, if any; otherwise all count.
+    asked: Vec<LevelInput>,
 }
 
 #[derive(Clone, Debug)]
-enum LevelInput {
+struct LevelInput {
+    /// The number in its name: `lvl3.txt` is level 3.
+    number: Option<usize>,
+    place: LevelPlace,
+}
+
+#[derive(Clone, Debug)]
+enum LevelPlace {
     File(PathBuf),
     Text(Named),
 }
 
 impl LevelInput {
-    /// Returns the number in its name: `lvl3.txt` is level 3.
-    fn number(&self) -> Option<usize> {
-        let name = match self {
-            LevelInput::File(path) => path.file_name()?.to_str()?,
-            LevelInput::Text(named) => named.name.rsplit('/').next()?,
-        };
-        name.strip_prefix("lvl")?.strip_suffix(".txt")?.parse().ok()
+    fn file(path: PathBuf) -> LevelInput {
+        let number = path.file_name().and_then(|name| files::level_number(name.to_str()?));
+        LevelInput { number, place: LevelPlace::File(path) }
     }
 
     fn read(&self) -> Result<Named, Failure> {
-        match self {
-            LevelInput::File(path) => {
+        match &self.place {
+            LevelPlace::File(path) => {
                 let (name, text) = (path.display().to_string(), read_text(path, MAX_LEVEL_TEXT)?);
                 if is_game(&text) {
                     let help =
@@ -59,7 +64,7 @@ impl LevelInput {
                 }
                 Ok(Named { name, text })
             }
-            LevelInput::Text(named) => Ok(named.clone()),
+            LevelPlace::Text(named) => Ok(named.clone()),
         }
     }
 }
@@ -76,29 +81,73 @@ impl GameInput {
         self.levels.len()
     }
 
-    /// Returns the levels that come with the game.
+    /// Returns the levels that the user named instead of the game, or else those that come with it.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
-        self.levels.iter().map(LevelInput::read).collect()
+        self.wanted().iter().map(LevelInput::read).collect()
     }
 
-    /// Returns the levels that come with the game, checked.
+    /// Returns [`levels`](Self::levels) with the numbers in their names, or with their places if a number is missing or
+    /// is there twice.
+    pub(crate) fn numbered_levels(&self) -> Result<Vec<(usize, Named)>, Failure> {
+        let numbers: BTreeSet<usize> = self.wanted().iter().filter_map(|level| level.number).collect();
+        let are_numbered = numbers.len() == self.wanted().len();
+        let number = |(at, level): (usize, &LevelInput)| {
+            Ok((level.number.filter(|_| are_numbered).unwrap_or(at), level.read()?))
+        };
+        self.wanted().iter().enumerate().map(number).collect()
+    }
+
+    /// Returns the levels that the user names after the game, after the one named instead of it; all if there are none.
+    pub(crate) fn named_levels(&self, names: &[String]) -> Result<Vec<Named>, Failure> {
+        if names.is_empty() {
+            return self.levels();
+        }
+        let named = names.iter().map(|name| self.find_level(name)).collect::<Result<Vec<_>, _>>()?;
+        self.asked.iter().chain(&named).map(LevelInput::read).collect()
+    }
+
+    /// Returns the level of that number.
+    pub(crate) fn numbered_level(&self, number: usize) -> Result<Named, Failure> {
+        match self.levels.iter().find(|level| level.number == Some(number)) {
+            Some(level) => level.read(),
+            None => Err(malformed!("{}: there is no level {number} beside it", self.source.name)),
+        }
+    }
+
+    /// Returns [`levels`](Self::levels), checked.
     pub(crate) fn checked_levels(&self, game: &Game) -> Result<Vec<Level>, Failure> {
         self.levels()?.iter().map(|named| named.level(game)).collect()
     }
 
+    /// Returns the level that the user named instead of the game, if there is one.
+    pub(crate) fn asked(&self) -> Result<Option<Named>, Failure> {
+        self.asked.first().map(LevelInput::read).transpose()
+    }
+
+    fn wanted(&self) -> &[LevelInput] {
+        if self.asked.is_empty() { &self.levels } else { &self.asked }
+    }
+
     /// Returns a level as the user names it: a file, or the number of one that comes with the game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
+        self.find_level(name)?.read()
+    }
+
+    fn find_level(&self, name: &str) -> Result<LevelInput, Failure> {
         let path = Path::new(name);
-        if paths::metadata(path)?.is_some() {
-            return LevelInput::File(path.to_owned()).read();
+        if let Some(found) = paths::metadata(path)? {
+            if found.is_dir() {
+                bail!("{name}: this is a folder; name a level file, or the number of a level of the game");
+            }
+            return Ok(LevelInput::file(path.to_owned()));
         }
         let number = name.strip_prefix("lvl").unwrap_or(name).trim_end_matches(".txt").parse::<usize>();
-        let wanted = number.ok();
-        match self.levels.iter().find(|level| wanted.is_some() && level.number() == wanted) {
-            Some(level) => level.read(),
+        let wanted = number.ok().or_else(|| files::level_number(name));
+        match self.levels.iter().find(|level| wanted.is_some() && level.number == wanted) {
+            Some(level) => Ok(level.clone()),
             None if number_like(name) => {
                 let title = &self.title;
-                let numbers: Vec<usize> = self.levels.iter().filter_map(LevelInput::number).collect();
+                let numbers: Vec<usize> = self.levels.iter().filter_map(|level| level.number).collect();
                 let there = match &numbers[..] {
                     [] => "no levels of its own".to_owned(),
                     [one] => format!("level {one} only"),
@@ -121,27 +170,27 @@ fn number_like(name: &str) -> bool {
     name.strip_prefix("lvl").unwrap_or(name).chars().all(|c| c.is_ascii_digit())
 }
 
-/// Finds a game: a .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game.
+/// Finds a game: a file, a folder with one, a level of one, or the name of a corpus game.
 pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
     if found.as_ref().is_some_and(|found| found.is_dir()) {
-        return game_in(path)?.ok_or_else(|| no_game_in(path));
+        let mut games = games_in(path)?;
+        return match games.len() {
+            1 => Ok(games.remove(0)),
+            0 => Err(no_game_in(path)),
+            count => {
+                let first = &games[0].source.name;
+                Err(malformed!("{name}: this folder contains {count} games; name one, such as {first}"))
+            }
+        };
     }
     if found.is_some() {
-        let text = read_text(path, MAX_SOURCE)?;
-        if is_level(&text) {
-            bail!("{name}: this is a level, not a game; name its game first: arcade validate GAME {name}");
-        }
-        let whole_folder = path.file_stem().is_some_and(|stem| stem == "game");
-        let folder = path.parent().unwrap_or(Path::new("."));
-        let levels = if whole_folder { level_files(folder)? } else { Vec::new() };
-        return Ok(GameInput {
-            source: Named { name: name.to_owned(), text },
-            title: name.to_owned(),
-            path: Some(path.to_owned()),
-            levels,
-        });
+        return match file(path)? {
+            Found::Game(input) => Ok(input),
+            Found::Level(_, Some(input)) => Ok(input),
+            Found::Level(_, None) => Err(lost_level(path)),
+        };
     }
     let corpus = embedded::corpus()?;
     let Some(found) = corpus.find(name) else {
@@ -154,21 +203,106 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
         bail!("{name}: {help}");
     };
     let level = |(number, text): (usize, &String)| {
-        LevelInput::Text(Named { name: format!("{name}/lvl{number}.txt"), text: text.clone() })
+        let named = Named { name: format!("{name}/lvl{number}.txt"), text: text.clone() };
+        LevelInput { number: Some(number), place: LevelPlace::Text(named) }
     };
     Ok(GameInput {
         source: Named { name: format!("{name}/game.vgdl"), text: found.source.clone() },
         title: name.to_owned(),
         path: None,
         levels: found.levels.iter().enumerate().map(level).collect(),
+        asked: Vec::new(),
     })
+}
+
+/// A file that the user named: a game, or a level and its game, if there is one beside it.
+enum Found {
+    Game(GameInput),
+    Level(LevelInput, Option<GameInput>),
+}
+
+fn file(path: &Path) -> Result<Found, Failure> {
+    let text = read_text(path, MAX_SOURCE.max(MAX_LEVEL_TEXT))?;
+    let file_name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let called_level = files::level_number(file_name).is_some();
+    if is_game(&text) || !called_level && !is_level(&text) {
+        if text.len() > MAX_SOURCE {
+            bail!("{}: larger than {MAX_SOURCE} bytes, the limit for such a file", path.display());
+        }
+        refuse_python(path, &text)?;
+        let names = match file_names(folder_of(path)) {
+            // Levels are looked for beside any file, but only a whole game needs them.
+            Err(_) if path.file_stem().is_none_or(|stem| !stem.eq_ignore_ascii_case("game")) => Vec::new(),
+            names => names?,
+        };
+        return Ok(Found::Game(of_source(path, text, path.display().to_string(), &names)));
+    }
+    let level = LevelInput::file(path.to_owned());
+    let names = file_names(folder_of(path))?;
+    let Some(source) = files::game_of(file_name, names.iter().map(String::as_str)) else {
+        return Ok(Found::Level(level, None));
+    };
+    let source = path.with_file_name(source);
+    let text = game_text(&source)?;
+    let mut input = of_source(&source, text, source.display().to_string(), &names);
+    input.asked.push(level.clone());
+    Ok(Found::Level(level, Some(input)))
+}
+
+/// Returns the game of a file, with the levels among the names of the files beside it.
+fn of_source(path: &Path, text: String, title: String, names: &[String]) -> GameInput {
+    let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let levels = files::levels(own, names.iter().map(String::as_str));
+    let level = |(_, name): (usize, String)| LevelInput::file(path.with_file_name(name));
+    GameInput {
+        source: Named { name: path.display().to_string(), text },
+        title,
+        path: Some(path.to_owned()),
+        levels: levels.into_iter().map(level).collect(),
+        asked: Vec::new(),
+    }
+}
+
+/// Advice for a level without a game beside it: the game may be in the folder above.
+fn lost_level(path: &Path) -> Failure {
+    let name = path.display();
+    let above = folder_of(path)
+        .parent()
+        .map(|above| if above.as_os_str().is_empty() { Path::new(".") } else { above });
+    let games = above.and_then(|above| games_in(above).ok()).unwrap_or_default();
+    let game = match &games[..] {
+        [only] => only.source.name.as_str(),
+        _ => "GAME",
+    };
+    malformed!(
+        "{name}: this is a level, not a game, and there is no game beside it; name its game first: arcade validate {} {}",
+        if game == "GAME" { game.to_owned() } else { shell::quoted(Path::new(game)) },
+        shell::quoted(path)
+    )
+}
+
+/// Refuses a Python file, and names the command that converts the game in it.
+fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
+    let Some(found) = dialect::python_file(text) else { return Ok(()) };
+    let levels = match found.levels.len() {
+        1 => "1 level".to_owned(),
+        count => format!("{count} levels"),
+    };
+    let out = path.file_stem().map_or_else(|| "game".into(), |stem| stem.to_string_lossy());
+    bail!(
+        "{}: this is a Python file with a game in the dialect of py-vgdl (line {}) and {levels}; convert it first: arcade fmt --from py-vgdl {} --out {}",
+        path.display(),
+        found.line,
+        shell::quoted(path),
+        shell::quoted(Path::new(&*out))
+    )
 }
 
 /// The word for all corpus games, if there is no folder of that name.
 pub(crate) const CORPUS: &str = "corpus";
 
-/// Finds games: those that [`game`] finds, all games in a folder of such folders, and `corpus` for all games of the
-/// corpus.
+/// Finds games: those that [`game`] finds, all games in a folder of games or of such folders, and `corpus` for all games
+/// of the corpus.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
@@ -178,13 +312,15 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     if !found.is_some_and(|found| found.is_dir()) {
         return Ok(vec![game(name)?]);
     }
-    if let Some(game) = game_in(path)? {
-        return Ok(vec![game]);
+    let mut games = games_in(path)?;
+    if let [only] = &games[..]
+        && has_whole_game(only)
+    {
+        return Ok(games);
     }
-    let mut games = Vec::new();
     for folder in sorted_entries(path)? {
         if paths::metadata(&folder)?.is_some_and(|found| found.is_dir()) {
-            games.extend(game_in(&folder)?);
+            games.append(&mut games_in(&folder)?);
         }
     }
     if games.is_empty() {
@@ -216,6 +352,44 @@ pub(crate) fn nearest_place(place: &Path) -> Result<Option<String>, Failure> {
     Ok(near.or_else(|| nearest_sibling(place)))
 }
 
+fn has_whole_game(input: &GameInput) -> bool {
+    let stem = input.path.as_deref().and_then(Path::file_stem);
+    stem.is_some_and(|stem| stem.eq_ignore_ascii_case("game"))
+}
+
+/// Finds the games that the user names one after another. A level counts for its game alone: levels of one game follow
+/// each other, or the game itself. A level without a game beside it, and a number, belong to the game before.
+pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
+    let mut games: Vec<GameInput> = Vec::new();
+    for name in names {
+        let path = Path::new(name);
+        let found = paths::metadata(path)?;
+        let is_number = found.is_none() && !name.is_empty() && number_like(name);
+        let is_file = found.as_ref().is_some_and(|found| !found.is_dir());
+        if is_number && let Some(last) = games.last_mut() {
+            let level = last.find_level(name)?;
+            last.asked.push(level);
+            continue;
+        }
+        if !is_file {
+            games.append(&mut self::games(name)?);
+            continue;
+        }
+        match file(path)? {
+            Found::Game(input) => games.push(input),
+            Found::Level(level, own) => {
+                let same = |last: &&mut GameInput| own.as_ref().is_none_or(|own| own.path == last.path);
+                match (games.last_mut().filter(same), own) {
+                    (Some(last), _) => last.asked.push(level),
+                    (None, Some(own)) => games.push(own),
+                    (None, None) => return Err(lost_level(path)),
+                }
+            }
+        }
+    }
+    Ok(games)
+}
+
 /// Advice for a folder without a game: it may be a release, whose games are in subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.display();
@@ -227,7 +401,9 @@ fn no_game_in(folder: &Path) -> Failure {
             below.display(),
             first.display()
         ),
-        None => malformed!("{name}: no game.vgdl or game.txt in this folder"),
+        None => malformed!(
+            "{name}: no game.vgdl or game.txt in this folder, and no NAME.txt with NAME_lvl0.txt beside it"
+        ),
     }
 }
 
@@ -244,7 +420,8 @@ fn nearest_sibling(path: &Path) -> Option<String> {
 
 /// Returns `true` if a text looks like a level: rows of characters of one width, without anything that a game has.
 fn is_level(text: &str) -> bool {
-    let rows: Vec<&str> = text.lines().map(str::trim_end).collect();
+    let text = text.trim_start_matches('\u{feff}').trim_end_matches(['\n', '\r']).replace("\r\n", "\n");
+    let rows: Vec<&str> = text.split(['\n', '\r']).map(str::trim_end).collect();
     let width = |row: &&str| row.chars().count();
     let widest = rows.iter().map(width).max().unwrap_or_default();
     // Rows of one width, ignoring blanks at their ends; a single word may be anything.
@@ -260,39 +437,45 @@ fn is_level(text: &str) -> bool {
 /// Returns `true` if a text is certainly a game: it has two of the sections, each on a line of its own.
 fn is_game(text: &str) -> bool {
     let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
-    text.lines().filter(|line| sections.contains(&line.trim())).count() > 1
+    text.split(['\n', '\r']).filter(|line| sections.contains(&line.trim())).count() > 1
 }
 
-fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
-    let Some(path) = first_file(folder, ["game.vgdl", "game.txt"])? else { return Ok(None) };
-    let text = read_text(&path, MAX_SOURCE)?;
+/// Returns the games that lie in a folder itself.
+fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
+    let names = file_names(folder)?;
+    let games = files::games(names.iter().map(String::as_str));
+    let input = |found: files::GameFiles| {
+        let path = folder.join(&found.source);
+        let stem = path.file_stem().filter(|stem| !stem.eq_ignore_ascii_case("game"));
+        let own = stem.or_else(|| folder.file_name());
+        let title =
+            own.map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned());
+        Ok(of_source(&path, game_text(&path)?, title, &names))
+    };
+    games.into_iter().map(input).collect()
+}
+
+/// Reads the file of a game, which must not be a level.
+fn game_text(path: &Path) -> Result<String, Failure> {
+    let text = read_text(path, MAX_SOURCE)?;
     if is_level(&text) {
         let name = path.display();
         bail!("{name}: this is a level, not a game; put the game here, and the level beside it as lvl0.txt");
     }
-    let title =
-        folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
-    let source = Named { name: path.display().to_string(), text };
-    Ok(Some(GameInput { source, title, path: Some(path), levels: level_files(folder)? }))
+    Ok(text)
 }
 
-/// Returns the first of these files that the folder has.
-pub(crate) fn first_file(folder: &Path, names: [&str; 2]) -> Result<Option<PathBuf>, Failure> {
-    for name in names {
-        let path = folder.join(name);
-        if paths::metadata(&path)?.is_some() {
-            return Ok(Some(path));
-        }
-    }
-    Ok(None)
+/// Returns the folder of a file.
+fn folder_of(path: &Path) -> &Path {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
-fn level_files(folder: &Path) -> Result<Vec<LevelInput>, Failure> {
+/// Returns the names of the files in a folder.
+fn file_names(folder: &Path) -> Result<Vec<String>, Failure> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let mut files: Vec<LevelInput> = sorted_entries(folder)?.into_iter().map(LevelInput::File).collect();
-    files.retain(|file| file.number().is_some());
-    files.sort_by_key(LevelInput::number);
-    Ok(files)
+    let named = sorted_entries(folder)?.into_iter().filter(|path| !path.is_dir());
+    Ok(named.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())).collect())
 }
 
 /// Returns the entries of a folder, sorted by name.
@@ -343,7 +526,7 @@ mod tests {
 
     #[test]
     fn levels_and_games_are_distinguished() {
-        for level in ["wwww\nw.Aw\nwwww\n", "A g\nw\nwww\nwww", "w w\r\nwAw\r\n"] {
+        for level in ["wwww\nw.Aw\nwwww\n", "A g\nw\nwww\nwww", "w w\r\nwAw\r\n", "\u{feff}w\rA\r\rww"] {
             assert!(is_level(level), "{level}");
         }
         for other in

@@ -1,6 +1,7 @@
 //! The problems that a VGDL file can have, as plain data; `cli` renders them.
 
 use crate::limits::MAX_PROBLEMS;
+use crate::meanings::{Place, meaning, near_meaning};
 use serde::Serialize;
 use std::fmt;
 
@@ -117,36 +118,67 @@ impl Diagnostic {
         if self.fix.is_some() { self } else { self.remove(span, name) }
     }
 
-    /// [`Diagnostic::suggest`] for the problems of a list that will be shown; for the others nothing is looked up.
-    pub(crate) fn suggest_after<'a>(
+    /// [`Diagnostic::mean`] for the problems of a list that will be shown; for the others nothing is looked up.
+    pub(crate) fn mean_after<'a>(
         self,
         found: usize,
+        place: Place,
         wrong: &str,
         candidates: impl IntoIterator<Item = &'a str>,
     ) -> Diagnostic {
-        if found < MAX_PROBLEMS { self.suggest(wrong, candidates) } else { self }
+        if found < MAX_PROBLEMS { self.mean(place, wrong, candidates) } else { self }
+    }
+
+    /// Adds the meaning of a word that VGDL does not have, or else "did you mean" if one of `candidates` is close to it.
+    /// If `wrong` is all that the problem marks, the word of VGDL instead of it is the repair.
+    pub(crate) fn mean<'a>(
+        self,
+        place: Place,
+        wrong: &str,
+        candidates: impl IntoIterator<Item = &'a str>,
+    ) -> Diagnostic {
+        let candidates: Vec<&str> = candidates.into_iter().collect();
+        let found = match meaning(place, wrong) {
+            None if nearest(wrong, candidates.iter().copied()).is_none() => near_meaning(place, wrong),
+            found => found,
+        };
+        let write = |word: &&&str| candidates.contains(*word);
+        match found.map(|found| (found.advice, found.write.iter().find(write))) {
+            None | Some(("", None)) => self.suggest(wrong, candidates),
+            Some(("", Some(word))) => self.help(format!("did you mean `{word}`?")).instead_of(wrong, word),
+            Some((advice, None)) => self.help(advice),
+            Some((advice, Some(word))) => self.help(advice).instead_of(wrong, word),
+        }
+    }
+
+    /// Sets the repair of writing `word` instead of `wrong`, if that is all that the problem marks.
+    fn instead_of(self, wrong: &str, word: &str) -> Diagnostic {
+        let span = self.span;
+        let is_all = span.end.saturating_sub(span.start) == wrong.len() && !wrong.is_empty();
+        if is_all { self.replace(span, word) } else { self }
     }
 
     /// Adds "did you mean" if one of `candidates` is close to `wrong`; if `wrong` is all that the problem marks, the name
     /// instead of it is the repair.
     pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
         match nearest(wrong, candidates) {
-            Some(name) => {
-                let (span, problem) = (self.span, self.help(format!("did you mean `{name}`?")));
-                let is_all = span.end.saturating_sub(span.start) == wrong.len() && !wrong.is_empty();
-                if is_all { problem.replace(span, name) } else { problem }
-            }
+            Some(name) => self.help(format!("did you mean `{name}`?")).instead_of(wrong, name),
             None => self,
         }
     }
 }
 
-/// The candidate that `wrong` most likely stands for: the same words in another order, or a few letters off.
+/// The candidate that `wrong` most likely stands for: the same words in another order, or a few letters off. A candidate
+/// that says the opposite, or shares only its end, is none.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
     let length = key.chars().count();
-    let near = |name: &str| 1.max(name.chars().count().min(length) / 3);
-    let same_words = |name: &str| parts.len() > 1 && parts == words(name);
+    let sorted = |mut words: Vec<String>| {
+        words.sort_unstable();
+        words
+    };
+    let (limit, own) = (|name: &str| near(name.chars().count().min(length)), sorted(parts.clone()));
+    let same_words = |name: &str| parts.len() > 1 && own == sorted(words(name));
     let distance = |name: &str| match same_words(name) {
         true => 0,
         false => strsim::damerau_levenshtein(&key, &name.to_lowercase()),
@@ -154,23 +186,63 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
     candidates
         .into_iter()
         // The distance is at least the difference in length, which is cheaper to compute.
-        .filter(|name| name.chars().count().abs_diff(length) <= near(name) || same_words(name))
+        .filter(|name| name.chars().count().abs_diff(length) <= limit(name) || same_words(name))
         .map(|name| (distance(name), name))
-        .filter(|&(distance, name)| distance <= near(name))
+        .filter(|&(distance, name)| distance <= limit(name))
+        .filter(|&(distance, name)| {
+            distance == 0 || alike(&parts, &words(name)) && !opposite(&key, &name.to_lowercase(), distance)
+        })
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, name)| name)
 }
 
-/// The words of a name like `scoreChange`, sorted.
+/// The number of wrong letters that is allowed in a word of that length.
+fn near(length: usize) -> usize {
+    1.max(length / 3)
+}
+
+/// Tests whether each word of a name is close to the word at the same place of the other one: of two names that share
+/// their end, the rest must be alike, too.
+fn alike(one: &[String], other: &[String]) -> bool {
+    let close = |(one, other): (&String, &String)| {
+        let distance = strsim::damerau_levenshtein(one, other);
+        let shared = one.chars().zip(other.chars()).take_while(|(one, other)| one == other).count();
+        // Two wrong letters are no slip of the fingers if the word starts with another one, except as in `move`, `moving`.
+        let limit = near(one.chars().count().min(other.chars().count()));
+        distance <= if shared > 0 { limit } else { 1 } || shared >= 3 && distance <= 3
+    };
+    one.len() != other.len() || one.iter().zip(other).all(close)
+}
+
+/// Tests whether two words differ in a syllable that makes the one the opposite of the other.
+fn opposite(one: &str, other: &str, distance: usize) -> bool {
+    const NOT: [&str; 9] = ["im", "in", "un", "non", "not", "no", "dis", "anti", "de"];
+    let negates = |long: &str, short: &str| {
+        let rest = NOT.iter().filter_map(|not| long.strip_prefix(not).filter(|_| !short.starts_with(not)));
+        rest.filter(|rest| !rest.is_empty()).any(|rest| strsim::damerau_levenshtein(rest, short) < distance)
+    };
+    let turns = |one: &str, other: &str| one.contains("increase") && other.contains("decrease");
+    negates(one, other) || negates(other, one) || turns(one, other) || turns(other, one)
+}
+
+/// The words of a name like `scoreChange`, `score_change` or `RandomNPC`, in small letters.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
-    for c in name.chars() {
+    let mut before = ' ';
+    let mut letters = name.chars().peekable();
+    while let Some(c) = letters.next() {
+        let ends = matches!(c, '_' | '-' | ' ');
+        let humps = c.is_uppercase()
+            && (!before.is_uppercase() || letters.peek().is_some_and(|next| next.is_lowercase()));
         match words.last_mut() {
-            Some(word) if !c.is_uppercase() => word.push(c),
-            _ => words.push(c.to_lowercase().collect()),
+            Some(word) if !humps && !matches!(before, '_' | '-' | ' ') && !ends => {
+                word.extend(c.to_lowercase())
+            }
+            _ if !ends => words.push(c.to_lowercase().collect()),
+            _ => {}
         }
+        before = c;
     }
-    words.sort_unstable();
     words
 }
 
@@ -244,6 +316,60 @@ mod tests {
         assert_eq!(nearest("Avatar", names), Some("avatar"));
         assert_eq!(nearest("spaceship", names), None);
         assert_eq!(nearest("changeScore", ["cooldown", "scoreChange"]), Some("scoreChange"));
+        assert_eq!(nearest("score_change", ["cooldown", "scoreChange"]), Some("scoreChange"));
+    }
+
+    #[test]
+    fn suggestions_are_no_opposites_and_share_more_than_an_end() {
+        use crate::keywords::{CLASSES, EFFECTS};
+        for wrong in [
+            "Movable",
+            "Movible",
+            "PlayerAvatar",
+            "MarioAvatar",
+            "InertialAvatar",
+            "RandomAvatar",
+            "Blocker",
+            "Timer",
+        ] {
+            assert_eq!(nearest(wrong, CLASSES.iter().copied()), None, "{wrong}");
+        }
+        for wrong in [
+            "killIfHasLes",
+            "removeSprite",
+            "killIfOtherHasLess",
+            "increaseScore",
+            "spawnSprite",
+            "unkillSprite",
+        ] {
+            let near = nearest(wrong, EFFECTS.iter().copied());
+            assert_eq!(near, Some("killIfHasLess").filter(|_| wrong == "killIfHasLes"), "{wrong}");
+        }
+        assert_eq!(nearest("visible", ["invisible"]), None);
+        assert_eq!(nearest("invisble", ["invisible", "visible"]), Some("invisible"));
+        assert_eq!(nearest("dncreaseSpeedToAll", ["increaseSpeedToAll"]), Some("increaseSpeedToAll"));
+        for (wrong, meant) in [
+            ("Imovable", "Immovable"),
+            ("Inmovable", "Immovable"),
+            ("MoveAvatar", "MovingAvatar"),
+            ("Fleeling", "Fleeing"),
+            ("ShotAvatar", "ShootAvatar"),
+            ("randomnpc", "RandomNPC"),
+            ("LOSchaser", "LOSChaser"),
+            ("Chase", "Chaser"),
+            ("resourcePack", "ResourcePack"),
+            ("Misslie", "Missile"),
+        ] {
+            assert_eq!(nearest(wrong, CLASSES.iter().copied()), Some(meant), "{wrong}");
+        }
+        for (wrong, meant) in [
+            ("killIfhasMore", "killIfHasMore"),
+            ("CollectResources", "collectResource"),
+            ("spwanIfHasMore", "spawnIfHasMore"),
+            ("backStep", "stepBack"),
+        ] {
+            assert_eq!(nearest(wrong, EFFECTS.iter().copied()), Some(meant), "{wrong}");
+        }
     }
 
     #[test]

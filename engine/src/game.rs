@@ -10,7 +10,7 @@ use crate::schedule::Plan;
 use crate::state::State;
 use crate::syntax::Description;
 use crate::world::Models;
-use crate::{Digest, causes};
+use crate::{Digest, causes, dialect};
 use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -65,7 +65,8 @@ impl Game {
             // A description that compiles may have problems too; one run should show all problems.
             compiled => {
                 let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
-                Err(causes::reported(read, compiled, source))
+                let Diagnostics(reported) = causes::reported(read, compiled, source);
+                Err(Diagnostics(dialect::told(source, &description, reported)))
             }
         }
     }

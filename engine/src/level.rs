@@ -153,6 +153,9 @@ impl LevelMapping {
     /// Reads the LevelMapping of a game that may have faults elsewhere; `None` if it cannot be read itself.
     pub fn of_source(source: &str) -> Option<LevelMapping> {
         let (description, Diagnostics(problems)) = crate::syntax::parse_all(source);
+        if crate::dialect::is_of_several_players(&description) {
+            return None;
+        }
         let Outline { description, knows_characters, knows_avatars } = outline(&description, &problems)?;
         let game = Game::compile(&description).ok()?;
         Some(LevelMapping { game, knows_characters, knows_avatars })
@@ -298,9 +301,11 @@ impl LevelReader<'_> {
             let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
-            let near = around(at, columns, cells).filter(|_| count == 1);
+            // A letter or a digit stands for something, which is not what happens to be around it.
+            let near = around(at, columns, cells).filter(|_| count == 1 && !symbol.is_alphanumeric());
             let shown = symbol.escape_default();
             let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
+                _ if symbol == '\t' => (None, "write blanks instead: a tab is a single cell".to_owned()),
                 (Some(meant), ..) => (Some(meant), format!("did you mean `{meant}`?")),
                 (None, &[unused], _) if kinds == 1 && count > 1 => (
                     Some(unused),
@@ -309,6 +314,15 @@ impl LevelReader<'_> {
                     ),
                 ),
                 (None, _, Some(near)) => (Some(near), format!("did you mean `{near}`, as around it?")),
+                _ if self.unplaced(symbol).is_some() => {
+                    let name = self.unplaced(symbol).unwrap_or_default();
+                    (
+                        None,
+                        format!(
+                            "add a line `{shown} > {name}` to the LevelMapping: no character places `{name}`"
+                        ),
+                    )
+                }
                 _ if symbol.is_ascii_graphic() && symbol != '#' => (
                     None,
                     format!("add a line `{shown} > …` to the LevelMapping, or use a character that is in it"),
@@ -340,6 +354,23 @@ impl LevelReader<'_> {
                 None => problem,
             });
         }
+    }
+
+    /// The sprite type that an unmapped character most likely stands for: the only one that begins with it and that no
+    /// character places.
+    fn unplaced(&self, symbol: char) -> Option<&str> {
+        let rules = &self.game.0;
+        let mapped: BTreeSet<&SpriteType> = rules.mapping.iter().flatten().collect();
+        let begins = |name: &str| name.chars().next().is_some_and(|c| c.eq_ignore_ascii_case(&symbol));
+        let is_free = |at: &usize| {
+            let info = &rules.types[*at];
+            info.leaf
+                && info.class.is_some()
+                && !mapped.contains(&SpriteType(*at as u16))
+                && begins(&info.name)
+        };
+        let mut free = (0..rules.types.len()).filter(is_free).map(|at| rules.types[at].name.as_str());
+        free.next().filter(|_| free.next().is_none() && symbol.is_ascii_alphanumeric())
     }
 
     /// The first character of the LevelMapping that places an avatar.
@@ -419,7 +450,9 @@ impl LevelReader<'_> {
         if let [_, (extra, _), ..] = self.avatars[..] {
             let message = format!("the level places {} avatars", self.avatars.len());
             let problem = Diagnostic::error("extra-avatars", extra, message).label("not the first one");
-            self.problems.push(problem.help("keep one; the reference engine would remove all but the first"));
+            self.problems.push(problem.help(
+                "keep one: games of several players are not supported, and the reference engine would remove all but the first",
+            ));
         }
         if self.avatars.is_empty() {
             let end = text.trim_end().len();

@@ -367,32 +367,43 @@ def corpus() -> dict[str, CorpusGame]:
 
 
 def load(game: str | Path, *, as_reference: bool = False) -> Game:
-    """Loads a game: a ``.vgdl`` or ``.txt`` file, a folder with ``game.vgdl`` or ``game.txt`` and ``lvl0.txt`` …, or the name of a
-    corpus game. Levels beside a file are loaded with it if the file is called ``game``.
+    """Loads a game with the levels beside it: a ``.vgdl`` or ``.txt`` file, a folder with one, one of its levels, or the name of a
+    corpus game. Levels are called ``lvl0.txt`` …, or ``NAME_lvl0.txt`` … beside ``NAME.txt``. A level loads its game with that level
+    alone.
 
     Raises:
         FileNotFoundError: there is no such file, folder or corpus game.
         VgdlError: the game or one of its levels has problems.
-        ArcadeError: a file is not UTF-8.
+        ArcadeError: a file is not UTF-8, or a folder has several games.
     """
     path = Path(game)
+    asked = None
     if path.is_dir():
-        found = [path / name for name in ("game.vgdl", "game.txt") if (path / name).is_file()]
+        found = _native.games_of_files(_names(path))
         if not found:
-            raise FileNotFoundError(f"{path}: no game.vgdl or game.txt in this folder")
-        path = found[0]
+            raise FileNotFoundError(f"{path}: no game.vgdl or game.txt in this folder, and no NAME.txt with NAME_lvl0.txt beside it")
+        if len(found) > 1:
+            raise ArcadeError(f"{path}: this folder contains {len(found)} games; name one, such as {path / found[0][0]}")
+        path = path / found[0][0]
     elif not path.exists():
         if str(game) in corpus():
             return corpus()[str(game)].compile()
         near = get_close_matches(str(game), corpus(), n=1)
         help = f"; did you mean the corpus game `{near[0]}`?" if near else ""
         raise FileNotFoundError(f"{game}: there is no such file, folder or corpus game{help}")
-    beside = _level_files(path.parent) if path.stem == "game" else []
-    id = path.parent.resolve().name if path.stem == "game" else path.stem
+    elif (source := _native.game_of_level(path.name, _names(path.parent))) is not None:
+        asked, path = path, path.parent / source
+    own = _native.levels_of_files(path.name, _names(path.parent))
+    files = [path.parent / name for _, name in own] if asked is None else [asked]
+    id = path.parent.resolve().name if path.stem.lower() == "game" else path.stem
     loaded = Game(_text(path), name=str(path), id=id, as_reference=as_reference)
-    for file in beside:
+    for file in files:
         loaded.level(_text(file), name=str(file))
     return loaded
+
+
+def _names(folder: Path) -> list[str]:
+    return [file.name for file in folder.iterdir() if not file.is_dir()]
 
 
 def _text(path: Path) -> str:
@@ -400,11 +411,6 @@ def _text(path: Path) -> str:
         return path.read_text("utf-8")
     except UnicodeDecodeError as error:
         raise ArcadeError(f"{path}: not a text file (byte {error.start} is not UTF-8); save it as UTF-8") from None
-
-
-def _level_files(folder: Path) -> list[Path]:
-    numbered = [(file.stem.removeprefix("lvl"), file) for file in folder.glob("lvl*.txt")]
-    return [file for _, file in sorted((int(number), file) for number, file in numbered if number.isdigit())]
 
 
 def picture_html(picture: bytes, title: str, *, kind: str = "png") -> str:

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 mod _native {
     use super::*;
     #[pymodule_export]
-    use crate::corpus::corpus;
+    use crate::corpus::{corpus, game_of_level, games_of_files, levels_of_files};
     #[pymodule_export]
     use crate::errors::{ArcadeError, LogError, VgdlError};
     #[pymodule_export]

@@ -5,36 +5,52 @@ use crate::workspace::NamedText;
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tempfile::Builder;
 
 /// The most levels of a game that are read.
 const MAX_LEVELS: usize = 1000;
 
-/// Returns the number in the name of a level's file: `lvl3.txt` is level 3. Each number has one name.
+/// Returns the number in the name by which a page knows a level: `lvl3.txt` is level 3. Each number has one name, whatever
+/// the name of the file.
 pub(crate) fn level_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("lvl")?.strip_suffix(".txt")?;
     let number: usize = digits.parse().ok()?;
     (number < MAX_LEVELS && number.to_string() == digits).then_some(number)
 }
 
-/// Returns the numbers of the levels in a folder, in order.
-pub(crate) fn level_numbers(folder: &Path) -> Result<Vec<usize>, Refusal> {
+/// Returns the levels of a game in a folder, each with its number and the name of its file, in order.
+pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, String)>, Refusal> {
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
-    let mut numbers: Vec<usize> =
-        listed.flatten().filter_map(|entry| level_number(entry.file_name().to_str()?)).collect();
-    numbers.sort_unstable();
-    Ok(numbers)
+    let names: Vec<String> =
+        listed.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    let mut levels = engine::files::levels(source, names.iter().map(String::as_str));
+    levels.retain(|(number, _)| *number < MAX_LEVELS);
+    levels.dedup_by_key(|(number, _)| *number);
+    Ok(levels)
 }
 
-/// Returns the levels in a folder, in order.
-pub(crate) fn levels(folder: &Path) -> Result<Vec<NamedText>, Refusal> {
-    let read = |number| {
-        let name = format!("lvl{number}.txt");
-        let text = read_text(&folder.join(&name), MAX_LEVEL_TEXT)?;
-        Ok(NamedText { name, text })
+/// Returns the levels of a game in a folder, in order, under the names by which pages know them.
+pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refusal> {
+    let read = |(number, file): (usize, String)| {
+        let text = read_text(&folder.join(file), MAX_LEVEL_TEXT)?;
+        Ok(NamedText { name: format!("lvl{number}.txt"), text })
     };
-    level_numbers(folder)?.into_iter().map(read).collect()
+    level_files(folder, source)?.into_iter().map(read).collect()
+}
+
+/// Returns the path of the level of a game with that number: of the file that there is, or of one to make, named like
+/// the others.
+pub(crate) fn level_path(folder: &Path, source: &str, number: usize) -> Result<PathBuf, Refusal> {
+    let levels = level_files(folder, source)?;
+    if let Some((_, file)) = levels.iter().find(|(own, _)| *own == number) {
+        return Ok(folder.join(file));
+    }
+    let is_plain = |name: &str| name.len() >= 3 && name.as_bytes()[..3].eq_ignore_ascii_case(b"lvl");
+    let stem = Path::new(source).file_stem().unwrap_or_default().to_string_lossy();
+    let plain = levels.last().map_or_else(|| stem.eq_ignore_ascii_case("game"), |(_, file)| is_plain(file));
+    let prefix = if plain { String::new() } else { format!("{stem}_") };
+    Ok(folder.join(format!("{prefix}lvl{number}.txt")))
 }
 
 /// Reads the text of a game.
@@ -118,7 +134,29 @@ fn shown(path: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::level_number;
+    use super::{level_files, level_number, level_path};
+
+    #[test]
+    fn levels_keep_the_names_of_their_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path();
+        for name in
+            ["zelda.txt", "zelda_lvl0.txt", "zelda_LVL2.TXT", "aliens.txt", "aliens_lvl0.txt", "pond.vgdl"]
+        {
+            std::fs::write(path.join(name), "w").unwrap();
+        }
+        let numbers: Vec<usize> =
+            level_files(path, "zelda.txt").unwrap().into_iter().map(|(number, _)| number).collect();
+        assert_eq!(numbers, [0, 2]);
+        for (source, number, file) in [
+            ("zelda.txt", 2, "zelda_LVL2.TXT"),
+            ("zelda.txt", 3, "zelda_lvl3.txt"),
+            ("pond.vgdl", 0, "pond_lvl0.txt"),
+            ("game.vgdl", 7, "lvl7.txt"),
+        ] {
+            assert_eq!(level_path(path, source, number).unwrap(), path.join(file), "{source} {number}");
+        }
+    }
 
     #[test]
     fn each_level_has_one_name() {

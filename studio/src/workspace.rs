@@ -42,7 +42,7 @@ pub enum Place {
         /// The levels, in order.
         levels: Vec<NamedText>,
     },
-    /// In a folder, with the levels `lvl0.txt`, `lvl1.txt` … beside the game.
+    /// In a folder, with the levels beside the game: `lvl0.txt` …, or `NAME_lvl0.txt` … beside `NAME.txt`.
     Folder {
         /// The folder.
         folder: PathBuf,
@@ -173,7 +173,7 @@ impl GameEntry {
             Place::Texts { source, levels } => Ok((source.clone(), levels.clone())),
             Place::Folder { folder, source, .. } => {
                 let text = files::read_source(&folder.join(source))?;
-                Ok((NamedText { name: source.clone(), text }, files::levels(folder)?))
+                Ok((NamedText { name: source.clone(), text }, files::levels(folder, source)?))
             }
             Place::File { file, .. } => {
                 let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -186,7 +186,9 @@ impl GameEntry {
     pub(crate) fn count(&self) -> usize {
         match &self.place {
             Place::Texts { levels, .. } => levels.len(),
-            Place::Folder { folder, .. } => files::level_numbers(folder).map_or(0, |numbers| numbers.len()),
+            Place::Folder { folder, source, .. } => {
+                files::level_files(folder, source).map_or(0, |levels| levels.len())
+            }
             Place::File { .. } => 0,
         }
     }
@@ -201,12 +203,11 @@ impl GameEntry {
             Place::Folder { writable: false, .. } | Place::File { writable: false, .. } => {
                 Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
             }
-            Place::Folder { folder, source, .. } if name == source || files::level_number(name).is_some() => {
-                Ok(folder.join(name))
-            }
-            Place::Folder { source, .. } => {
-                Err(unknown(&format!("there are {source} and lvl0.txt, lvl1.txt …")))
-            }
+            Place::Folder { folder, source, .. } if name == source => Ok(folder.join(name)),
+            Place::Folder { folder, source, .. } => match files::level_number(name) {
+                Some(number) => files::level_path(folder, source, number),
+                None => Err(unknown(&format!("there are {source} and lvl0.txt, lvl1.txt …"))),
+            },
             Place::File { file, .. } if file.file_name().is_some_and(|own| own == name) => Ok(file.clone()),
             Place::File { .. } => Err(unknown(
                 "a game that is a single file has no levels beside it; put it into a folder as game.vgdl",

@@ -47,7 +47,8 @@ pub(crate) struct Placed {
 pub(crate) fn placed(source: &Named, problems: &[Diagnostic]) -> Vec<Placed> {
     let place = |problem: &Diagnostic| {
         let (line, column) = line_and_column(&source.text, problem.span.start);
-        Placed { file: source.name.clone(), line, column, problem: problem.clone() }
+        let problem = Diagnostic { help: words::help(source, problem), ..problem.clone() };
+        Placed { file: source.name.clone(), line, column, problem }
     };
     problems.iter().map(place).collect()
 }

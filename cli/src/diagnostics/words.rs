@@ -29,7 +29,8 @@ pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
         .with_code(problem.code)
         .with_severity(severity)
         .with_label(LabeledSpan::new_with_span(Some(label.to_owned()), code.span()));
-    diagnostic.help.clone_from(&problem.help);
+    diagnostic.help = help(source, problem);
+
     let theme = match std::io::stderr().is_terminal() {
         true => GraphicalTheme::unicode(),
         false => GraphicalTheme::unicode_nocolor(),
@@ -41,4 +42,18 @@ pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
         Ok(()) => text,
         Err(_) => format!("{}: {}\n", problem.code, problem.message),
     }
+}
+
+/// The help of a problem. The engine does not know the name of the file, and a command must work as printed.
+pub(crate) fn help(source: &Named, problem: &Diagnostic) -> Option<String> {
+    let help = problem.help.as_ref()?;
+    if problem.code != "other-dialect" {
+        return Some(help.clone());
+    }
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_./-".contains(c);
+    let name = match source.name.chars().all(is_plain) {
+        true => source.name.clone(),
+        false => format!("'{}'", source.name.replace('\'', "'\\''")),
+    };
+    Some(help.replacen(" GAME`", &format!(" {name}`"), 1))
 }

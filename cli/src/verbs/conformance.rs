@@ -3,7 +3,7 @@
 use crate::conformance::{Difference, Trace, compare};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::input;
+use crate::input::{self, GameInput};
 use engine::{Chance, Game, Outcome};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 /// Example: arcade conformance --games gvgai/games --traces gvgai/traces --game zelda
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folder with one folder per game: game.txt (or game.vgdl) and lvl0.txt, lvl1.txt …
+    /// Folder of games: a folder per game, with game.txt (or game.vgdl) and lvl0.txt …, or NAME.txt and NAME_lvl0.txt …
     #[arg(long, value_name = "DIR")]
     games: PathBuf,
     /// Folder with one folder of traces per game: *.jsonl.gz
@@ -113,23 +113,31 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
     Ok(traces)
 }
 
-/// Returns the compiled game, or the reason why it does not compile.
-fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> {
-    let folder = games.join(name);
-    let Some(path) = input::first_file(&folder, ["game.txt", "game.vgdl"])? else {
-        bail!("{}: no game.txt or game.vgdl, but there are traces of `{name}`", folder.display());
+/// A game with its rules, or the reason why it does not compile.
+struct Subject {
+    input: GameInput,
+    game: Result<Game, String>,
+}
+
+/// Returns the game of that name: a folder, or a file with its levels beside it.
+fn load_game(games: &Path, name: &str) -> Result<Subject, Failure> {
+    let places =
+        [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
+    let Some(place) = places.iter().find(|place| place.exists()) else {
+        bail!("{}: no folder or file of the game `{name}`, but there are traces of it", games.display());
     };
-    let source = input::read_text(&path, engine::MAX_SOURCE)?;
-    Ok(Game::from_source_as_reference(&source).map_err(|problems| {
+    let input = input::game(&place.display().to_string())?;
+    let game = Game::from_source_as_reference(&input.source.text).map_err(|problems| {
         let first = problems.0.first().map_or(String::new(), |first| first.message.clone());
-        format!("{} does not load; the first problem of {}: {first}", path.display(), problems.0.len())
-    }))
+        format!("{} does not load; the first problem of {}: {first}", input.source.name, problems.0.len())
+    });
+    Ok(Subject { input, game })
 }
 
 /// Returns the ticks played and, if the engine differs, the episode's entry in the report.
 fn replay(
     args: &Args,
-    game: &Result<Game, String>,
+    subject: &Subject,
     name: &str,
     path: &Path,
 ) -> Result<(usize, Option<Episode>), Failure> {
@@ -142,17 +150,16 @@ fn replay(
     }
     // A game that the reference could not load must not load here either, or must stop before it starts.
     let broken = trace.header.engine_error.is_some();
-    let game = match game {
+    let game = match &subject.game {
         Ok(game) => game,
         Err(_) if broken => return Ok((0, None)),
         Err(why) => return refused(why.clone()),
     };
-    let file = args.games.join(name).join(format!("lvl{}.txt", trace.header.level));
-    let text = input::read_text(&file, engine::MAX_LEVEL_TEXT)?;
-    let level = match game.level(&text) {
+    let named = subject.input.numbered_level(trace.header.level)?;
+    let level = match game.level(&named.text) {
         Ok(level) => level,
         Err(_) if broken => return Ok((0, None)),
-        Err(problems) => return refused(format!("{} does not load: {problems}", file.display())),
+        Err(problems) => return refused(format!("{} does not load: {problems}", named.name)),
     };
     if broken {
         return match game.start_with(&level, Chance::from_java(trace.header.seed)).outcome() {

@@ -14,7 +14,7 @@ use serde_json::json;
 /// Example: arcade describe hailglass 0
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
     /// A level file, or the number of one of the game's own levels
@@ -37,7 +37,10 @@ struct Prospects {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
-    let named = args.level.as_ref().map(|name| input.level(name)).transpose()?;
+    let named = match &args.level {
+        Some(name) => Some(input.level(name)?),
+        None => input.asked()?,
+    };
     let game = input.compile(args.as_reference)?;
     let analysis = Analysis::of(&game);
     let prospects = named.map(|named| prospects(&analysis, &named)).transpose()?;

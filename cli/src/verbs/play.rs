@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// Example: arcade play quiet-jars 0 --record win.json
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
     /// A level file, or the number of one of the game's own levels; by default the recording's level, or the first

@@ -22,7 +22,7 @@ const GIF_SIDE: u32 = 480;
 /// Example: arcade render hailglass 0 --planner mcts --budget 500 -o hailglass.gif
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
     /// A level file, or the number of one of the game's own levels; by default the episode's level, or the first

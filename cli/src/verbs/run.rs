@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// Example: arcade run corpora --planner random,mcts,olets:500 --budget 1000 --runs 5
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Games, or folders of games; corpus games by name
+    /// Games, or folders of games; corpus games by name. A level file counts for its game alone
     #[arg(value_name = "GAMES", required = true)]
     games: Vec<String>,
     /// Planners, each optionally with its own budget: `mcts,olets:500` (see `arcade docs planners`)
@@ -59,7 +59,8 @@ pub(crate) struct Args {
 struct Subject {
     title: String,
     game: Game,
-    levels: Vec<Level>,
+    /// The levels with their numbers.
+    levels: Vec<(usize, Level)>,
 }
 
 struct Entry<'a> {
@@ -221,15 +222,15 @@ fn check_place(path: &Path) -> Result<(), Failure> {
 
 fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
     let mut subjects = Vec::new();
-    for name in &args.games {
-        for input in input::games(name)? {
-            let game = input.compile(args.as_reference)?;
-            let levels = input.checked_levels(&game)?;
-            if levels.is_empty() {
-                bail!("{}: the game has no levels", input.source.name);
-            }
-            subjects.push(Subject { title: input.title, game, levels });
+    for input in input::named_games(&args.games)? {
+        let game = input.compile(args.as_reference)?;
+        let levels = input.numbered_levels()?.into_iter();
+        let levels = levels.map(|(number, named)| Ok((number, named.level(&game)?)));
+        let levels = levels.collect::<Result<Vec<_>, Failure>>()?;
+        if levels.is_empty() {
+            bail!("{}: the game has no levels beside it; name level files after it", input.source.name);
         }
+        subjects.push(Subject { title: input.title, game, levels });
     }
     Ok(subjects)
 }
@@ -238,22 +239,23 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
 /// other episode.
 fn play_entry<'a>(args: &Args, entry: &'a Entry<'a>) -> Line<'a> {
     let Entry { subject, level, planner, run } = *entry;
+    let (number, level) = &subject.levels[level];
     let seed = Seed::from_text(&args.seed)
         .child(&subject.game.digest().to_string(), 0)
-        .child("level", level as u64)
+        .child("level", *number as u64)
         .child("run", run);
     let mut player = planner.player(seed.child(planner.name(), 0));
     let budget = budget(args, planner);
     let limits = Limits { ticks: usize::try_from(args.max_ticks).unwrap_or(usize::MAX), ..Limits::default() };
     let started = Stopwatch::start();
     let chance = seed.child("chance", 0);
-    let played = play(&subject.game, &subject.levels[level], &mut player, Budget(budget), chance, limits);
+    let played = play(&subject.game, level, &mut player, Budget(budget), chance, limits);
     Line {
         entry,
         game: &subject.title,
         planner: planner.name(),
         budget,
-        level,
+        level: *number,
         run,
         outcome: match played.episode.outcome {
             Outcome::Ongoing => "ongoing",
@@ -333,7 +335,8 @@ fn rows<'a>(
     for subject in subjects {
         for planner in planners {
             if args.by_level {
-                rows.extend((0..subject.levels.len()).map(|level| row(Some(subject), Some(level), planner)));
+                let numbers = subject.levels.iter().map(|(number, _)| *number);
+                rows.extend(numbers.map(|number| row(Some(subject), Some(number), planner)));
             }
             rows.push(row(Some(subject), None, planner));
         }

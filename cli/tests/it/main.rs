@@ -10,6 +10,7 @@ mod evaluate;
 mod export;
 mod generate;
 mod generate_games;
+mod layout;
 mod log;
 mod lsp;
 mod mailbox;

@@ -436,11 +436,13 @@ fn problems_of_the_game_hide_none_of_its_levels() {
 #[test]
 fn levels_named_as_games_are_reported() {
     let folder = folder(GAME, LEVEL);
+    let said = text(&run(folder.path(), &["fmt", "lvl0.txt"], 2).stderr);
+    assert!(said.contains("its game is game.vgdl: arcade fmt game.vgdl"), "{said}");
+    fs::remove_file(folder.path().join("game.vgdl")).unwrap();
     for verb in ["validate", "describe", "fmt", "play"] {
         let output = run(folder.path(), &[verb, "lvl0.txt"], 2);
         let said = text(&output.stderr);
-        let meant =
-            "lvl0.txt: this is a level, not a game; name its game first: arcade validate GAME lvl0.txt";
+        let meant = "lvl0.txt: this is a level, not a game, and there is no game beside it; name its game first: arcade validate GAME lvl0.txt";
         assert!(said.contains(meant), "{said}");
     }
 }

@@ -4,7 +4,7 @@ use super::uri;
 use crate::positions::{Lines, Position, Unit};
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE, Span};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -27,15 +27,19 @@ impl Kind {
         let name = name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         match name {
             name if is_level(name) => Kind::Level,
-            name if name.ends_with(".vgdl") || name == "game.txt" || language == "vgdl" => Kind::Game,
+            name if name.ends_with(".vgdl")
+                || name.eq_ignore_ascii_case("game.txt")
+                || language == "vgdl" =>
+            {
+                Kind::Game
+            }
             _ => Kind::Other,
         }
     }
 }
 
 fn is_level(name: &str) -> bool {
-    let number = name.strip_prefix("lvl").and_then(|rest| rest.strip_suffix(".txt"));
-    number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
+    engine::files::level_number(name).is_some()
 }
 
 /// A text with its lines.
@@ -140,25 +144,32 @@ impl Documents {
 
     /// The game of a level, with its URI: the open document, or the file on disk.
     pub(super) fn game_of(&self, level: &str) -> Option<(String, Text)> {
-        let folder = uri::path(level)?.parent()?.to_owned();
-        ["game.vgdl", "game.txt"].into_iter().find_map(|name| self.text_at(&folder.join(name), MAX_SOURCE))
+        let path = uri::path(level)?;
+        let (folder, name) = (path.parent()?, path.file_name()?.to_str()?);
+        let names = self.names_in(folder);
+        let game = engine::files::game_of(name, names.iter().map(String::as_str))?;
+        self.text_at(&folder.join(game), MAX_SOURCE)
     }
 
     /// The levels of a game, with their URIs: those that are open, and those on disk.
     pub(super) fn levels_of(&self, game: &str) -> Vec<(String, Text)> {
         let Some(path) = uri::path(game) else { return Vec::new() };
-        let is_whole = path.file_stem().is_some_and(|stem| stem == "game");
-        let Some(folder) = path.parent().filter(|_| is_whole) else { return Vec::new() };
-        let is_of_game = |path: &PathBuf| {
-            path.parent() == Some(folder)
-                && path.file_name().and_then(|name| name.to_str()).is_some_and(is_level)
+        let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
+        else {
+            return Vec::new();
         };
-        let open = self.0.keys().filter_map(|uri| uri::path(uri));
-        let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        let mut paths: Vec<PathBuf> = open.chain(files).filter(is_of_game).collect();
-        paths.sort();
-        paths.dedup();
-        paths.iter().filter_map(|path| self.text_at(path, MAX_LEVEL_TEXT)).collect()
+        let names = self.names_in(folder);
+        let levels = engine::files::levels(name, names.iter().map(String::as_str));
+        levels.iter().filter_map(|(_, level)| self.text_at(&folder.join(level), MAX_LEVEL_TEXT)).collect()
+    }
+
+    /// The names of the files in a folder, open or on disk.
+    fn names_in(&self, folder: &Path) -> BTreeSet<String> {
+        let open =
+            self.0.keys().filter_map(|uri| uri::path(uri)).filter(|path| path.parent() == Some(folder));
+        let open = open.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()));
+        let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        open.chain(files.filter_map(|entry| entry.file_name().into_string().ok())).collect()
     }
 
     /// The text of a file: of the open document, or what is on disk.
@@ -187,6 +198,7 @@ mod tests {
             ("file:///a/game.vgdl", "", Kind::Game),
             ("file:///a/game.txt", "plaintext", Kind::Game),
             ("file:///a/lvl12.txt", "vgdl", Kind::Level),
+            ("file:///a/zelda_lvl2.txt", "", Kind::Level),
             ("file:///a/lvl.txt", "", Kind::Other),
             ("file:///a/notes.txt", "plaintext", Kind::Other),
             ("untitled:Untitled-1", "vgdl", Kind::Game),

@@ -3,6 +3,7 @@
 use super::params::{Expected, Value, convert, wrong_type};
 use crate::diagnostic::Diagnostic;
 use crate::limits::{MAX_COUNTERS, MAX_SQUARE};
+use crate::meanings::Place;
 use crate::syntax::{Description, Param, Word};
 
 const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counters", "obs"];
@@ -36,8 +37,14 @@ impl Header {
                     problems.push(unsupported(param, message));
                 }
                 ("no_players", Value::Int(1)) => {}
+                ("no_players", Value::Int(players)) if players > 1 => {
+                    let message =
+                        format!("games of several players are not supported, and this one is for {players}");
+                    let help = "make it a game of one player: remove `no_players`, and all avatars but one";
+                    problems.push(unsupported(param, message).help(help));
+                }
                 ("no_players", Value::Int(_)) => {
-                    let message = "a game has one player here: `no_players` can only be 1";
+                    let message = "`no_players` is the number of players, and can only be 1";
                     problems.push(unsupported(param, message.to_owned()));
                 }
                 ("square_size" | "no_counters" | "no_players", _) => {
@@ -49,7 +56,7 @@ impl Header {
                 (key, _) => {
                     let message = format!("a game has no parameter `{key}`");
                     let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-                    problems.push(problem.suggest(key, KEYS));
+                    problems.push(problem.mean(Place::GameParameter, key, KEYS).or_remove(param.span(), key));
                 }
             }
         }

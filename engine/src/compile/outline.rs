@@ -1,6 +1,7 @@
 //! The part of a game that its levels need: the characters that place sprites, and which of these are avatars.
 
 use crate::diagnostic::{Diagnostic, nearest};
+use crate::meanings::{Place, meaning};
 use crate::rules::class::SpriteClass;
 use crate::syntax::{Description, Header, MappingLine, Param, Section, SpriteLine, TerminationLine, Word};
 use std::collections::BTreeSet;
@@ -75,8 +76,13 @@ impl Sprites {
     fn add(&mut self, line: &SpriteLine, inherited: Option<SpriteClass>) {
         let read = |class: &Word| {
             let names = || SpriteClass::ALL.iter().map(|class| class.name());
-            SpriteClass::from_name(&class.text)
-                .or_else(|| nearest(&class.text, names()).and_then(SpriteClass::from_name))
+            let meant = || match meaning(Place::Class, &class.text) {
+                Some(_) if class.text.to_lowercase().ends_with("avatar") => Some("MovingAvatar"),
+                Some(found) => found.write.first().copied(),
+                None => nearest(&class.text, names())
+                    .or(Some("MovingAvatar").filter(|_| class.text.to_lowercase().ends_with("avatar"))),
+            };
+            SpriteClass::from_name(&class.text).or_else(|| meant().and_then(SpriteClass::from_name))
         };
         let class = line.class.as_ref().map_or(inherited, read);
         self.sure &= class.is_some() || line.class.is_none() && !line.children.is_empty();

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::geometry::Direction;
 use crate::limits::MAX_PROBLEMS;
+use crate::meanings::Place;
 use crate::rules::class::SpriteClass;
 use crate::rules::constants::{COLORS, Constant, constant, direction_names};
 use crate::rules::traits::Traits;
@@ -172,7 +173,12 @@ pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize)
     let message = format!("{} has no parameter `{key}`", class.name());
     let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
     let problem = problem.help(format!("remove it: {} does nothing with it", class.name()));
-    let problem = problem.suggest_after(found, key, BASE.iter().copied().chain(class.parameters()));
+    let problem = problem.mean_after(
+        found,
+        Place::SpriteParameter,
+        key,
+        BASE.iter().copied().chain(class.parameters()),
+    );
     if found < MAX_PROBLEMS { problem.or_remove(param.span(), key) } else { problem }
 }
 

@@ -5,6 +5,7 @@ use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::{MAX_PARAMETERS, MAX_REACH};
+use crate::meanings::Place;
 use crate::rules::class::SpriteClass;
 use crate::rules::traits::Traits;
 use crate::rules::{Action, SpriteType, TypeInfo};
@@ -331,7 +332,8 @@ fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClas
         let message = format!("no sprite class named `{}`", word.text);
         let problem = Diagnostic::error("unknown-class", word.span, message);
         let problem = problem.help("see `arcade docs sprites` for all classes");
-        problems.push(problem.suggest(&word.text, SpriteClass::ALL.iter().map(|class| class.name())));
+        let classes = SpriteClass::ALL.iter().map(|class| class.name());
+        problems.push(problem.mean_after(problems.len(), Place::Class, &word.text, classes));
     }
     found
 }

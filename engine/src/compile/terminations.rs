@@ -5,6 +5,7 @@ use super::{Names, Setting};
 use crate::diagnostic::Diagnostic;
 use crate::keywords::TERMINATIONS;
 use crate::limits::MAX_PROBLEMS;
+use crate::meanings::Place;
 use crate::rules::SpriteType;
 use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
@@ -74,8 +75,9 @@ impl<'a> Reader<'a> {
                 let message = format!("no termination named `{name}`");
                 let problem = Diagnostic::error("unknown-termination", span, message);
                 let problem = problem.help(format!("terminations are {}", TERMINATIONS.join(", ")));
-                self.problems.push(problem.suggest_after(
+                self.problems.push(problem.mean_after(
                     self.problems.len(),
+                    Place::Termination,
                     name,
                     TERMINATIONS.iter().copied(),
                 ));
@@ -91,7 +93,7 @@ impl<'a> Reader<'a> {
                 let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
                 let problem = problem.help(format!("its parameters are {}", known.join(", ")));
                 let reported = self.problems.len();
-                let problem = problem.suggest_after(reported, key, known);
+                let problem = problem.mean_after(reported, Place::TerminationParameter, key, known);
                 self.problems.push(match reported < MAX_PROBLEMS {
                     true => problem.or_remove(param.span(), key),
                     false => problem,

@@ -10,6 +10,7 @@ use super::repair;
 use super::sections::{self, Part};
 use super::tokens::Token;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span};
+use crate::meanings::Place;
 
 /// Reads a game file as the reference does: faulty lines are dropped, with a message each; lines indented deeper than
 /// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostic is the fault on which the reference crashes,
@@ -136,7 +137,7 @@ impl Reader {
             let problem = Diagnostic::error("unknown-game-class", span, message);
             let problem =
                 problem.help("the first line that is not a comment must be `BasicGame key=value …`");
-            self.problems.push(problem.suggest(&header.class.text, ["BasicGame", "GameSpace"]));
+            self.problems.push(problem.mean(Place::Game, &header.class.text, ["BasicGame", "GameSpace"]));
         }
         self.description.header = header;
     }

@@ -6,6 +6,7 @@ use super::indents;
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Edit, Span, nearest};
 use crate::keywords::{CLASSES, EFFECTS, TERMINATIONS};
+use crate::meanings::{Place, meaning};
 
 /// A section: the line of its name and the lines below it.
 pub(super) struct Part<'a, 'b> {
@@ -52,7 +53,8 @@ fn split<'a, 'b>(
             if all_named || line.text.contains([' ', '\t', '>', '=']) {
                 return None;
             }
-            let near = nearest(line.text, Section::ALL.map(Section::name)).and_then(named);
+            let meant = meaning(Place::Section, line.text).and_then(|found| found.write.first().copied());
+            let near = meant.or_else(|| nearest(line.text, Section::ALL.map(Section::name))).and_then(named);
             near.filter(|&section| !exact[section as usize])
         };
         let Some(section) = named(line.text).or_else(misspelt) else {

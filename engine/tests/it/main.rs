@@ -13,6 +13,7 @@ mod clauses;
 mod compile;
 mod countdowns;
 mod describe;
+mod dialects;
 mod effect_summaries;
 mod effect_vectors;
 mod game_space;

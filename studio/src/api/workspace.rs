@@ -157,8 +157,12 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
     let path = game.path_of(name)?;
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
     // Without the last one, the numbers of the others have no gap.
-    let last =
-        path.parent().map(files::level_numbers).transpose()?.and_then(|numbers| numbers.last().copied());
+    let last = match &game.place {
+        Place::Folder { folder, source, .. } => {
+            files::level_files(folder, source)?.last().map(|(last, _)| *last)
+        }
+        _ => None,
+    };
     let Some(last) = last.filter(|_| files::level_number(name).is_some()) else {
         return Err(Refusal::forbidden("only levels can be removed"));
     };

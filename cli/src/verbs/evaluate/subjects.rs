@@ -43,18 +43,21 @@ pub(crate) struct Subjects {
 /// Reads the named subjects: a snapshot's folder, or games.
 pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     let (mut snapshot, mut release, mut games): (_, _, Vec<Subject>) = (None, None, Vec::new());
-    for name in args.subjects {
-        let place = &paths::release(PathBuf::from(name));
-        if is_snapshot(place) {
-            if args.subjects.len() > 1 {
-                bail!("{name}: a snapshot is evaluated alone; remove the other games");
-            }
-            let (name, root, found) = of_snapshot(place, args)?;
-            (snapshot, release, games) = (Some(root), Some(name), found);
-        } else {
-            for input in input::games(name).map_err(|error| with_release(error, place))? {
-                games.push(of_input(&input, args)?);
-            }
+    let places: Vec<PathBuf> = args.subjects.iter().map(|name| paths::release(PathBuf::from(name))).collect();
+    if let Some(place) = places.iter().find(|place| is_snapshot(place)) {
+        if args.subjects.len() > 1 {
+            bail!("{}: a snapshot is evaluated alone; remove the other games", place.display());
+        }
+        let (name, root, found) = of_snapshot(place, args)?;
+        (snapshot, release, games) = (Some(root), Some(name), found);
+    } else {
+        let found = input::named_games(args.subjects);
+        let found = match &places[..] {
+            [place] => found.map_err(|error| with_release(error, place)),
+            _ => found,
+        };
+        for input in found? {
+            games.push(of_input(&input, args)?);
         }
     }
     let mut ids = BTreeSet::new();
@@ -96,18 +99,16 @@ fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
         as_reference: args.as_reference,
         ..SubjectFacts::default()
     };
-    let named = input.levels()?;
+    let named = input.numbered_levels()?;
     if named.is_empty() {
-        bail!(
-            "{}: the game has no levels; put lvl0.txt and so on beside a game.vgdl, and name the folder",
-            input.source.name
-        );
+        bail!("{}: the game has no levels beside it; name level files after it", input.source.name);
     }
-    let wanted = named.iter().enumerate().filter(|(number, _)| args.wants(*number));
-    let levels: Vec<_> = wanted.map(|(number, level)| (number, level.text.clone(), None)).collect();
+    let wanted = named.iter().filter(|(number, _)| args.wants(*number));
+    let levels: Vec<_> = wanted.map(|(number, level)| (*number, level.text.clone(), None)).collect();
     let subject = Subject::read(&id, &input.source.text, &levels, facts);
     subject.map_err(|Unreadable { level, problems }| {
-        let file = level.map_or(&input.source, |number| &named[number]);
+        let level = named.iter().find(|(number, _)| Some(*number) == level);
+        let file = level.map_or(&input.source, |(_, named)| named);
         diagnostics::failure(file, &problems.0)
     })
 }
@@ -236,7 +237,12 @@ impl Wanted<'_> {
 fn slug(title: &str) -> String {
     let path = Path::new(title);
     let parts = path.iter().rev().filter_map(|part| part.to_str());
-    let stem = |part: &str| part.trim_end_matches(".vgdl").trim_end_matches(".txt").to_owned();
+    let stem = |part: &str| match part.rsplit_once('.') {
+        Some((stem, ending)) if ["vgdl", "txt"].iter().any(|known| ending.eq_ignore_ascii_case(known)) => {
+            stem.to_owned()
+        }
+        _ => part.to_owned(),
+    };
     let said = parts.map(stem).find(|part| part != "game" && !part.is_empty()).unwrap_or_default();
     let plain = said.replace(|c: char| !(c.is_alphanumeric() || matches!(c, '-' | '_')), "-");
     if plain.trim_matches('-').is_empty() { "game".to_owned() } else { plain }
@@ -255,6 +261,7 @@ mod tests {
             ("a b:c.txt", "a-b-c"),
             ("..", "game"),
             ("game.vgdl", "game"),
+            ("gridphysics/zelda.TXT", "zelda"),
         ] {
             assert_eq!(slug(title), id, "{title}");
         }

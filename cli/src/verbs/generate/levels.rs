@@ -35,7 +35,7 @@ use validators::{Difficulty, RuleRef};
 /// Example: arcade generate levels --game hailglass --method search --count 5 --difficulty hard --out new-levels
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(long, value_name = "GAME")]
     game: String,
     /// constructive: instant; search: each level improved step by step; evolutionary: an archive of different levels

@@ -109,7 +109,8 @@ fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
         }
         Some(path) => {
             let writable = protected::check(path).is_ok();
-            let is_whole = path.file_stem().is_some_and(|stem| stem == "game");
+            let is_whole =
+                input.count() > 0 || path.file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case("game"));
             match (is_whole, file_name(path)) {
                 (true, Some(source)) => {
                     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());

@@ -25,7 +25,7 @@ use validators::{Criteria, GATES, Panel, Report};
 /// Example: arcade validate my-game/ --witness win.json
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
     /// Level files, or numbers of the game's own levels; by default all of those
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let levels = levels(args, &input)?;
     if levels.is_empty() {
         let name = &input.source.name;
-        let help = "name a level file after it, or put lvl0.txt beside game.vgdl";
+        let help = "name a level file after it, or put lvl0.txt beside it";
         bail!("{name}: the game compiles, but there is no level to judge; {help}");
     }
     if args.witness.is_some() && levels.len() > 1 {
@@ -147,10 +147,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
-    match args.levels[..] {
-        [] => input.levels(),
-        _ => args.levels.iter().map(|name| input.level(name)).collect(),
-    }
+    input.named_levels(&args.levels)
 }
 
 /// Returns the problems of a game that does not compile, and the certain problems of its levels.

@@ -5,6 +5,7 @@ use super::arguments::number_of;
 use crate::diagnostic::Diagnostic;
 use crate::keywords;
 use crate::limits::MAX_PROBLEMS;
+use crate::meanings::Place;
 use crate::rules::effects::{self, Arguments};
 use crate::rules::{Counting, EffectInfo, Timed};
 use crate::syntax::{InteractionLine, Param, Word};
@@ -103,7 +104,8 @@ impl<'a> Reader<'a> {
         let problem = Diagnostic::error("unknown-effect", name.span, message);
         let problem = problem.help("see `arcade docs effects` for all effects");
         let reported = self.reported + self.problems.len();
-        self.problems.push(problem.suggest_after(reported, &name.text, keywords::EFFECTS.iter().copied()));
+        let effects = keywords::EFFECTS.iter().copied();
+        self.problems.push(problem.mean_after(reported, Place::Effect, &name.text, effects));
     }
 
     /// Tests whether the line is written with TIME: on the left, or first on the right.
@@ -182,7 +184,7 @@ impl<'a> Reader<'a> {
                 _ => format!("remove it, or write one of its own: {}", own.join(", ")),
             });
             let reported = self.reported + self.problems.len();
-            let problem = problem.suggest_after(reported, key, known);
+            let problem = problem.mean_after(reported, Place::EffectParameter, key, known);
             self.problems.push(match reported < MAX_PROBLEMS {
                 true => problem.or_remove(param.span(), key),
                 false => problem,

@@ -9,7 +9,7 @@ const ENGINE: &str = "engine/src/";
 const LAYERS: [&[&str]; 5] = [&["syntax"], &["rules", "compile"], &["world"], &["tick"], &["schedule"]];
 
 /// Modules without knowledge of games, which every layer may use.
-const VALUES: [&str; 13] = [
+const VALUES: [&str; 14] = [
     "causes",
     "chance",
     "defaults",
@@ -19,6 +19,7 @@ const VALUES: [&str; 13] = [
     "geometry",
     "keywords",
     "limits",
+    "meanings",
     "named",
     "sampler",
     "seed",

@@ -1,0 +1,124 @@
+//! Python files that hold a game, and often its levels, as strings in triple quotes.
+
+use crate::syntax::{self, Section};
+use std::collections::BTreeSet;
+
+/// The first game of a Python file, and its levels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PythonFile {
+    /// The game, below as many empty lines as stand above it in the file: its lines keep their numbers.
+    pub game: String,
+    /// The line of the first quotes of the game.
+    pub line: usize,
+    /// The levels, in the order of the file.
+    pub levels: Vec<String>,
+    /// The lines of the first quotes of further games.
+    pub others: Vec<usize>,
+}
+
+/// A string in triple quotes.
+struct Quoted {
+    line: usize,
+    text: String,
+}
+
+/// The game in the strings of a Python file; `None` if there is none.
+pub fn python_file(source: &str) -> Option<PythonFile> {
+    let (games, others): (Vec<Quoted>, Vec<Quoted>) =
+        quoted(source).into_iter().partition(|quoted| is_game(&quoted.text));
+    let (first, further) = games.split_first()?;
+    let game = format!("{}{}", "\n".repeat(first.line - 1), first.text);
+    let (description, _) = syntax::parse(&game);
+    let symbols: BTreeSet<char> =
+        description.mapping.iter().map(|line| line.symbol).chain(['w', 'A', ' ']).collect();
+    let rows = |text: &str| -> String {
+        text.lines().map(str::trim_end).filter(|row| !row.is_empty()).map(|row| format!("{row}\n")).collect()
+    };
+    let levels = others.iter().map(|quoted| rows(&quoted.text));
+    let is_level =
+        |text: &String| !text.is_empty() && text.chars().all(|c| c == '\n' || symbols.contains(&c));
+    let levels = levels.filter(is_level).collect();
+    Some(PythonFile {
+        game,
+        line: first.line,
+        levels,
+        others: further.iter().map(|quoted| quoted.line).collect(),
+    })
+}
+
+/// Tests whether a text has two of the sections, each on a line of its own.
+fn is_game(text: &str) -> bool {
+    let is_name = |line: &&str| Section::ALL.iter().any(|section| section.name() == line.trim());
+    text.lines().filter(is_name).count() > 1
+}
+
+/// The strings in triple quotes, with their escapes resolved as far as games and levels have any.
+fn quoted(source: &str) -> Vec<Quoted> {
+    let mut found = Vec::new();
+    let (mut rest, mut line) = (source, 1);
+    while let Some(at) = rest.find(['#', '"', '\'']) {
+        line += rest[..at].matches('\n').count();
+        let is_raw = rest[..at].ends_with(['r', 'R']);
+        rest = &rest[at..];
+        let mark = ["\"\"\"", "'''"].into_iter().find(|mark| rest.starts_with(mark));
+        let Some(mark) = mark else {
+            // A comment, or a string on one line.
+            let quote = &rest[..1];
+            let end = rest.find('\n').unwrap_or(rest.len());
+            let closing = |body: &str| {
+                let mut escaped = false;
+                body.find(|c: char| {
+                    let ends = !escaped && quote.starts_with(c);
+                    escaped = !escaped && c == '\\';
+                    ends
+                })
+            };
+            let end = match quote {
+                "#" => end,
+                _ => closing(&rest[1..end]).map_or(end, |at| at + 2),
+            };
+            rest = &rest[end..];
+            continue;
+        };
+        let body = &rest[mark.len()..];
+        let end = body.find(mark).unwrap_or(body.len());
+        let text = match is_raw {
+            true => body[..end].to_owned(),
+            // A joined line keeps its number.
+            false => body[..end].replace("\\\r\n", "\n").replace("\\\n", "\n").replace("\\\\", "\\"),
+        };
+        found.push(Quoted { line, text });
+        line += body[..end].matches('\n').count();
+        rest = body.get(end + mark.len()..).unwrap_or_default();
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GAME: &str =
+        "BasicGame\n    SpriteSet\n        a > MovingAvatar\n    LevelMapping\n        \\\\ > a\n";
+
+    #[test]
+    fn games_and_levels_are_found_in_strings() {
+        let source = format!(
+            "# it's \"\"\"no string\"\"\"\n'''A file.'''\nx = 'a\\'\"\"\"'\nlevel = \"\"\"\nww\nw\\\\\n\n\"\"\"\ngame = r'''{GAME}'''\ngame = \"\"\"\\\n{GAME}\"\"\"\n"
+        );
+        let file = python_file(&source).unwrap();
+        assert_eq!((file.line, &file.others[..]), (9, &[15][..]));
+        assert_eq!(file.game.lines().nth(8), Some("BasicGame"));
+        assert!(file.game.contains("\\\\ > a"), "a raw string keeps its escapes");
+        let plain = python_file(&source.replace("r'''", "'''")).unwrap();
+        assert_eq!(plain.levels, ["ww\nw\\\n"]);
+    }
+
+    #[test]
+    fn any_text_is_read() {
+        for source in ["", "\"", "'''", "\"\"\"\"", "#", "'\\", "\"\"\"\\", GAME, "r'''é"] {
+            assert_eq!(python_file(source), None, "{source}");
+        }
+        assert!(python_file(&format!("'''{GAME}")).is_some());
+    }
+}

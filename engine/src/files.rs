@@ -1,0 +1,212 @@
+//! The names of a game's files: which levels belong to which game. The engine reads no files; who does asks here.
+//!
+//! A level is `lvl3.txt` beside `game.vgdl` or `game.txt`, or beside the only game of a folder; or it is `zelda_lvl3.txt`
+//! beside `zelda.vgdl` or `zelda.txt`, as the public games are stored. Capitals do not matter, and numbers may have gaps.
+
+/// The names of a game and its levels, all in one folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GameFiles {
+    /// The file of the rules.
+    pub source: String,
+    /// The levels with their numbers, in order.
+    pub levels: Vec<(usize, String)>,
+}
+
+/// The most digits of a level's number.
+const MAX_DIGITS: usize = 6;
+
+/// Returns the number in the name of a level: 3 for `lvl3.txt` and for `zelda_lvl3.txt`.
+pub fn level_number(name: &str) -> Option<usize> {
+    level(name).map(|(_, number)| number)
+}
+
+/// Returns the games of a folder with these files, sorted by name: `game.vgdl` or `game.txt` alone if there is one, or
+/// else every file with levels of its own, or else every file that ends in `.vgdl`.
+pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
+    let mut names: Vec<&str> = names.into_iter().collect();
+    names.sort_unstable();
+    let whole = |ending: &str| {
+        names.iter().copied().find(|name| name.eq_ignore_ascii_case(&format!("game.{ending}")))
+    };
+    let mut sources: Vec<&str> = match whole("vgdl").or_else(|| whole("txt")) {
+        Some(whole) => vec![whole],
+        None => sources(&names),
+    };
+    let preferred = |source: &&str| {
+        let twin = |other: &&str| stem(other) == stem(source) && has_ending(other, "vgdl");
+        has_ending(source, "vgdl") || !sources.iter().any(twin)
+    };
+    let kept: Vec<&str> = sources.iter().copied().filter(preferred).collect();
+    sources = kept;
+    sources
+        .into_iter()
+        .map(|source| GameFiles { source: source.to_owned(), levels: levels(source, names.iter().copied()) })
+        .collect()
+}
+
+/// Returns the levels of the game with this file among the files of its folder, by number.
+pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(usize, String)> {
+    let names: Vec<&str> = names.into_iter().collect();
+    let takes_plain = || {
+        let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, &names);
+        is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
+    };
+    let takes_plain = takes_plain();
+    let of_game = |name: &str| match level(name)? {
+        (Some(owner), number) => owner.eq_ignore_ascii_case(stem(source)).then_some(number),
+        (None, number) => takes_plain.then_some(number),
+    };
+    let own = names.iter().filter(|name| **name != source);
+    let mut levels: Vec<(usize, String)> =
+        own.filter_map(|name| Some((of_game(name)?, (*name).to_owned()))).collect();
+    levels.sort();
+    levels
+}
+
+/// Returns the file of the game that a level belongs to, among the files of its folder. A file that is not named like a
+/// level belongs to the only game of its folder.
+pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let names: Vec<&str> = names.into_iter().filter(|name| *name != file).collect();
+    let owner = level(file).map(|(owner, _)| owner.unwrap_or("game"));
+    let called = |ending: &str| {
+        let wanted = format!("{}.{ending}", owner?);
+        names.iter().copied().find(|name| name.eq_ignore_ascii_case(&wanted))
+    };
+    let named = called("vgdl").or_else(|| called("txt")).map(str::to_owned);
+    named.or_else(|| match &games(names.iter().copied())[..] {
+        [only] => Some(only.source.clone()),
+        _ => None,
+    })
+}
+
+/// The files that are games by their names or by the names of their levels, in a folder without `game.vgdl`, `game.txt`.
+fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
+    let candidates = || names.iter().copied().filter(|name| is_source(name));
+    let with_levels: Vec<&str> = candidates().filter(|name| owns_levels(name, names)).collect();
+    if !with_levels.is_empty() {
+        return with_levels;
+    }
+    let rules: Vec<&str> = candidates().filter(|name| has_ending(name, "vgdl")).collect();
+    let plain_levels = names.iter().any(|name| matches!(level(name), Some((None, _))));
+    match &candidates().collect::<Vec<_>>()[..] {
+        [only] if rules.is_empty() && plain_levels => vec![*only],
+        _ => rules,
+    }
+}
+
+fn owns_levels(source: &str, names: &[&str]) -> bool {
+    let own = |name: &&str| {
+        level(name).and_then(|(owner, _)| owner).is_some_and(|owner| owner.eq_ignore_ascii_case(stem(source)))
+    };
+    is_source(source) && names.iter().any(own)
+}
+
+fn is_source(name: &str) -> bool {
+    (has_ending(name, "vgdl") || has_ending(name, "txt")) && level(name).is_none()
+}
+
+fn is_game(name: &str) -> bool {
+    is_source(name) && stem(name).eq_ignore_ascii_case("game")
+}
+
+/// The name of the game that a level's name names, if it names one, and the level's number.
+fn level(name: &str) -> Option<(Option<&str>, usize)> {
+    let stem = stem(name);
+    let numbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let digits = &stem[numbered.len()..];
+    let at = numbered.len().checked_sub("lvl".len())?;
+    let is_level = has_ending(name, "txt") && numbered.get(at..)?.eq_ignore_ascii_case("lvl");
+    let number = digits.parse().ok().filter(|_| is_level && digits.len() <= MAX_DIGITS)?;
+    match &numbered[..at] {
+        "" => Some((None, number)),
+        owner => Some((Some(owner.strip_suffix('_').filter(|owner| !owner.is_empty())?), number)),
+    }
+}
+
+fn has_ending(name: &str, ending: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(stem, own)| !stem.is_empty() && own.eq_ignore_ascii_case(ending))
+}
+
+fn stem(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(names: &[&str], expect: &[(&str, &[&str])]) {
+        let found = games(names.iter().copied());
+        let found: Vec<(&str, Vec<&str>)> = found
+            .iter()
+            .map(|game| (game.source.as_str(), game.levels.iter().map(|(_, name)| name.as_str()).collect()))
+            .collect();
+        let expect: Vec<(&str, Vec<&str>)> =
+            expect.iter().map(|(source, levels)| (*source, levels.to_vec())).collect();
+        assert_eq!(found, expect, "{names:?}");
+    }
+
+    #[test]
+    fn games_of_a_folder() {
+        check(
+            &["game.vgdl", "lvl10.txt", "lvl2.txt", "notes.txt"],
+            &[("game.vgdl", &["lvl2.txt", "lvl10.txt"])],
+        );
+        check(&["GAME.TXT", "LVL1.TXT"], &[("GAME.TXT", &["LVL1.TXT"])]);
+        check(
+            &["game.txt", "game.vgdl", "zelda_lvl0.txt", "game_lvl0.txt"],
+            &[("game.vgdl", &["game_lvl0.txt"])],
+        );
+        check(
+            &[
+                "aliens.txt",
+                "aliens_lvl0.txt",
+                "aliens_glvl.txt",
+                "x-racer.txt",
+                "x-racer_lvl7.txt",
+                "x-racer_LVL3.TXT",
+                "readme.txt",
+            ],
+            &[
+                ("aliens.txt", &["aliens_lvl0.txt"]),
+                ("x-racer.txt", &["x-racer_LVL3.TXT", "x-racer_lvl7.txt"]),
+            ],
+        );
+        check(&["pond.txt", "pond.vgdl", "pond_lvl0.txt"], &[("pond.vgdl", &["pond_lvl0.txt"])]);
+        check(&["pond.vgdl", "lvl0.txt"], &[("pond.vgdl", &["lvl0.txt"])]);
+        check(&["pond.txt", "lvl0.txt"], &[("pond.txt", &["lvl0.txt"])]);
+        check(&["pond.txt", "notes.txt", "lvl0.txt"], &[]);
+        check(&["a.vgdl", "b.vgdl", "lvl0.txt"], &[("a.vgdl", &[]), ("b.vgdl", &[])]);
+        check(&["notes.txt", "lvl.txt", "_lvl0.txt", ".txt", "lvl12345678901234567890.txt"], &[]);
+    }
+
+    #[test]
+    fn levels_find_their_game() {
+        let check = |file: &str, names: &[&str], expect: Option<&str>| {
+            assert_eq!(game_of(file, names.iter().copied()).as_deref(), expect, "{file} in {names:?}");
+        };
+        check("lvl0.txt", &["game.txt", "lvl0.txt"], Some("game.txt"));
+        check(
+            "zelda_lvl0.txt",
+            &["zelda.txt", "aliens.txt", "aliens_lvl0.txt", "zelda_lvl0.txt"],
+            Some("zelda.txt"),
+        );
+        check("Zelda_lvl0.TXT", &["zelda.vgdl", "Zelda_lvl0.TXT", "aliens.vgdl"], Some("zelda.vgdl"));
+        check("map.txt", &["map.txt", "game.vgdl"], Some("game.vgdl"));
+        check("map.txt", &["map.txt", "a.vgdl", "b.vgdl"], None);
+        check("lvl0.txt", &["lvl0.txt"], None);
+        assert_eq!(
+            [level_number("lvl07.txt"), level_number("a_lvl3.TXT"), level_number("alvl3.txt")],
+            [Some(7), Some(3), None]
+        );
+    }
+
+    #[test]
+    fn a_named_file_takes_plain_levels_unless_another_game_may_own_them() {
+        let names = ["a.vgdl", "lvl0.txt", "a_lvl1.txt"];
+        assert_eq!(levels("a.vgdl", names).len(), 2);
+        assert_eq!(levels("a.vgdl", names.into_iter().chain(["b.vgdl"])).len(), 1);
+        assert_eq!(levels("a.vgdl", names.into_iter().chain(["game.txt"])).len(), 1);
+    }
+}

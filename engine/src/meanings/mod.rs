@@ -1,0 +1,157 @@
+//! Words that VGDL does not have, although people, language models and other dialects write them, each with the words of
+//! VGDL that do what is meant. A spelling that is merely close may mean the opposite, so this table is asked first.
+
+mod nouns;
+mod parameters;
+mod verbs;
+
+use crate::limits::MAX_NAME;
+use nouns::{CLASSES, GAMES, SECTIONS, TERMINATIONS};
+use parameters::{EFFECT_PARAMETERS, GAME_PARAMETERS, SPRITE_PARAMETERS, TERMINATION_PARAMETERS};
+use verbs::EFFECTS;
+
+/// The place of an unknown word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// The first word of the file.
+    Game,
+    /// A parameter of the first line.
+    GameParameter,
+    /// The name of a section.
+    Section,
+    /// The class of a sprite.
+    Class,
+    /// A parameter of a sprite.
+    SpriteParameter,
+    /// The effect of an interaction.
+    Effect,
+    /// A parameter of an interaction.
+    EffectParameter,
+    /// The class of a termination.
+    Termination,
+    /// A parameter of a termination.
+    TerminationParameter,
+}
+
+/// The intended meaning of some words.
+#[derive(Debug)]
+pub(crate) struct Meaning {
+    /// The words, in small letters and digits only.
+    words: &'static str,
+    /// The words of VGDL to write instead, the first that fits; none if a line has to be written anew.
+    pub(crate) write: &'static [&'static str],
+    /// The advice; empty if the word to write says it all.
+    pub(crate) advice: &'static str,
+}
+
+/// The meaning of a word at a place, however it is capitalised and joined.
+pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
+    let plain: String =
+        word.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect();
+    // A name in another script has no letters left.
+    if plain.is_empty() || plain.len() < word.chars().filter(|c| c.is_alphanumeric()).count() {
+        return None;
+    }
+    table(place).iter().find(|known| known.words.split(' ').any(|word| word == plain))
+}
+
+/// The meaning of a word that one letter separates from those of the table, and of any other avatar.
+pub(crate) fn near_meaning(place: Place, word: &str) -> Option<&'static Meaning> {
+    let plain = word.to_lowercase();
+    if plain.len() > MAX_NAME {
+        return None;
+    }
+    let near = |known: &str| known.len() > 4 && strsim::damerau_levenshtein(known, &plain) == 1;
+    let found = table(place).iter().find(|known| known.words.split(' ').any(near));
+    found.or_else(|| AVATAR.iter().find(|_| place == Place::Class && plain.ends_with("avatar")))
+}
+
+fn table(place: Place) -> &'static [Meaning] {
+    match place {
+        Place::Game => GAMES,
+        Place::GameParameter => GAME_PARAMETERS,
+        Place::Section => SECTIONS,
+        Place::Class => CLASSES,
+        Place::SpriteParameter => SPRITE_PARAMETERS,
+        Place::Effect => EFFECTS,
+        Place::EffectParameter => EFFECT_PARAMETERS,
+        Place::Termination => TERMINATIONS,
+        Place::TerminationParameter => TERMINATION_PARAMETERS,
+    }
+}
+
+const fn means(words: &'static str, write: &'static [&'static str], advice: &'static str) -> Meaning {
+    Meaning { words, write, advice }
+}
+
+/// Any other avatar.
+const AVATAR: &[Meaning] = &[means(
+    "",
+    &[],
+    "use `MovingAvatar`, which walks in four directions; `arcade docs sprites` lists the other avatars",
+)];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keywords;
+    use std::collections::BTreeSet;
+
+    const PLACES: [Place; 9] = [
+        Place::Game,
+        Place::GameParameter,
+        Place::Section,
+        Place::Class,
+        Place::SpriteParameter,
+        Place::Effect,
+        Place::EffectParameter,
+        Place::Termination,
+        Place::TerminationParameter,
+    ];
+
+    #[test]
+    fn a_word_has_one_meaning_at_a_place() {
+        for place in PLACES {
+            let mut seen = BTreeSet::new();
+            for word in table(place).iter().flat_map(|known| known.words.split(' ')) {
+                assert!(
+                    !word.is_empty() && word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit()),
+                    "{word}"
+                );
+                assert!(seen.insert(word), "{word} has two meanings as {place:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn words_of_vgdl_are_not_foreign_and_words_to_write_are_of_vgdl() {
+        for (place, known) in [
+            (Place::Class, keywords::CLASSES),
+            (Place::Effect, keywords::EFFECTS),
+            (Place::Termination, keywords::TERMINATIONS),
+        ] {
+            for meaning in table(place) {
+                assert!(meaning.write.iter().all(|word| known.contains(word)), "{meaning:?}");
+                assert!(!meaning.write.is_empty() || !meaning.advice.is_empty(), "{meaning:?}");
+            }
+            let exact = |word: &&&str| {
+                table(place).iter().any(|known| known.words.split(' ').any(|own| own == word.to_lowercase()))
+            };
+            assert_eq!(known.iter().find(exact), None);
+        }
+    }
+
+    #[test]
+    fn spelling_does_not_matter_and_avatars_are_avatars() {
+        let writes = |place, word| meaning(place, word).map(|found| found.write);
+        assert_eq!(writes(Place::Class, "Movable"), Some(&["Passive"][..]));
+        assert_eq!(writes(Place::Effect, "remove_sprite"), Some(&["killSprite"][..]));
+        assert_eq!(writes(Place::Class, "PlayerAvatar"), Some(&["MovingAvatar"][..]));
+        assert!(
+            near_meaning(Place::Class, "SwimmingAvatar")
+                .is_some_and(|found| found.advice.contains("MovingAvatar"))
+        );
+        assert!(near_meaning(Place::Effect, "SwimmingAvatar").is_none());
+        assert!(meaning(Place::Class, "Qüz").is_none() && meaning(Place::Class, "").is_none());
+    }
+}
