@@ -4,6 +4,7 @@ use crate::embedded;
 use crate::failure::Failure;
 use crate::paths;
 use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE};
+use report::files;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -294,7 +295,7 @@ pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// Reads a text file of at most `limit` bytes; of a larger file no more is read.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
-    let file = std::fs::File::open(path).map_err(|error| Failure::read(path, error))?;
+    let file = files::open(path).map_err(|error| Failure::read(path, error))?;
     let mut bytes = Vec::new();
     let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
     read.map_err(|error| Failure::read(path, error))?;

@@ -6,6 +6,7 @@
 
 pub mod canonical;
 mod figures;
+pub mod files;
 mod set;
 mod table;
 

@@ -179,7 +179,7 @@ impl Regeneration {
             return Ok(None);
         }
         let mut comparison = Comparison::of(&self.root)?;
-        for item in &manifest.items {
+        for item in manifest.files() {
             comparison.file(&item.path, &folder::read(out, &item.path, item.size)?)?;
         }
         let compared = comparison.finish(&self.manifest, &self.bytes, &manifest)?;

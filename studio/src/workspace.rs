@@ -202,6 +202,7 @@ impl GameEntry {
                 Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
             }
             Place::Folder { folder, source, .. } if name == source || files::level_number(name).is_some() => {
+                files::check_folder(folder)?;
                 Ok(folder.join(name))
             }
             Place::Folder { source, .. } => {

@@ -136,7 +136,7 @@ fn answer(args: &Args, Answered { manifest, compared, minted }: &Answered<'_>, c
             "note: minted with another Cargo.lock than the original; only its digest in the manifest differs",
         );
     }
-    let files = count(manifest.items.len(), "file");
+    let files = count(manifest.files().count(), "file");
     match (identical, has_files) {
         (true, true) => console.say(format_args!("identical: the manifest and {files}, root {root}")),
         (true, false) => console.say(format_args!(

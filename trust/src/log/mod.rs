@@ -18,6 +18,7 @@ use crate::disk::{Access, Disk};
 use crate::error::TrustError;
 use crate::key::{PublicKey, SecretKey};
 use crate::signatures::read_bounded;
+use report::files;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -237,7 +238,7 @@ fn read_own(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
 /// Keeps other processes from appending, until it is dropped.
 fn lock(folder: &Path) -> Result<File, TrustError> {
     let path = folder.join(".lock");
-    let file = File::create(&path).map_err(TrustError::io("write", &path))?;
+    let file = files::open_own(&path).map_err(TrustError::io("write", &path))?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
             Err(TrustError::Refused(format!("another process appends to `{}`: try again", folder.display())))

@@ -82,7 +82,7 @@ pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
         return Ok(path.join(MANIFEST_FILE).is_file());
     }
     let mut start = Vec::new();
-    let opened = File::open(path).map_err(|error| Failure::read(path, error))?;
+    let opened = report::files::open(path).map_err(|error| Failure::read(path, error))?;
     opened.take(4).read_to_end(&mut start).map_err(|error| Failure::read(path, error))?;
     Ok(start == input::ZSTD)
 }

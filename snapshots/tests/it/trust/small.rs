@@ -163,6 +163,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
         lockfile: Digest::of(b"the bytes of Cargo.lock"),
         recipe,
         items: files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect(),
+        withheld: None,
         root: Digest::of(b""),
         checksum: Digest::of(b""),
     };
