@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::shell;
 use snapshots::{Draft, MANIFEST_FILE};
 use std::ffi::OsStr;
-use std::fs::{self, File};
+use std::fs;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 

@@ -14,6 +14,7 @@ use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use validators::Criteria;
 
 /// The reasons why a release cannot be minted again here.
 #[derive(Debug, thiserror::Error)]
@@ -128,6 +129,21 @@ impl Regeneration {
         // Fails before minutes of minting if the folder or one of its files cannot be read.
         Comparison::of(root)?.open_all()?;
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
+    }
+
+    /// The most forward-model calls that its recipe allows for one level: by its searches for a win and the plays of its players.
+    pub fn calls_per_level(&self) -> u64 {
+        let of = |criteria: &Criteria| {
+            let names = criteria.ladder.iter().chain(&criteria.held_out);
+            let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
+            let slowest = budgets.fold(criteria.decision, u64::max);
+            // A round of plays begins before the calls of all plays are spent.
+            let play = slowest.saturating_mul(criteria.most_ticks as u64);
+            [criteria.budget, criteria.ladder_calls, criteria.early_calls, criteria.ablation_calls, play]
+                .into_iter()
+                .fold(0, u64::saturating_add)
+        };
+        self.recipe.corpus.criteria.as_ref().map_or(0, of).max(of(&self.recipe.criteria))
     }
 
     /// The plan of its recipe.

@@ -3,7 +3,7 @@
 use super::{counted, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::trusted::{open_secret, signatures_of};
+use crate::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::verbs::release::{check_beacon, find_recipe, read_secret_file};
 use engine::Digest;
 use evaluation::scale::ScaleFile;
@@ -111,6 +111,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if new.is_empty() {
         bail!("name something to append, such as --release releases/2027-01");
     }
+    warn_of_readers(&args.secret, console);
     let secret = open_secret(&args.secret, args.password_file.as_deref())?;
     let log = append(&args.log, args.origin.as_deref(), &secret, &new, &rules, &Disk::new())?;
     let checkpoint = &log.checkpoint;

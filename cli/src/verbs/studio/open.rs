@@ -7,7 +7,6 @@ use evaluation::Evaluation;
 use serde_json::json;
 use snapshots::MANIFEST_FILE;
 use snapshots::released::Released;
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -10,7 +10,7 @@ use snapshots::folder::{self, Limits};
 use snapshots::proof::{ItemProof, MAX_PROOF};
 use snapshots::{Manifest, SnapshotError};
 use std::collections::BTreeSet;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
