@@ -1,7 +1,7 @@
 //! Tests of memory: a player that replays what coins published is found, others are not.
 
 use crate::arcade::{copy_tree, files, run, text};
-use engine::Digest;
+use engine::{Digest, Game};
 use serde_json::Value;
 use snapshots::mint::{Memory, Plan, lay_out, make_jobs};
 use snapshots::released::{Released, ReleasedGame};
@@ -246,6 +246,14 @@ type Forgery<'a> = &'a dyn Fn(&mut BTreeMap<String, Vec<u8>>);
 fn what_was_withheld_is_verified() {
     let said = text(&run(COINS.path(), &["verify", "revealed"], 0).stdout);
     assert!(said.contains("24 witnesses replayed to a win\n"), "{said}");
+    // Both siblings are renamings: neither is the game of the corpus, so nothing public tells which one was withheld.
+    let released = Released::read(&COINS.path().join("revealed")).unwrap();
+    let corpus: Vec<Digest> =
+        corpus().games.iter().map(|game| Game::from_source(&game.source).unwrap().digest()).collect();
+    for game in &released.games {
+        let sibling = game.sibling.as_ref().unwrap().game.digest();
+        assert!(!corpus.contains(&game.game.digest()) && !corpus.contains(&sibling), "{}", game.card.id);
+    }
     // Forgeries with a root of their own.
     let forged = |change: Forgery<'_>, words: &str| {
         let (home, mut all) = (tempfile::tempdir().unwrap(), files(&COINS.path().join("revealed")));

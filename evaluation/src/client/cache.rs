@@ -179,4 +179,32 @@ mod tests {
         fs::copy(cache.path(key), &elsewhere).unwrap();
         assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
     }
+
+    /// Whoever shares the folder can replace an entry by anything.
+    #[cfg(unix)]
+    #[test]
+    fn only_plain_files_of_a_bounded_size_are_read() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::open(folder.path()).unwrap();
+        let key = Digest::of(b"key");
+        cache.put(key, &reply());
+        let (path, whole) = (cache.path(key), folder.path().join("whole"));
+        fs::rename(&path, &whole).unwrap();
+        for target in [whole.as_path(), Path::new("/dev/zero")] {
+            symlink(target, &path).unwrap();
+            assert_eq!(cache.get(key), None);
+            fs::remove_file(&path).unwrap();
+        }
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+        assert_eq!(cache.get(key), None);
+        fs::remove_file(&path).unwrap();
+        let mut large = fs::read(&whole).unwrap();
+        large.resize(MAX_ENTRY as usize + 1, b' ');
+        fs::write(&path, large).unwrap();
+        assert_eq!(cache.get(key), None);
+        // A stored answer replaces what is there, whatever it is.
+        cache.put(key, &reply());
+        assert_eq!(cache.get(key), Some(reply()));
+    }
 }

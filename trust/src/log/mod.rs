@@ -19,7 +19,7 @@ use crate::error::TrustError;
 use crate::key::{PublicKey, SecretKey};
 use crate::signatures::read_bounded;
 use report::files;
-use std::fs::{File, TryLockError};
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 /// The file of the newest checkpoint, in the folder of a log.
@@ -88,6 +88,29 @@ impl Log {
             let found = read_own(&self.folder.join(&file.path), file.bytes.len() as u64);
             if !found.is_ok_and(|found| found == file.bytes) {
                 faults.push(format!("{}: it is missing, or does not follow from the entries", file.path));
+            }
+        }
+        let earlier = self.earlier_faults().into_iter().filter(|fault| !faults.contains(fault));
+        let earlier: Vec<String> = earlier.collect();
+        faults.extend(earlier);
+        faults
+    }
+
+    /// The faults of partial tiles of earlier states, which whoever was told of those states may still read. Larger ones than
+    /// the checkpoint are of an append that was interrupted.
+    fn earlier_faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        for (place, parts) in tiles::parts(&self.entries, &self.leaves) {
+            let listed = fs::read_dir(self.folder.join(&place)).into_iter().flatten().flatten();
+            let mut widths: Vec<usize> =
+                listed.filter_map(|entry| entry.file_name().to_str()?.parse().ok()).collect();
+            widths.sort_unstable();
+            for width in widths.into_iter().filter(|&width| width < parts.len()) {
+                let (path, due) = (format!("{place}/{width}"), parts[..width].concat());
+                let found = read_own(&self.folder.join(&path), due.len() as u64);
+                if !found.is_ok_and(|found| found == due) {
+                    faults.push(format!("{path}: it does not follow from the entries"));
+                }
             }
         }
         faults
