@@ -134,13 +134,16 @@ impl Regeneration {
     /// The most forward-model calls that its recipe allows for one level: by its searches for a win and the plays of its players.
     pub fn calls_per_level(&self) -> u64 {
         let of = |criteria: &Criteria| {
+            let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
+            // Of a ladder, every player plays a round, as patiently as it may, before the calls of all are spent.
             let names = criteria.ladder.iter().chain(&criteria.held_out);
+            let names = names.filter(|_| criteria.includes("skill"));
             let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
-            let slowest = budgets.fold(criteria.decision, u64::max);
-            // A round of plays begins before the calls of all plays are spent.
-            let play = slowest.saturating_mul(criteria.most_ticks as u64);
-            [criteria.budget, criteria.ladder_calls, criteria.early_calls, criteria.ablation_calls, play]
+            let round = budgets.map(|budget| play(budget).saturating_mul(criteria.patience as u64));
+            let searched = play(criteria.decision).saturating_mul(criteria.mcts_plays.into());
+            [criteria.budget, criteria.ladder_calls, criteria.early_calls, criteria.ablation_calls, searched]
                 .into_iter()
+                .chain(round)
                 .fold(0, u64::saturating_add)
         };
         self.recipe.corpus.criteria.as_ref().map_or(0, of).max(of(&self.recipe.criteria))

@@ -181,7 +181,8 @@ const SECRET_LIMIT: u64 = 4096;
 pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
     let bytes = match files::open(file) {
         Err(source) if source.kind() == io::ErrorKind::InvalidInput => {
-            return Err(SnapshotError::ReleaseKind { path: file.to_path_buf(), expected: "file" });
+            let source = serde::de::Error::custom("it is not a file");
+            return Err(SnapshotError::NotASecret { path: file.to_path_buf(), source });
         }
         opened => opened.and_then(|open| {
             let mut bytes = Vec::new();

@@ -18,7 +18,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// The most forward-model calls for one level, unless another bound is given.
-const MAX_WORK: u64 = 1 << 30;
+const MAX_WORK: u64 = 1 << 28;
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
 ///
@@ -42,7 +42,7 @@ pub(crate) struct Args {
     /// Threads; all cores if not given
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
-    /// The most forward-model calls that the recipe may allow for one level; without the option 1073741824, some fifty times what
+    /// The most forward-model calls that the recipe may allow for one level; without the option 268435456, some ten times what
     /// our recipes allow
     #[arg(long, value_name = "CALLS", default_value_t = MAX_WORK, hide_default_value = true)]
     max_work: u64,

@@ -131,6 +131,7 @@ fn endless_recipes_are_not_regenerated() {
     for (key, value) in changes {
         let mut manifest = whole.clone();
         manifest.recipe["criteria"][key] = value;
+        manifest.recipe["criteria"]["ask"].as_array_mut().unwrap().push("skill".into());
         manifest.seal_root().unwrap();
         fs::write(&path, manifest.to_bytes().unwrap()).unwrap();
         let output = run(home.path(), &["regenerate", "tiny"], 1);

@@ -366,7 +366,7 @@ fn pipes_are_no_files_of_games() {
     pipe("prices.toml");
     for (verb, name) in [
         (vec!["validate", "levels"], "levels/lvl0.txt"),
-        (vec!["render", "levels", "0"], "levels/lvl0.txt"),
+        (vec!["render", "levels", "0", "--out", "x.png"], "levels/lvl0.txt"),
         (vec!["validate", "rules"], "rules/game.vgdl"),
         (vec!["describe", "rules"], "rules/game.vgdl"),
         (vec!["fmt", "--check", "rules/game.vgdl"], "rules/game.vgdl"),

@@ -293,7 +293,7 @@ fn impossible_card_numbers() {
 fn large_cards_are_not_read() {
     complains(
         |release| change_card(release, |card| card["title"] = json!("x".repeat(1 << 20))),
-        &["card.json: 1049", "a card has at most 1048576"],
+        &["card.json: 1050", "a card has at most 1048576"],
     );
     let patterns =
         json!({ "from": "generated", "generator": "x", "patterns": vec!["a"; 2000], "candidate": 0 });
