@@ -124,7 +124,11 @@ fn existing(path: &Path, options: &OpenOptions) -> io::Result<File> {
 }
 
 fn regular(found: &Metadata) -> io::Result<()> {
-    if found.is_file() { Ok(()) } else { Err(invalid("is not a file")) }
+    match () {
+        () if found.is_file() => Ok(()),
+        () if found.is_dir() => Err(ErrorKind::IsADirectory.into()),
+        () => Err(invalid("is not a file")),
+    }
 }
 
 fn invalid(what: &str) -> io::Error {
@@ -196,6 +200,6 @@ mod tests {
             assert_eq!(opened.unwrap_err().to_string(), "is not a file");
         }
         assert_eq!(read(Path::new("/dev/zero"), 9).unwrap_err().to_string(), "is not a file");
-        assert_eq!(read(home.path(), 9).unwrap_err().to_string(), "is not a file");
+        assert_eq!(read(home.path(), 9).unwrap_err().kind(), ErrorKind::IsADirectory);
     }
 }

@@ -119,7 +119,7 @@ pub(crate) fn remove(file: &Path) -> Result<(), Refusal> {
 fn unreadable(path: &Path, error: &io::Error) -> Refusal {
     match error.kind() {
         ErrorKind::NotFound => Refusal::missing(format_args!("{} is gone", shown(path))),
-        ErrorKind::InvalidInput => {
+        ErrorKind::InvalidInput | ErrorKind::IsADirectory => {
             Refusal::bad(format_args!("{} is not a file", shown(path))).help("replace it by a file")
         }
         kind => Refusal::failed(format_args!("cannot read {}: {kind}", shown(path))),

@@ -16,7 +16,7 @@ pub(crate) const RESTORE: &str = "restore the results folder";
 /// It is not a regular file, is larger, or cannot be read.
 pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File, EvaluationError> {
     let file = match files::open(path) {
-        Err(error) if error.kind() == ErrorKind::InvalidInput => {
+        Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::IsADirectory) => {
             return Err(EvaluationError::malformed(path, format!("not a file; {next_step}")));
         }
         opened => opened.map_err(EvaluationError::io("read", path))?,
