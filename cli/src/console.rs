@@ -3,6 +3,7 @@
 use crate::failure::{Answer, ENVIRONMENT, Failure, NO};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::GraphicalTheme;
+use report::is_invisible;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -212,9 +213,9 @@ fn colours() -> Vec<String> {
     found
 }
 
-/// Escapes control characters other than line feeds and tabs as `\u{1b}`, except in the sequences in `kept`.
+/// Escapes control characters other than line feeds and tabs, and those that change the direction of text, as `\u{1b}`, except in the sequences in `kept`.
 fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
-    let is_escaped = |character: char| character.is_control() && !matches!(character, '\n' | '\t');
+    let is_escaped = |character: char| is_invisible(character) && !matches!(character, '\n' | '\t');
     if !text.contains(is_escaped) {
         return Cow::Borrowed(text);
     }

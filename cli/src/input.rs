@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use crate::{embedded, paths, shell};
-use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE, dialect, files};
+use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE, dialect, layout};
 use std::collections::BTreeSet;
+use report::files;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +50,7 @@ enum LevelPlace {
 
 impl LevelInput {
     fn file(path: PathBuf) -> LevelInput {
-        let number = path.file_name().and_then(|name| files::level_number(name.to_str()?));
+        let number = path.file_name().and_then(|name| layout::level_number(name.to_str()?));
         LevelInput { number, place: LevelPlace::File(path) }
     }
 
@@ -142,7 +143,7 @@ impl GameInput {
             return Ok(LevelInput::file(path.to_owned()));
         }
         let number = name.strip_prefix("lvl").unwrap_or(name).trim_end_matches(".txt").parse::<usize>();
-        let wanted = number.ok().or_else(|| files::level_number(name));
+        let wanted = number.ok().or_else(|| layout::level_number(name));
         match self.levels.iter().find(|level| wanted.is_some() && level.number == wanted) {
             Some(level) => Ok(level.clone()),
             None if number_like(name) => {
@@ -224,7 +225,7 @@ enum Found {
 fn file(path: &Path) -> Result<Found, Failure> {
     let text = read_text(path, MAX_SOURCE.max(MAX_LEVEL_TEXT))?;
     let file_name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let called_level = files::level_number(file_name).is_some();
+    let called_level = layout::level_number(file_name).is_some();
     if is_game(&text) || !called_level && !is_level(&text) {
         if text.len() > MAX_SOURCE {
             bail!("{}: larger than {MAX_SOURCE} bytes, the limit for such a file", path.display());
@@ -239,7 +240,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
     }
     let level = LevelInput::file(path.to_owned());
     let names = file_names(folder_of(path))?;
-    let Some(source) = files::game_of(file_name, names.iter().map(String::as_str)) else {
+    let Some(source) = layout::game_of(file_name, names.iter().map(String::as_str)) else {
         return Ok(Found::Level(level, None));
     };
     let source = path.with_file_name(source);
@@ -252,7 +253,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
 /// Returns the game of a file, with the levels among the names of the files beside it.
 fn of_source(path: &Path, text: String, title: String, names: &[String]) -> GameInput {
     let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let levels = files::levels(own, names.iter().map(String::as_str));
+    let levels = layout::levels(own, names.iter().map(String::as_str));
     let level = |(_, name): (usize, String)| LevelInput::file(path.with_file_name(name));
     GameInput {
         source: Named { name: path.display().to_string(), text },
@@ -443,8 +444,8 @@ fn is_game(text: &str) -> bool {
 /// Returns the games that lie in a folder itself.
 fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
     let names = file_names(folder)?;
-    let games = files::games(names.iter().map(String::as_str));
-    let input = |found: files::GameFiles| {
+    let games = layout::games(names.iter().map(String::as_str));
+    let input = |found: layout::GameFiles| {
         let path = folder.join(&found.source);
         let stem = path.file_stem().filter(|stem| !stem.eq_ignore_ascii_case("game"));
         let own = stem.or_else(|| folder.file_name());
@@ -500,7 +501,7 @@ pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// Reads a text file of at most `limit` bytes; of a larger file no more is read.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
-    let file = std::fs::File::open(path).map_err(|error| Failure::read(path, error))?;
+    let file = files::open(path).map_err(|error| Failure::read(path, error))?;
     let mut bytes = Vec::new();
     let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
     read.map_err(|error| Failure::read(path, error))?;

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::shell;
 use snapshots::{Draft, MANIFEST_FILE};
 use std::ffi::OsStr;
-use std::fs::{self, File};
+use std::fs;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
@@ -40,7 +40,7 @@ fn is_release(folder: &Path) -> bool {
     let start = || {
         let mut bytes = Vec::new();
         let limit = MANIFEST_START.len() as u64;
-        File::open(folder.join(MANIFEST_FILE))?.take(limit).read_to_end(&mut bytes).map(|_| bytes)
+        report::files::open(&folder.join(MANIFEST_FILE))?.take(limit).read_to_end(&mut bytes).map(|_| bytes)
     };
     start().is_ok_and(|bytes| bytes == MANIFEST_START)
 }

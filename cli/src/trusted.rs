@@ -3,6 +3,7 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
+use crate::shell;
 use engine::Digest;
 use serde::Serialize;
 use serde_json::json;
@@ -176,6 +177,16 @@ impl SecretArgs {
     /// Opens the secret keys, asking for passwords where they take one.
     pub(crate) fn open(&self) -> Result<Vec<SecretKey>, Failure> {
         self.secret.iter().map(|file| open_secret(file, self.password_file.as_deref())).collect()
+    }
+}
+
+/// Warns of a secret that other users of the machine can read.
+pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
+    if report::files::is_readable_by_others(file) {
+        let place = shell::quoted(file);
+        console.remark(format_args!(
+            "warning: others can read the secret in {place}; protect it: chmod 600 {place}"
+        ));
     }
 }
 

@@ -19,13 +19,13 @@ mod diagnostic;
 pub mod dialect;
 mod digest;
 mod episode;
-pub mod files;
 mod flat;
 mod game;
 mod geometry;
 #[doc(hidden)]
 pub mod inspect;
 mod keywords;
+pub mod layout;
 mod level;
 pub mod limits;
 mod lint;

@@ -29,19 +29,19 @@ type GameFiles = (String, Vec<(usize, String)>);
 /// Returns the games of a folder with these files.
 #[pyfunction]
 pub(crate) fn games_of_files(names: Vec<String>) -> Vec<GameFiles> {
-    let games = engine::files::games(names.iter().map(String::as_str));
+    let games = engine::layout::games(names.iter().map(String::as_str));
     games.into_iter().map(|game| (game.source, game.levels)).collect()
 }
 
 /// Returns the levels of a game by number, among the files of its folder.
 #[pyfunction]
 pub(crate) fn levels_of_files(source: &str, names: Vec<String>) -> Vec<(usize, String)> {
-    engine::files::levels(source, names.iter().map(String::as_str))
+    engine::layout::levels(source, names.iter().map(String::as_str))
 }
 
 /// Returns the file of the game of a level, among the files of its folder; none if the file is not named like a level.
 #[pyfunction]
 pub(crate) fn game_of_level(level: &str, names: Vec<String>) -> Option<String> {
-    engine::files::level_number(level)?;
-    engine::files::game_of(level, names.iter().map(String::as_str))
+    engine::layout::level_number(level)?;
+    engine::layout::game_of(level, names.iter().map(String::as_str))
 }

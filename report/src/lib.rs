@@ -6,9 +6,10 @@
 
 pub mod canonical;
 mod figures;
+pub mod files;
 mod set;
 mod table;
 
 pub use figures::{Mean, Quantiles, Share};
 pub use set::{Figure, Section, SetReport, Value};
-pub use table::{Column, Table, TableCell, in_markdown};
+pub use table::{Column, Table, TableCell, in_csv, in_markdown, is_invisible};

@@ -258,7 +258,7 @@ pub fn in_markdown(text: &str) -> String {
             '\\' | '`' | '*' | '[' | ']' | '|' | '~' => out.extend(['\\', character]),
             // It is not markup within a word.
             '_' if !(before.is_alphanumeric() && after.is_alphanumeric()) => out += "\\_",
-            _ if character.is_control() => out.push(' '),
+            _ if is_invisible(character) => out.push(' '),
             _ => out.push(character),
         }
         before = character;
@@ -266,10 +266,23 @@ pub fn in_markdown(text: &str) -> String {
     out
 }
 
+/// Tests whether a character is a control character, or changes the direction or the lines of the text around it: such a name
+/// could show as another.
+pub fn is_invisible(character: char) -> bool {
+    let turns = ['\u{61c}', '\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}'];
+    character.is_control()
+        || turns.contains(&character)
+        || ('\u{202a}'..='\u{202e}').contains(&character)
+        || ('\u{2066}'..='\u{2069}').contains(&character)
+}
+
 /// Prepares text for a field of CSV: a leading apostrophe keeps a spreadsheet from interpreting it as a formula (OWASP, *CSV
 /// Injection*).
-fn in_csv(text: &str) -> String {
-    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
+pub fn in_csv(text: &str) -> String {
+    let starts =
+        |text: &str| text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
+    // Some spreadsheets leave out spaces before it.
+    let is_formula = starts(text) || starts(text.trim_start_matches(|c: char| c == ' ' || is_invisible(c)));
     if is_formula { format!("'{text}") } else { text.to_owned() }
 }
 

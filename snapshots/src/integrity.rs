@@ -12,6 +12,7 @@ use crate::memory::{has_second_wins, is_solution};
 use crate::papers::{self, Untracked};
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
+use crate::withheld::{HeldPart, LIST_LIMIT, disclose};
 
 /// The result of [`check_integrity`].
 #[derive(Debug, Clone, PartialEq)]
@@ -48,9 +49,11 @@ impl Integrity {
 /// There is no manifest, it is not sound in itself (see [`Manifest::parse`]), or the file system refuses.
 pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| absent(error, root))?;
-    let manifest = Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
+    let mut manifest =
+        Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
     let mut problems = manifest_problems(&manifest, &bytes)?;
     let (listing, beside) = papers::list(root)?;
+    problems.extend(list_problems(root, &mut manifest, &listing)?);
     problems.extend(file_problems(root, &manifest, listing)?);
     problems.sort_unstable();
     Ok(Integrity { manifest, problems, beside })
@@ -89,6 +92,41 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
+/// Reads the lists of withheld files that are there, and the problems of these lists: after the wins that coins published, the
+/// rest may follow, but not the other way round.
+fn list_problems(
+    root: &Path,
+    manifest: &mut Manifest,
+    listing: &Listing,
+) -> Result<Vec<Problem>, SnapshotError> {
+    let mut problems = Vec::new();
+    if manifest.withheld.is_none() {
+        return Ok(problems);
+    }
+    let is_there = |part: HeldPart| listing.entries.iter().any(|entry| entry.path == part.list());
+    let is_whole = is_there(HeldPart::Rest) || !has_second_wins(manifest);
+    let is_begun = HeldPart::ALL.into_iter().any(is_there);
+    for part in HeldPart::ALL {
+        let path = part.list();
+        if !is_there(part) {
+            if is_begun && (is_whole || part == HeldPart::Solutions) {
+                problems.push(Problem { path: path.into(), flaw: Flaw::Missing });
+            }
+            continue;
+        }
+        let flaw = match folder::read(root, path, LIST_LIMIT) {
+            Ok(bytes) => disclose(manifest, part, &bytes).err(),
+            Err(SnapshotError::TooLarge { limit, .. }) => {
+                let size = listing.entries.iter().find(|entry| entry.path == path).map(|entry| entry.size);
+                Some(Flaw::TooLarge { size: size.unwrap_or(limit), limit })
+            }
+            Err(error) => return Err(error),
+        };
+        problems.extend(flaw.map(|flaw| Problem { path: path.into(), flaw }));
+    }
+    Ok(problems)
+}
+
 fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<Vec<Problem>, SnapshotError> {
     let mut problems = listing.problems;
     if !listing.complete {
@@ -96,9 +134,13 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
     }
     // Entries that exist but are not plain files are reported already, and are not missing.
     let named: BTreeSet<String> = problems.iter().map(|problem| problem.path.clone()).collect();
-    let mut awaited: BTreeMap<&str, _> =
-        manifest.items.iter().map(|item| (item.path.as_str(), item)).collect();
-    for entry in listing.entries.iter().filter(|entry| entry.path != MANIFEST_FILE) {
+    let mut awaited: BTreeMap<&str, _> = manifest.files().map(|item| (item.path.as_str(), item)).collect();
+    // The lists of withheld files have been judged.
+    let is_judged = |path: &str| {
+        path == MANIFEST_FILE || manifest.withheld.is_some() && HeldPart::of_list(path).is_some()
+    };
+    awaited.retain(|path, _| !is_judged(path));
+    for entry in listing.entries.iter().filter(|entry| !is_judged(&entry.path)) {
         let flaw = match awaited.remove(entry.path.as_str()) {
             None => Some(Flaw::Extra),
             Some(item) if item.size != entry.size => {
@@ -114,7 +156,9 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
     }
     // A sealed release withholds some of its files until it is revealed: all of them or none. If coins have chosen between wins,
     // those that they published may be there already.
-    let is_held = |path: &str| manifest.kind == ReleaseKind::Sealed && path.starts_with(HELD);
+    // Of what is hidden, nothing is awaited.
+    let is_listed = manifest.kind == ReleaseKind::Sealed && manifest.withheld.is_none();
+    let is_held = |path: &str| is_listed && path.starts_with(HELD);
     let stays = |path: &str| is_held(path) && !is_solution(path);
     let lacks_all = |of: &dyn Fn(&str) -> bool| {
         manifest
@@ -125,7 +169,7 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
     };
     let withheld: &dyn Fn(&str) -> bool = match () {
         () if lacks_all(&is_held) => &is_held,
-        () if has_second_wins(manifest) && lacks_all(&stays) => &stays,
+        () if is_listed && has_second_wins(manifest) && lacks_all(&stays) => &stays,
         () => &|_| false,
     };
     let is_missing = |path: &&str| !(named.contains(*path) || withheld(path));

@@ -29,6 +29,7 @@
 //!     lockfile: Digest::of(b"the bytes of Cargo.lock"),
 //!     recipe,
 //!     items: vec![Item::of("games/maze/game.vgdl", text)],
+//!     withheld: None,
 //!     root: Digest::of(b""), // this and the next are replaced by `seal_root`
 //!     checksum: Digest::of(b""),
 //! };
@@ -79,6 +80,7 @@ mod tiers;
 pub mod twin;
 mod verify;
 pub mod version;
+mod withheld;
 mod witness;
 
 pub use ancestry::{AncestryError, follow};
@@ -90,7 +92,9 @@ pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
 pub use integrity::{Integrity, check_integrity};
 pub use known::Known;
-pub use manifest::{FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
+pub use manifest::{
+    FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind, SEALED_FORMAT,
+};
 pub use papers::{PAPERS, PAPERS_LIMITS, Untracked};
 pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
@@ -101,6 +105,7 @@ pub use sealed::{
 };
 pub use tiers::{PuzzlePart, Tiers};
 pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
+pub use withheld::{Withheld, withhold};
 pub use witness::Witness;
 
 use engine::Digest;

@@ -82,6 +82,9 @@ pub enum Flaw {
     /// missing or duplicate field): its meaning is intact, but its bytes are not as minted.
     #[error("not in canonical form (its text is not as minted)")]
     NotCanonical,
+    /// The list of a part of what was withheld, which is the one committed to, is not such a list.
+    #[error("not a list of withheld files ({0})")]
+    NotAList(String),
     /// An entry of an archive, or the archive itself, is not as packed.
     #[error("not as packed ({0})")]
     NotAsPacked(String),

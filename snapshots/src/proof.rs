@@ -11,6 +11,7 @@ use crate::folder::Limits;
 use crate::manifest::{HEADER_LEAF, MANIFEST_FILE, Manifest};
 use crate::merkle::{self, Leaf, Proof};
 use crate::path::check_path;
+use crate::withheld::HeldPart;
 use engine::Digest;
 use report::canonical::to_canonical_json;
 
@@ -34,6 +35,14 @@ pub enum ProofError {
         release: String,
         /// The nearest existing ID.
         near: Option<String>,
+    },
+    /// The item is under the root by the list of what was withheld.
+    #[error("`{}` is under the root by a list of what was withheld, so it has no proof of its own: prove `{list}`, which has its digest", id.escape_debug())]
+    Listed {
+        /// The requested item.
+        id: String,
+        /// The list.
+        list: &'static str,
     },
     /// The proof exceeds the maximum size.
     #[error("the proof is larger than {MAX_PROOF} bytes: fetch it again")]
@@ -86,7 +95,7 @@ impl ItemProof {
     pub fn of(manifest: &Manifest, id: &str) -> Result<ItemProof, ProofError> {
         let wanted = |path: &str| path == id || game_of(path) == Some(id);
         let leaves = manifest.leaves()?;
-        let items = manifest.items.iter().filter(|item| wanted(&item.path));
+        let items = manifest.files().filter(|item| wanted(&item.path));
         let files: Vec<FileProof> = items
             .filter_map(|item| {
                 let proof = merkle::prove(&leaves, &item.path)?;
@@ -94,9 +103,14 @@ impl ItemProof {
             })
             .collect();
         if files.is_empty() {
+            if let Some(part) = HeldPart::ALL.into_iter().find(|part| part.has(id)) {
+                if manifest.item(id).is_some() {
+                    return Err(ProofError::Listed { id: id.into(), list: part.list() });
+                }
+            }
             let games = manifest.items.iter().filter_map(|item| game_of(&item.path));
             let known: BTreeSet<&str> =
-                manifest.items.iter().map(|item| item.path.as_str()).chain(games).collect();
+                manifest.files().map(|item| item.path.as_str()).chain(games).collect();
             let near = engine::nearest(id, known).map(str::to_owned);
             return Err(ProofError::NoSuchItem { id: id.into(), release: manifest.name.clone(), near });
         }

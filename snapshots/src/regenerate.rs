@@ -14,6 +14,7 @@ use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use validators::Criteria;
 
 /// The reasons why a release cannot be minted again here.
 #[derive(Debug, thiserror::Error)]
@@ -130,6 +131,24 @@ impl Regeneration {
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
+    /// The most forward-model calls that its recipe allows for one level: by its searches for a win and the plays of its players.
+    pub fn calls_per_level(&self) -> u64 {
+        let of = |criteria: &Criteria| {
+            let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
+            // Of a ladder, every player plays a round, as patiently as it may, before the calls of all are spent.
+            let names = criteria.ladder.iter().chain(&criteria.held_out);
+            let names = names.filter(|_| criteria.includes("skill"));
+            let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
+            let round = budgets.map(|budget| play(budget).saturating_mul(criteria.patience as u64));
+            let searched = play(criteria.decision).saturating_mul(criteria.mcts_plays.into());
+            [criteria.budget, criteria.ladder_calls, criteria.early_calls, criteria.ablation_calls, searched]
+                .into_iter()
+                .chain(round)
+                .fold(0, u64::saturating_add)
+        };
+        self.recipe.corpus.criteria.as_ref().map_or(0, of).max(of(&self.recipe.criteria))
+    }
+
     /// The plan of its recipe.
     ///
     /// # Errors
@@ -179,7 +198,7 @@ impl Regeneration {
             return Ok(None);
         }
         let mut comparison = Comparison::of(&self.root)?;
-        for item in &manifest.items {
+        for item in manifest.files() {
             comparison.file(&item.path, &folder::read(out, &item.path, item.size)?)?;
         }
         let compared = comparison.finish(&self.manifest, &self.bytes, &manifest)?;

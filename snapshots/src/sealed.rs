@@ -7,15 +7,16 @@ use crate::manifest::{MANIFEST_FILE, Manifest, ReleaseKind};
 use crate::marks::Marks;
 use crate::memory::{SIBLINGS, has_second_wins, is_solution};
 use crate::papers::{self, IGNORED_NAMES, PAPERS_LIMITS};
+use crate::withheld::{HeldPart, LIST_LIMIT, disclose, salt_flaw};
 use crate::witness::{Witness, descendant};
 use crate::{Draft, SnapshotError};
 use engine::{Digest, Seed};
 use report::canonical::{CanonicalError, canonical_digest};
+use report::files;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// The file of a sealed release that holds its secret, among the withheld ones.
@@ -46,6 +47,7 @@ pub const COMMITS_TO_RECIPE_SINCE: u32 = 12;
 const SEED_CONTEXT: &str = "infinite-arcade 2 seed of a secret";
 const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
 const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
+const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 
 /// The minimum number of different bytes, and of different byte-to-byte steps, in 32 random bytes. All but one in a
 /// billion drawn secrets have more; a sequence with a period of at most 16 bytes has fewer.
@@ -76,6 +78,16 @@ impl Secret {
         hasher.update(self.seed.as_bytes());
         hasher.update(self.nonce.as_bytes());
         hasher.update(recipe.as_bytes());
+        Digest::from_bytes(*hasher.finalize().as_bytes())
+    }
+
+    /// The salt of the list of a part of what is withheld. It tells nothing of the secret, nor of the other part's salt.
+    pub(crate) fn salt(&self, part: HeldPart) -> Digest {
+        let mut hasher = blake3::Hasher::new_derive_key(SALT_CONTEXT);
+        for part in [self.seed.as_bytes(), self.nonce.as_bytes(), part.list().as_bytes()] {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part);
+        }
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
@@ -167,9 +179,17 @@ const SECRET_LIMIT: u64 = 4096;
 /// # Errors
 /// The file cannot be read, holds no secret, or holds one that was made up instead of drawn.
 pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
-    let io = |source| SnapshotError::io("read", file)(source);
-    let mut bytes = Vec::new();
-    File::open(file).and_then(|open| open.take(SECRET_LIMIT + 1).read_to_end(&mut bytes)).map_err(io)?;
+    let bytes = match files::open(file) {
+        Err(source) if source.kind() == io::ErrorKind::InvalidInput => {
+            let source = serde::de::Error::custom("it is not a file");
+            return Err(SnapshotError::NotASecret { path: file.to_path_buf(), source });
+        }
+        opened => opened.and_then(|open| {
+            let mut bytes = Vec::new();
+            open.take(SECRET_LIMIT + 1).read_to_end(&mut bytes).map(|_| bytes)
+        }),
+    };
+    let bytes = bytes.map_err(SnapshotError::io("read", file))?;
     let secret = parse(&bytes, file)?;
     match secret.check() {
         Ok(()) => Ok(secret),
@@ -235,7 +255,7 @@ pub enum Reveal {
 /// refuses.
 pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result<Manifest, RevealError> {
     let integrity = check_integrity(public)?;
-    let manifest = integrity.manifest;
+    let mut manifest = integrity.manifest;
     if manifest.commitment.is_none() {
         return Err(RevealError::Open(manifest.name));
     }
@@ -243,17 +263,32 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
         return Err(RevealError::NoSecondWins(manifest.name));
     }
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
+    let mut salts = Vec::new();
+    let has_lists = manifest.withheld.is_some();
+    for part in HeldPart::ALL.into_iter().filter(|_| has_lists) {
+        let file = part.list().strip_prefix(HELD).expect("it is held");
+        let Some(bytes) = folder::find(held, file, LIST_LIMIT)? else { continue };
+        if manifest.hides(part) {
+            let flaw = disclose(&mut manifest, part, &bytes).err();
+            problems.extend(flaw.map(|flaw| format!("{}: {flaw}", part.list())));
+        }
+        salts.push((part, bytes));
+    }
     let listing = folder::list_but(held, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
     problems.extend(listing.problems.iter().map(|problem| format!("{HELD}{problem}")));
     let there: Vec<String> = listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
     let there: BTreeSet<&str> = there.iter().map(String::as_str).collect();
-    let awaited = manifest.held();
+    let held_files = manifest.held();
+    let mut awaited = held_files.clone();
+    if manifest.withheld.is_some() {
+        awaited.extend(HeldPart::ALL.map(HeldPart::list));
+    }
     problems.extend(there.difference(&awaited).map(|path| format!("{path}: not of this release")));
     problems.extend(awaited.difference(&there).map(|path| format!("{path}: missing")));
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));
     }
-    for item in &manifest.items {
+    for item in manifest.files() {
         let (part, path) = match item.path.strip_prefix(HELD) {
             Some(path) => (held, path),
             None => (public, item.path.as_str()),
@@ -261,7 +296,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
         let bytes = folder::read(part, path, Limits::SNAPSHOT.file_bytes)?;
         if Digest::of(&bytes) != item.digest || bytes.len() as u64 != item.size {
             problems.push(format!("{}: not the file that was committed to", item.path));
-        } else if what == Reveal::All || !item.path.starts_with(HELD) || is_solution(&item.path) {
+        } else if what == Reveal::All || !item.path.starts_with(HELD) || is_early(&item.path) {
             draft.write(&item.path, &bytes)?;
         }
     }
@@ -269,7 +304,8 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
         let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
         let secret = read_revealed(held, file)?;
         problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
-        problems.extend(unrelated_witnesses(&secret, &manifest.recipe, held, &awaited)?);
+        problems.extend(salts.iter().filter_map(|(part, bytes)| salt_flaw(*part, bytes, &secret)));
+        problems.extend(unrelated_witnesses(&secret, &manifest.recipe, held, &held_files)?);
     }
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));
@@ -280,6 +316,11 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     }
     draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
     Ok(manifest)
+}
+
+/// Tests whether a withheld file is revealed with the wins that coins published.
+fn is_early(path: &str) -> bool {
+    is_solution(path) || path == HeldPart::Solutions.list()
 }
 
 /// The withheld witnesses whose seeds are not derived from the secret.

@@ -3,13 +3,16 @@
 use crate::refusal::Refusal;
 use crate::workspace::NamedText;
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
-use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read, Write};
+use report::files;
+use std::fs;
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::Builder;
 
 /// The most levels of a game that are read.
 const MAX_LEVELS: usize = 1000;
+/// The most bytes of all levels of a game.
+const MAX_ALL_LEVELS: usize = 4 << 20;
 
 /// Returns the number in the name by which a page knows a level: `lvl3.txt` is level 3. Each number has one name, whatever
 /// the name of the file.
@@ -24,7 +27,7 @@ pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, Str
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
     let names: Vec<String> =
         listed.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
-    let mut levels = engine::files::levels(source, names.iter().map(String::as_str));
+    let mut levels = engine::layout::levels(source, names.iter().map(String::as_str));
     levels.retain(|(number, _)| *number < MAX_LEVELS);
     levels.dedup_by_key(|(number, _)| *number);
     Ok(levels)
@@ -32,8 +35,15 @@ pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, Str
 
 /// Returns the levels of a game in a folder, in order, under the names by which pages know them.
 pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refusal> {
+    let mut left = MAX_ALL_LEVELS;
     let read = |(number, file): (usize, String)| {
         let text = read_text(&folder.join(file), MAX_LEVEL_TEXT)?;
+        left = left.checked_sub(text.len()).ok_or_else(|| {
+            Refusal::bad(format_args!(
+                "the levels of this game have more than {MAX_ALL_LEVELS} bytes together"
+            ))
+            .help("move some of them to another folder")
+        })?;
         Ok(NamedText { name: format!("lvl{number}.txt"), text })
     };
     level_files(folder, source)?.into_iter().map(read).collect()
@@ -60,17 +70,10 @@ pub(crate) fn read_source(file: &Path) -> Result<String, Refusal> {
 
 fn read_text(file: &Path, limit: usize) -> Result<String, Refusal> {
     let name = shown(file);
-    let bytes = read_bytes(file, limit).map_err(|error| unreadable(file, &error))?;
+    let bytes = files::read(file, limit as u64).map_err(|error| unreadable(file, &error))?;
     let bytes = bytes.ok_or_else(|| Refusal::bad(format_args!("{name} is larger than {limit} bytes")))?;
     String::from_utf8(bytes)
         .map_err(|_| Refusal::bad(format_args!("{name} is no text")).help("save it as UTF-8"))
-}
-
-/// Reads a file of at most `limit` bytes; `None` if it is larger.
-fn read_bytes(file: &Path, limit: usize) -> io::Result<Option<Vec<u8>>> {
-    let mut bytes = Vec::new();
-    File::open(file)?.take(limit as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(Some(bytes).filter(|bytes| bytes.len() <= limit))
 }
 
 /// Returns the content of a file; `None` if there is no such file.
@@ -84,6 +87,17 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
                 .help("replace it by a file to change it here"))
         }
         Ok(_) => read_text(file, MAX_LEVEL_TEXT.max(MAX_SOURCE)).map(Some),
+    }
+}
+
+/// Refuses a folder that is a link: what is written there would change a folder elsewhere.
+pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
+    match fs::symlink_metadata(folder) {
+        Ok(found) if found.is_symlink() => {
+            Err(Refusal::forbidden(format_args!("{} is a link to another folder", shown(folder)))
+                .help("open that folder itself to change the game"))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -123,6 +137,9 @@ pub(crate) fn remove(file: &Path) -> Result<(), Refusal> {
 fn unreadable(path: &Path, error: &io::Error) -> Refusal {
     match error.kind() {
         ErrorKind::NotFound => Refusal::missing(format_args!("{} is gone", shown(path))),
+        ErrorKind::InvalidInput | ErrorKind::IsADirectory => {
+            Refusal::bad(format_args!("{} is not a file", shown(path))).help("replace it by a file")
+        }
         kind => Refusal::failed(format_args!("cannot read {}: {kind}", shown(path))),
     }
 }

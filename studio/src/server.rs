@@ -25,6 +25,7 @@ const BOUNDS: Bounds = Bounds {
     bodies: 32 << 20,
     head_time: Duration::from_secs(20),
     body_time: Duration::from_secs(60),
+    write_time: Duration::from_secs(20),
     threads: answers::THREADS,
 };
 

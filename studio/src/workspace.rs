@@ -203,9 +203,15 @@ impl GameEntry {
             Place::Folder { writable: false, .. } | Place::File { writable: false, .. } => {
                 Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
             }
-            Place::Folder { folder, source, .. } if name == source => Ok(folder.join(name)),
+            Place::Folder { folder, source, .. } if name == source => {
+                files::check_folder(folder)?;
+                Ok(folder.join(name))
+            }
             Place::Folder { folder, source, .. } => match files::level_number(name) {
-                Some(number) => files::level_path(folder, source, number),
+                Some(number) => {
+                    files::check_folder(folder)?;
+                    files::level_path(folder, source, number)
+                }
                 None => Err(unknown(&format!("there are {source} and lvl0.txt, lvl1.txt …"))),
             },
             Place::File { file, .. } if file.file_name().is_some_and(|own| own == name) => Ok(file.clone()),

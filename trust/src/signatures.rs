@@ -6,10 +6,11 @@ use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
 use crate::key_set::{KeySet, NamedKey};
 use crate::statement::Statement;
 use engine::Digest;
+use report::files;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File};
-use std::io::Read;
+use std::fs;
+use std::io;
 use std::path::Path;
 
 /// The greatest number of files that are read of a folder.
@@ -383,14 +384,16 @@ pub fn sign_into(
 /// # Errors
 /// It cannot be read, or is larger.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
-    let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
-    read.map_err(TrustError::io("read", path))?;
-    match bytes.len() as u64 > limit {
-        true => Err(TrustError::document(
-            path.display().to_string(),
+    let shown = || path.display().to_string();
+    match files::read(path, limit) {
+        Ok(Some(bytes)) => Ok(bytes),
+        Ok(None) => Err(TrustError::document(
+            shown(),
             format!("has more than {limit} bytes, which no such file has: check the path"),
         )),
-        false => Ok(bytes),
+        Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+            Err(TrustError::document(shown(), "is not a file: check the path"))
+        }
+        Err(error) => Err(TrustError::io("read", path)(error)),
     }
 }

@@ -104,8 +104,8 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     }
     let coins = Coins { games: released.games.iter().map(coin).collect() };
     if coins.counts() == (0, 0) {
-        let is_there = |part: &str| manifest.items.iter().any(|item| item.path.starts_with(part));
-        if is_there("held/siblings/") || is_there("held/seconds/") {
+        let has = |part: &str| manifest.items.iter().any(|item| item.path.starts_with(part));
+        if manifest.is_hiding() || has("held/siblings/") || has("held/seconds/") {
             bail!(
                 "{place}: what the coins of `{name}` withheld is not in it; reveal it, or ask its publisher: \
                  arcade release PUBLIC --reveal HELD --out DIR"

@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
-use crate::trusted::SecretArgs;
+use crate::trusted::{SecretArgs, warn_of_readers};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use trust::{Disk, KeySet, NamedKey, PublicKey, Signatures, read_bounded, sign_into};
@@ -62,6 +62,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             bail!("`{}` has no keys-1.json: make the first set with --add NAME=FILE", args.folder.display())
         }
     };
+    args.secrets.secret.iter().for_each(|file| warn_of_readers(file, console));
     let secrets = args.secrets.open()?;
     if changes || !secrets.is_empty() {
         let comment = format!("keys {} {}", set.version, set.digest()?);

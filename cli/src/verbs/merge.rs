@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::embedded;
 use crate::failure::Answer;
 use crate::protected;
+use crate::trusted::warn_of_readers;
 use crate::verbs::release::{FinishedMint, in_pool, read_secret_file};
 use snapshots::mint::{Plan, Shards};
 use std::path::PathBuf;
@@ -31,6 +32,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     protected::check(&args.out)?;
     let shards = Shards::open(&args.shards)?;
     let corpus = embedded::corpus()?;
+    args.secret.iter().for_each(|file| warn_of_readers(file, console));
     let secret = args.secret.as_deref().map(read_secret_file).transpose()?;
     let plan = Plan::new(shards.recipe(), secret.as_ref(), &corpus)?;
     if !shards.are_of(&plan)? {

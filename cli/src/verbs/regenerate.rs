@@ -17,6 +17,9 @@ use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+/// The most forward-model calls for one level, unless another bound is given.
+const MAX_WORK: u64 = 1 << 28;
+
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
 ///
 /// Of a folder that holds only MANIFEST.json, the manifest alone is compared, with the root in it.
@@ -39,6 +42,10 @@ pub(crate) struct Args {
     /// Number of threads (default: all cores). The output is the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    /// The most forward-model calls that the recipe may allow for one level; without the option 268435456, some ten times what
+    /// our recipes allow
+    #[arg(long, value_name = "CALLS", default_value_t = MAX_WORK, hide_default_value = true)]
+    max_work: u64,
     /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
@@ -64,6 +71,17 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         && let Some((manifest, compared)) = release.compare_complete(out)?
     {
         return answer(args, &Answered { manifest: &manifest, compared: &compared, minted: false }, console);
+    }
+    let calls = release.calls_per_level();
+    if calls > args.max_work {
+        let place = args.snapshot.display();
+        console.document(&json!({ "identical": false, "differences": [], "exceeded": calls }))?;
+        console.say(format_args!(
+            "{place}: NOT regenerated: its recipe allows {calls} forward-model calls for one level, and --max-work {}; raise it if you \
+             trust the recipe",
+            args.max_work
+        ));
+        return Ok(false);
     }
     let plan = release.plan(&corpus)?.with_players(&marks::Players)?;
     let open = if args.resume { Draft::resume } else { Draft::create };
@@ -153,7 +171,7 @@ fn answer(args: &Args, Answered { manifest, compared, minted }: &Answered<'_>, c
             "note: minted with another Cargo.lock than the original; only its digest in the manifest differs",
         );
     }
-    let files = count(manifest.items.len(), "file");
+    let files = count(manifest.files().count(), "file");
     match (identical, has_files) {
         (true, true) => console.say(format_args!("identical: the manifest and {files}, root {root}")),
         (true, false) => console.say(format_args!(

@@ -10,7 +10,7 @@ use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};
 use engine::{Game, Level, Limit, Outcome, SEMANTICS, Seed};
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use statistics::{Summary, Z95, wilson};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -75,6 +75,7 @@ struct Entry<'a> {
 struct Line<'a> {
     #[serde(skip)]
     entry: &'a Entry<'a>,
+    #[serde(serialize_with = "field")]
     game: &'a str,
     planner: &'a str,
     budget: u64,
@@ -372,6 +373,11 @@ fn table(rows: &[Row<'_>]) -> String {
         );
     }
     text
+}
+
+/// Writes a text that a spreadsheet takes for no formula.
+fn field<S: Serializer>(text: &str, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&report::in_csv(text))
 }
 
 fn csv(lines: &[Line<'_>]) -> Result<Vec<u8>, anyhow::Error> {

@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
-use crate::trusted::{SecretArgs, anchor, signatures_of};
+use crate::trusted::{SecretArgs, anchor, signatures_of, warn_of_readers};
 use serde_json::json;
 use snapshots::integrity_of;
 use std::path::PathBuf;
@@ -55,6 +55,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         )),
     });
     let set = set.transpose()?;
+    args.secrets.secret.iter().for_each(|file| warn_of_readers(file, console));
     let secrets = args.secrets.open()?;
     for secret in &secrets {
         let (id, key) = (secret.public().id(), secret.public().to_base64());

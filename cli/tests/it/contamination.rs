@@ -1,7 +1,7 @@
 //! Tests of memory: a player that replays what coins published is found, others are not.
 
 use crate::arcade::{copy_tree, files, run, text};
-use engine::Digest;
+use engine::{Digest, Game};
 use serde_json::Value;
 use snapshots::mint::{Memory, Plan, lay_out, make_jobs};
 use snapshots::released::{Released, ReleasedGame};
@@ -209,8 +209,9 @@ fn solutions_are_revealed_before_the_rest() {
         "{said}"
     );
     let there = files(&folder.join("solved/held"));
-    assert_eq!(there.len(), 12, "{:?}", there.keys());
-    assert!(there.keys().all(|path| path.split('/').count() == 2), "{:?}", there.keys());
+    assert_eq!(there.len(), 13, "{:?}", there.keys());
+    let is_early = |path: &String| path == "SOLUTIONS.json" || path.split('/').count() == 2;
+    assert!(there.keys().all(is_early), "{:?}", there.keys());
     let all = files(&made.join("revealed"));
     let secret: Value = serde_json::from_slice(&all["held/secret.json"]).unwrap();
     for (name, content) in files(&folder.join("solved")) {
@@ -221,7 +222,7 @@ fn solutions_are_revealed_before_the_rest() {
     run(folder, &["release", "solved", "--reveal", "held", "--out", "revealed"], 0);
     assert_eq!(files(&folder.join("revealed")), all);
     // A part of them is none.
-    let first = there.keys().next().unwrap();
+    let first = there.keys().find(|path| path.contains('/')).unwrap();
     fs::remove_file(folder.join("solved/held").join(first)).unwrap();
     let said = text(&run(folder, &["verify", "solved"], 1).stdout);
     assert!(said.contains("missing"), "{said}");
@@ -245,12 +246,23 @@ type Forgery<'a> = &'a dyn Fn(&mut BTreeMap<String, Vec<u8>>);
 fn what_was_withheld_is_verified() {
     let said = text(&run(COINS.path(), &["verify", "revealed"], 0).stdout);
     assert!(said.contains("24 witnesses replayed to a win\n"), "{said}");
+    // Both siblings are renamings: neither is the game of the corpus, so nothing public tells which one was withheld.
+    let released = Released::read(&COINS.path().join("revealed")).unwrap();
+    let corpus: Vec<Digest> =
+        corpus().games.iter().map(|game| Game::from_source(&game.source).unwrap().digest()).collect();
+    for game in &released.games {
+        let sibling = game.sibling.as_ref().unwrap().game.digest();
+        assert!(!corpus.contains(&game.game.digest()) && !corpus.contains(&sibling), "{}", game.card.id);
+    }
     // Forgeries with a root of their own.
     let forged = |change: Forgery<'_>, words: &str| {
         let (home, mut all) = (tempfile::tempdir().unwrap(), files(&COINS.path().join("revealed")));
         let mut manifest = Manifest::parse(&all.remove(MANIFEST_FILE).unwrap()).unwrap();
         change(&mut all);
+        all.retain(|path, _| !["held/REST.json", "held/SOLUTIONS.json"].contains(&path.as_str()));
         manifest.items = all.iter().map(|(path, content)| Item::of(path.clone(), content)).collect();
+        let secret = serde_json::from_slice(&all["held/secret.json"]).unwrap();
+        all.extend(snapshots::withhold(&mut manifest, &secret).unwrap());
         manifest.seal_root().unwrap();
         all.insert(MANIFEST_FILE.to_owned(), manifest.to_bytes().unwrap());
         for (path, content) in all {

@@ -119,3 +119,26 @@ fn an_interrupted_regeneration_ends_with_its_status() {
     assert_eq!(child.wait().unwrap().code(), Some(143));
     assert_eq!(lines.last().as_deref(), Some("interrupted; nothing is kept without --out"));
 }
+
+/// A forged recipe that allows endless searches is told before they begin.
+#[test]
+fn endless_recipes_are_not_regenerated() {
+    let (home, root) = copy_of_tiny();
+    let path = root.join("MANIFEST.json");
+    let whole = snapshots::Manifest::parse(&fs::read(&path).unwrap()).unwrap();
+    let changes: [(&str, serde_json::Value); 2] =
+        [("budget", 1_000_000_000_000_u64.into()), ("ladder", serde_json::json!(["random", "mcts:1000000"]))];
+    for (key, value) in changes {
+        let mut manifest = whole.clone();
+        manifest.recipe["criteria"][key] = value;
+        manifest.recipe["criteria"]["ask"].as_array_mut().unwrap().push("skill".into());
+        manifest.seal_root().unwrap();
+        fs::write(&path, manifest.to_bytes().unwrap()).unwrap();
+        let output = run(home.path(), &["regenerate", "tiny"], 1);
+        let said = text(&output.stdout);
+        assert!(said.contains("NOT regenerated") && said.contains("--max-work"), "{key}: {said}");
+    }
+    fs::write(&path, whole.to_bytes().unwrap()).unwrap();
+    let said = text(&run(home.path(), &["regenerate", "tiny", "--max-work", "1000"], 1).stdout);
+    assert!(said.contains("--max-work 1000"), "{said}");
+}

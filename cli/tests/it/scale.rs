@@ -341,3 +341,48 @@ fn malformed_scales_are_refused() {
     let own = ["calibrate", "hailglass", "--out", "x", "--seed", "evaluate"];
     run(folder.path(), &own, 2);
 }
+
+/// Numbers that no calibration gives are refused when they are read: plots and integrals would take memory in proportion.
+#[test]
+fn damaged_scales_are_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let whole = read(&SCALES.path().join("first/scale.json"));
+    let plays = SCALES.path().join("first/plays/mcts-1").display().to_string();
+    let check = |pointer: &str, value: Value| {
+        let mut scale = whole.clone();
+        *scale.pointer_mut(pointer).unwrap() = value;
+        fs::write(folder.join("scale.json"), scale.to_string()).unwrap();
+        for verb in [
+            vec!["scale", &plays, "--scale", "scale.json"],
+            vec!["timeline", &plays, "--scale", "scale.json", "--out", "t"],
+        ] {
+            let said = text(&run(folder, &verb, 2).stderr);
+            assert!(said.contains("the scale is damaged"), "{pointer}: {said}");
+            assert!(!folder.join("t").exists());
+        }
+    };
+    for pointer in [
+        "/months/0/games/2/common/0",
+        "/months/0/games/0/levels/0/difficulty/1/error",
+        "/months/0/shifts/0/value",
+        "/months/0/shifts/1/error",
+        "/months/0/planners_shift/value",
+        "/months/0/link/0",
+        "/examinees/0/ability",
+        "/examinees/0/on_scale/value",
+        "/spreads/reader",
+        "/origins/0",
+        "/ease",
+        "/covariance/0",
+    ] {
+        check(pointer, 1e9.into());
+        check(pointer, 1e308.into());
+    }
+    check("/months/0/shifts/0/value", (-1e9).into());
+    check("/months/0/games/0/misfit", 1e300.into());
+    check("/months/0/games/2/common/0", (-1.0).into());
+    check("/months/0/anchors", u64::MAX.into());
+    fs::write(folder.join("scale.json"), whole.to_string()).unwrap();
+    run(folder, &["scale", &plays, "--scale", "scale.json"], 0);
+}

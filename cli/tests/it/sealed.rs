@@ -43,7 +43,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     // Nothing public reveals the seed, the nonce, or how a level is won.
     let held = files(&folder.join("out/held"));
     let mut secrets = vec![secret.seed, secret.nonce.to_string()];
-    for (_, content) in held.iter().filter(|(name, _)| *name != "secret.json") {
+    for (_, content) in held.iter().filter(|(name, _)| name.contains('/')) {
         let witness: serde_json::Value = serde_json::from_slice(content).unwrap();
         secrets.push(witness["episode"]["seed"].to_string().trim_matches('"').to_owned());
         secrets.push(witness["episode"]["actions"].to_string().trim_matches('"').to_owned());
@@ -377,7 +377,7 @@ fn coins_follow_from_the_beacon_too() {
         let [public, held, revealed] = ["public", "held", "revealed"].map(|part| format!("{name}/{part}"));
         run(folder, &["verify", &public], 0);
         run(folder, &["release", &public, "--reveal", &held, "--out", &revealed], 0);
-        let held = files(&folder.join(&held)).into_keys().filter(|name| name != "secret.json").count();
+        let held = files(&folder.join(&held)).into_keys().filter(|name| name.contains('/')).count();
         assert!(held > 0, "something is withheld");
         run(folder, &["verify", &revealed], 0);
         if name == "two" || sweeping() {

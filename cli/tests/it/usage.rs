@@ -289,6 +289,13 @@ fn only_leftovers_are_removed() {
             folder.set_modified(std::time::UNIX_EPOCH).unwrap();
         }
     }
+    for name in ["arcade-studio-a1B2c3.html", "arcade-studio-fresh1.html", "arcade-studio-notes.html"] {
+        put(&temporary.join(name), "a page");
+        if !name.contains("fresh") {
+            let page = fs::File::options().write(true).open(temporary.join(name)).unwrap();
+            page.set_modified(std::time::UNIX_EPOCH).unwrap();
+        }
+    }
     let clean = |flags: &[&str]| {
         let mut command = arcade(home.path());
         let output =
@@ -298,16 +305,16 @@ fn only_leftovers_are_removed() {
         let found = document["found"].as_array().unwrap().clone();
         let of_kind = |kind: &str| found.iter().filter(|one| one["kind"] == kind).count();
         let removed = found.iter().filter(|one| one["removed"] == true).count();
-        (["unfinished", "interrupted", "file", "scratch", "shard"].map(of_kind), removed)
+        (["unfinished", "interrupted", "file", "scratch", "page", "shard"].map(of_kind), removed)
     };
     let before = files(home.path());
     let scratch = usize::from(cfg!(target_os = "linux"));
-    assert_eq!(clean(&["--dry-run"]), ([3, 1, 1, scratch, 0], 0));
+    assert_eq!(clean(&["--dry-run"]), ([3, 1, 1, scratch, scratch, 0], 0));
     assert!(files(home.path()) == before);
-    assert_eq!(clean(&[]), ([3, 1, 1, scratch, 0], 4 + scratch));
+    assert_eq!(clean(&[]), ([3, 1, 1, scratch, scratch, 0], 4 + 2 * scratch));
     let after = files(home.path());
     assert!(after.keys().any(|name| name.starts_with("work/mint.partial")));
-    assert_eq!(clean(&["--interrupted"]), ([0, 1, 0, 0, 0], 1));
+    assert_eq!(clean(&["--interrupted"]), ([0, 1, 0, 0, 0, 0], 1));
     let after = files(home.path());
     for path in foreign {
         assert_eq!(text(&after[&format!("work/{path}")]), "precious", "{path}");
@@ -316,7 +323,9 @@ fn only_leftovers_are_removed() {
     assert!(!after.keys().any(|name| name.contains("new.partial") || name.contains("month.partial")));
     let left = ["arcade-player-fresh1", "arcade-player-notes", "other-player-a1B2c3"];
     assert!(left.iter().all(|name| after.contains_key(&format!("tmp/{name}/log"))));
-    assert_eq!(clean(&[]), ([0, 0, 0, 0, 0], 0));
+    assert_eq!(clean(&[]), ([0, 0, 0, 0, 0, 0], 0));
+    let left = ["arcade-studio-fresh1.html", "arcade-studio-notes.html"];
+    assert!(left.iter().all(|name| after.contains_key(&format!("tmp/{name}"))));
     says(home.path(), &["clean", "nowhere"], 2, &["nowhere", "no such folder"]);
 }
 
@@ -333,4 +342,38 @@ fn completions_and_manual_pages() {
     let pages = files(&home.path().join("man1"));
     assert!(text(&pages["arcade-generate-levels.1"]).contains("difficulty"));
     assert_eq!(text(&run(home.path(), &["man"], 0).stdout), text(&pages["arcade.1"]));
+}
+
+/// A pipe among the files of a game is told: nobody waits for its other end.
+#[cfg(unix)]
+#[test]
+fn pipes_are_no_files_of_games() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let pipe = |name: &str| {
+        let made = std::process::Command::new("mkfifo").arg(folder.join(name)).status().unwrap();
+        assert!(made.success());
+    };
+    for game in ["levels", "rules"] {
+        fs::create_dir(folder.join(game)).unwrap();
+    }
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora/hailglass");
+    fs::copy(corpus.join("game.vgdl"), folder.join("levels/game.vgdl")).unwrap();
+    pipe("levels/lvl0.txt");
+    pipe("rules/game.vgdl");
+    pipe("recipe.toml");
+    pipe("secret.json");
+    pipe("prices.toml");
+    for (verb, name) in [
+        (vec!["validate", "levels"], "levels/lvl0.txt"),
+        (vec!["render", "levels", "0", "--out", "x.png"], "levels/lvl0.txt"),
+        (vec!["validate", "rules"], "rules/game.vgdl"),
+        (vec!["describe", "rules"], "rules/game.vgdl"),
+        (vec!["fmt", "--check", "rules/game.vgdl"], "rules/game.vgdl"),
+        (vec!["studio", "rules", "--no-open"], "rules/game.vgdl"),
+        (vec!["release", "recipe.toml", "--out", "x"], "recipe.toml"),
+        (vec!["release", "tiny", "--secret", "secret.json", "--out", "x"], "secret.json"),
+    ] {
+        says(folder, &verb, 2, &[name, "not a file"]);
+    }
 }

@@ -39,7 +39,7 @@ impl Kind {
 }
 
 fn is_level(name: &str) -> bool {
-    engine::files::level_number(name).is_some()
+    engine::layout::level_number(name).is_some()
 }
 
 /// A text with its lines.
@@ -147,7 +147,7 @@ impl Documents {
         let path = uri::path(level)?;
         let (folder, name) = (path.parent()?, path.file_name()?.to_str()?);
         let names = self.names_in(folder);
-        let game = engine::files::game_of(name, names.iter().map(String::as_str))?;
+        let game = engine::layout::game_of(name, names.iter().map(String::as_str))?;
         self.text_at(&folder.join(game), MAX_SOURCE)
     }
 
@@ -159,7 +159,7 @@ impl Documents {
             return Vec::new();
         };
         let names = self.names_in(folder);
-        let levels = engine::files::levels(name, names.iter().map(String::as_str));
+        let levels = engine::layout::levels(name, names.iter().map(String::as_str));
         levels.iter().filter_map(|(_, level)| self.text_at(&folder.join(level), MAX_LEVEL_TEXT)).collect()
     }
 

@@ -4,17 +4,22 @@ use super::chat::{ChatReply, ChatRequest};
 use super::provider::Provider;
 use crate::error::EvaluationError;
 use engine::{Digest, Seed};
+use report::files;
 use serde::{Deserialize, Serialize};
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use tempfile::NamedTempFile;
 
-/// A folder of cached answers. Several programs may use it at once.
+/// A folder of cached answers. Several programs may use it at once. It has to be trusted: nothing tells an answer that a server
+/// gave from one that somebody wrote there.
 #[derive(Debug)]
 pub(super) struct Cache {
     folder: PathBuf,
-    written: AtomicU64,
 }
+
+/// The maximum number of bytes of an entry. Longer answers are not cached.
+const MAX_ENTRY: u64 = 16 << 20;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -53,17 +58,15 @@ impl Cache {
     /// The folder cannot be written.
     pub(super) fn open(folder: &Path) -> Result<Cache, EvaluationError> {
         fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
-        let cache = Cache { folder: folder.to_owned(), written: AtomicU64::new(0) };
-        let probe = cache.scratch();
-        fs::write(&probe, "")
-            .and_then(|()| fs::remove_file(&probe))
-            .map_err(EvaluationError::io("write to", folder))?;
+        let cache = Cache { folder: folder.to_owned() };
+        cache.scratch(b"").map_err(EvaluationError::io("write to", folder))?;
         Ok(cache)
     }
 
     /// Returns the answer, if it is present and intact.
     pub(super) fn get(&self, key: Digest) -> Option<ChatReply> {
-        let entry: Entry = serde_json::from_slice(&fs::read(self.path(key)).ok()?).ok()?;
+        let bytes = files::read_own(&self.path(key), MAX_ENTRY).ok()??;
+        let entry: Entry = serde_json::from_slice(&bytes).ok()?;
         (entry.key == key && entry.check == check(&entry.reply)).then_some(entry.reply)
     }
 
@@ -72,11 +75,11 @@ impl Cache {
         let reply = ChatReply { failures: Vec::new(), ..reply.clone() };
         let entry = Entry { key, check: check(&reply), reply };
         let bytes = serde_json::to_vec(&entry).expect("replies are plain data");
-        let (scratch, path) = (self.scratch(), self.path(key));
+        let path = self.path(key);
         let folder = path.parent().expect("entries lie in a folder");
-        let kept = fs::create_dir_all(folder).and_then(|()| fs::write(&scratch, bytes));
-        if kept.and_then(|()| fs::rename(&scratch, &path)).is_err() {
-            let _ = fs::remove_file(&scratch);
+        if bytes.len() as u64 <= MAX_ENTRY && files::create_own_folder(folder).is_ok() {
+            // A file that cannot be moved to its place is removed when it is dropped.
+            let _ = self.scratch(&bytes).and_then(|file| file.persist(&path).map_err(io::Error::from));
         }
     }
 
@@ -87,10 +90,15 @@ impl Cache {
         self.folder.join(&name[..2]).join(format!("{name}.json"))
     }
 
-    /// Returns a file name that no other thread or program uses.
-    fn scratch(&self) -> PathBuf {
-        let number = self.written.fetch_add(1, Ordering::Relaxed);
-        self.folder.join(format!("{}-{number}.partial", std::process::id()))
+    /// Writes bytes to a new file, whose name nobody can foresee.
+    fn scratch(&self, bytes: &[u8]) -> io::Result<NamedTempFile> {
+        let mut builder = tempfile::Builder::new();
+        builder.suffix(".partial");
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.tempfile_in(&self.folder)?;
+        file.write_all(bytes)?;
+        Ok(file)
     }
 }
 
@@ -170,5 +178,33 @@ mod tests {
         fs::create_dir_all(elsewhere.parent().unwrap()).unwrap();
         fs::copy(cache.path(key), &elsewhere).unwrap();
         assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
+    }
+
+    /// Whoever shares the folder can replace an entry by anything.
+    #[cfg(unix)]
+    #[test]
+    fn only_plain_files_of_a_bounded_size_are_read() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::open(folder.path()).unwrap();
+        let key = Digest::of(b"key");
+        cache.put(key, &reply());
+        let (path, whole) = (cache.path(key), folder.path().join("whole"));
+        fs::rename(&path, &whole).unwrap();
+        for target in [whole.as_path(), Path::new("/dev/zero")] {
+            symlink(target, &path).unwrap();
+            assert_eq!(cache.get(key), None);
+            fs::remove_file(&path).unwrap();
+        }
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+        assert_eq!(cache.get(key), None);
+        fs::remove_file(&path).unwrap();
+        let mut large = fs::read(&whole).unwrap();
+        large.resize(MAX_ENTRY as usize + 1, b' ');
+        fs::write(&path, large).unwrap();
+        assert_eq!(cache.get(key), None);
+        // A stored answer replaces what is there, whatever it is.
+        cache.put(key, &reply());
+        assert_eq!(cache.get(key), Some(reply()));
     }
 }

@@ -3,6 +3,7 @@
 use super::chat::Usage;
 use super::provider::Provider;
 use crate::error::EvaluationError;
+use crate::run::text::read_text;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
@@ -12,6 +13,9 @@ use std::str::FromStr;
 /// replies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Usd(u64);
+
+/// The maximum number of bytes of a price table.
+const MAX_PRICES: usize = 1 << 20;
 
 /// The number of units of [`Usd`] in a dollar.
 const UNITS_PER_DOLLAR: f64 = 1e12;
@@ -134,7 +138,7 @@ impl Prices {
     /// # Errors
     /// The file cannot be read, or is not a price table.
     pub fn with_file(path: &Path) -> Result<Prices, EvaluationError> {
-        let text = std::fs::read_to_string(path).map_err(EvaluationError::io("read", path))?;
+        let text = read_text(path, MAX_PRICES, "give a TOML file of prices")?;
         let wrong = |problem| EvaluationError::malformed(path, format!("not a price table: {problem}"));
         let table = read(&text).map_err(wrong)?;
         let mut prices = Prices::embedded();

@@ -13,11 +13,11 @@ use crate::subject::Subject;
 use crate::track::SeriesPlace;
 use engine::{Outcome, Seed};
 use rayon::prelude::*;
+use report::files;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -130,10 +130,12 @@ impl Evaluation {
         let lock = lock(folder)?;
         for subject in &subjects {
             let games = folder.join("games").join(&subject.id);
-            fs::create_dir_all(&games).map_err(EvaluationError::io("create", &games))?;
+            files::create_own_folder(&games).map_err(EvaluationError::io("create", &games))?;
             let write = |name: &str, text: &str| {
                 let path = games.join(name);
-                fs::write(&path, text).map_err(EvaluationError::io("write", &path))
+                files::write_own(&path, text.as_bytes())
+                    .map(drop)
+                    .map_err(EvaluationError::io("write", &path))
             };
             write("game.vgdl", &subject.source)?;
             for level in &subject.levels {
@@ -141,12 +143,11 @@ impl Evaluation {
             }
         }
         let episodes = folder.join("episodes");
-        fs::create_dir_all(&episodes).map_err(EvaluationError::io("create", &episodes))?;
+        files::create_own_folder(&episodes).map_err(EvaluationError::io("create", &episodes))?;
         let text = serde_json::to_string_pretty(&settings).expect("settings are plain data");
         let (partial, path) = (folder.join(PARTIAL_FILE), folder.join(SETTINGS_FILE));
         let write = || {
-            let mut file = File::create(&partial)?;
-            file.write_all((text + "\n").as_bytes())?;
+            let file = files::write_own(&partial, (text + "\n").as_bytes())?;
             file.sync_all()
         };
         write().map_err(EvaluationError::io("write", &partial))?;
@@ -455,7 +456,7 @@ pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a
 /// Locks the folder against other writers. The operating system releases the lock when the program ends for any reason.
 fn lock(folder: &Path) -> Result<File, EvaluationError> {
     let path = folder.join(LOCK_FILE);
-    let file = File::create(&path).map_err(EvaluationError::io("create", &path))?;
+    let file = files::open_own(&path).map_err(EvaluationError::io("open", &path))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(fs::TryLockError::WouldBlock) => Err(EvaluationError::malformed(

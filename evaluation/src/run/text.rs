@@ -1,8 +1,9 @@
 //! Files of a results folder from a possibly untrusted source: only regular files are read, and only up to a limit.
 
 use crate::error::EvaluationError;
+use report::files;
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// The next step for a file of a results folder that cannot be read.
@@ -14,15 +15,18 @@ pub(crate) const RESTORE: &str = "restore the results folder";
 /// # Errors
 /// It is not a regular file, is larger, or cannot be read.
 pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File, EvaluationError> {
-    let found = path.metadata().map_err(EvaluationError::io("read", path))?;
-    if !found.is_file() {
-        return Err(EvaluationError::malformed(path, format!("not a file; {next_step}")));
-    }
+    let file = match files::open(path) {
+        Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::IsADirectory) => {
+            return Err(EvaluationError::malformed(path, format!("not a file; {next_step}")));
+        }
+        opened => opened.map_err(EvaluationError::io("read", path))?,
+    };
+    let found = file.metadata().map_err(EvaluationError::io("read", path))?;
     if found.len() > limit {
         let what = format!("larger than {limit} bytes, the limit for such a file; {next_step}");
         return Err(EvaluationError::malformed(path, what));
     }
-    File::open(path).map_err(EvaluationError::io("read", path))
+    Ok(file)
 }
 
 /// Reads a text of at most `limit` bytes.

@@ -17,6 +17,13 @@ pub const SCALE_FORMAT: u32 = 1;
 /// The largest file that is read, bytes.
 const MAX_SCALE: usize = 1 << 28;
 
+/// The largest number of logits on a scale, either way: a player wins or loses all but one in 10⁴³⁴ episodes there.
+const MAX_LOGIT: f64 = 1000.0;
+/// The largest misfit of a game.
+const MAX_MISFIT: f64 = 1e12;
+/// The largest count in a scale.
+const MAX_COUNT: u64 = 1 << 40;
+
 /// The next step for a file that is no scale.
 const NEXT_STEP: &str = "give the scale.json that `arcade calibrate` wrote";
 
@@ -228,7 +235,65 @@ impl ScaleFile {
         if scale.covariance.len() != size * size || scale.months.is_empty() {
             return Err(wrong("the scale is damaged: calibrate again".to_owned()));
         }
-        Ok(scale)
+        match scale.out_of_range() {
+            Some(what) => Err(wrong(format!("the scale is damaged, because {what}: calibrate again"))),
+            None => Ok(scale),
+        }
+    }
+
+    /// The first number that no calibration gives, in words. Plots and integrals cost memory in proportion to these numbers.
+    fn out_of_range(&self) -> Option<String> {
+        let logit = |what: &str, value: f64| {
+            let is_in = value.abs() <= MAX_LOGIT;
+            (!is_in).then(|| format!("{what} is {value}, outside ±{MAX_LOGIT}"))
+        };
+        let error = |what: &str, value: f64| {
+            let is_in = (0.0..=MAX_LOGIT).contains(&value);
+            (!is_in).then(|| format!("{what} is {value}, outside 0 to {MAX_LOGIT}"))
+        };
+        let estimate = |what: &str, one: &Estimate| {
+            logit(what, one.value).or_else(|| error(&format!("the error of {what}"), one.error))
+        };
+        let span = |what: &str, one: &Span| {
+            [one.value, one.low, one.high].into_iter().find_map(|value| logit(what, value))
+        };
+        let SpreadsEntry { game, level, family, planner, game_slope, level_slope, .. } = self.spreads;
+        let SpreadsEntry { game_rest, level_rest, reader, .. } = self.spreads;
+        let spreads = [game, level, family, planner, game_slope, level_slope, game_rest, level_rest, reader];
+        let of_examinee = |one: &ExamineeEntry| {
+            logit("an ability", one.ability).or_else(|| estimate("an ability", &one.on_scale))
+        };
+        let of_level = |one: &LevelEntry| {
+            one.difficulty.iter().find_map(|difficulty| estimate("the difficulty of a level", difficulty))
+        };
+        let of_game = |one: &GameEntry| {
+            let common = one.common.into_iter().find_map(|value| error("a common error", value));
+            let misfit =
+                || (!(0.0..=MAX_MISFIT).contains(&one.misfit)).then(|| format!("a misfit is {}", one.misfit));
+            common.or_else(misfit).or_else(|| one.levels.iter().find_map(of_level))
+        };
+        let of_month = |one: &MonthEntry| {
+            let shifts = one.shifts.iter().chain([&one.planners_shift]).chain(&one.drift);
+            let mut shifts = shifts.filter_map(|shift| estimate("the difficulty of a release", shift));
+            let links = || one.link.into_iter().find_map(|value| error("the error of a link", value));
+            let anchors = || (one.anchors > MAX_COUNT).then(|| format!("it has {} anchors", one.anchors));
+            let found = shifts.next().or_else(links).or_else(anchors);
+            found.or_else(|| one.games.iter().find_map(of_game))
+        };
+        let variance = |value: f64| {
+            let is_in = value.abs() <= MAX_LOGIT * MAX_LOGIT;
+            (!is_in).then(|| format!("a covariance is {value}"))
+        };
+        let counts = [self.max_steps, self.replicates].into_iter().find(|&count| count > MAX_COUNT);
+        (counts.map(|count| format!("it counts {count}")))
+            .or_else(|| spreads.into_iter().find_map(|value| logit("a spread", value)))
+            .or_else(|| {
+                self.origins.into_iter().chain([self.ease]).find_map(|value| logit("an origin", value))
+            })
+            .or_else(|| self.covariance.iter().find_map(|&value| variance(value)))
+            .or_else(|| self.correlation.iter().find_map(|one| span("the correlation", one)))
+            .or_else(|| self.examinees.iter().find_map(of_examinee))
+            .or_else(|| self.months.iter().find_map(of_month))
     }
 
     /// Returns the text of the file.

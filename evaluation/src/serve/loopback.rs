@@ -1,16 +1,19 @@
 //! HTTP on a port of this machine within bounds: connections, time, and the memory of bodies.
 
 use super::bounds::Bounds;
-use axum::Router;
+use super::seats::{Seats, Watched};
 use axum::body::{Body, Bytes, HttpBody};
+use axum::{Extension, Router};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use std::io;
 use std::net::{Ipv4Addr, TcpListener};
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+
+pub use super::seats::Asker;
 
 /// The pause after a failure to accept a connection because the system has too many open.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -52,21 +55,36 @@ pub fn answer(
     answered
 }
 
-/// Answers every connection, up to the bounds. Connections beyond them wait in the queue of the operating system.
+/// Answers every connection, up to the bounds. If all places are taken, the connection that has been silent for longest gives
+/// its place to a new one, unless it is [kept](Asker::keep). If all are kept, new ones wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));
+    let seats = Arc::new(Seats::default());
     loop {
-        let place = places.clone().acquire_owned().await.expect("it is never closed");
         let Ok((stream, _)) = listener.accept().await else {
             tokio::time::sleep(PAUSE).await;
             continue;
         };
-        let service = TowerToHyperService::new(router.clone());
+        let place = match places.clone().try_acquire_owned() {
+            Ok(place) => place,
+            Err(_) => {
+                seats.free_one();
+                places.clone().acquire_owned().await.expect("it is never closed")
+            }
+        };
+        let asker = seats.take();
+        let router = router.clone().layer(Extension(asker.clone()));
         tokio::spawn(async move {
             let mut http = http1::Builder::new();
             http.timer(TokioTimer::new()).header_read_timeout(bounds.head_time);
+            let stream = Watched::new(stream, asker.clone(), bounds.write_time);
+            let service = TowerToHyperService::new(router);
             // A client that disconnects, or is too slow, is not an error of the server.
-            let _ = http.serve_connection(TokioIo::new(stream), service).await;
+            tokio::select! {
+                _ = http.serve_connection(TokioIo::new(stream), service) => {}
+                () = asker.leave.notified() => {}
+            }
+            asker.seats.open.lock().unwrap_or_else(PoisonError::into_inner).remove(&asker.number);
             drop::<OwnedSemaphorePermit>(place);
         });
     }

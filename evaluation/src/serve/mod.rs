@@ -11,6 +11,7 @@ mod origin;
 mod prompted;
 mod reflex;
 mod replan;
+mod seats;
 mod server;
 mod shown;
 

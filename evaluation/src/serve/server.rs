@@ -1,16 +1,16 @@
 //! OpenAI-compatible chat completions, answered by a player.
 
 use super::bounds::Bounds;
-use super::loopback::{self, Bodies, Unread};
+use super::loopback::{self, Asker, Bodies, Unread};
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Content, Role};
 use crate::error::EvaluationError;
-use axum::Router;
 use axum::body::Body;
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Json, Response};
 use axum::routing::{get, post};
+use axum::{Extension, Router};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::net::{SocketAddr, TcpListener};
@@ -159,11 +159,17 @@ async fn models(State(serving): State<Arc<Serving>>) -> Json<Value> {
     }))
 }
 
-async fn complete(State(serving): State<Arc<Serving>>, body: Body) -> Response {
+async fn complete(
+    State(serving): State<Arc<Serving>>,
+    Extension(asker): Extension<Asker>,
+    body: Body,
+) -> Response {
     let (body, taken) = match serving.bodies.read(body).await {
         Ok(read) => read,
         Err(why) => return unreadable(&why),
     };
+    // Whoever has asked and waits for the player is in nobody's way.
+    let _kept = asker.keep();
     let answered = tokio::task::spawn_blocking(move || {
         let answered = completion(&serving.player, &body);
         drop((body, taken));

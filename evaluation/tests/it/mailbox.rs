@@ -321,3 +321,42 @@ fn waiting_episodes_give_up_when_the_evaluation_stops() {
     });
     prompt(home.path(), 0, 0);
 }
+
+/// A player, who shares the mailbox, can put links in the place of our files: what they lead to stays as it is.
+#[cfg(unix)]
+#[test]
+fn links_in_the_place_of_our_files_are_not_followed() {
+    use std::os::unix::fs::symlink;
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let (victim, folder) = (home.join("victim"), home.join("box"));
+    fs::write(&victim, "precious").unwrap();
+    fs::create_dir(&folder).unwrap();
+    symlink(&victim, folder.join(".lock")).unwrap();
+    let error = open(&folder, "test", false).err().expect("refused");
+    assert!(error.contains(".lock"), "{error}");
+    let subjects = [corridor()];
+    let results = home.join("results");
+    let begin = || {
+        let settings = settings(&subjects, "test");
+        Evaluation::create(&results, settings, subjects.to_vec()).map(drop).map_err(|error| error.to_string())
+    };
+    fs::create_dir(&results).unwrap();
+    symlink(&victim, results.join(".lock")).unwrap();
+    assert!(begin().unwrap_err().contains(".lock"));
+    fs::remove_file(results.join(".lock")).unwrap();
+    let games = results.join("games/corridor");
+    fs::create_dir_all(&games).unwrap();
+    symlink(&victim, games.join("game.vgdl")).unwrap();
+    begin().unwrap();
+    assert!(!games.join("game.vgdl").is_symlink());
+    // A log that is begun where a link leads.
+    for target in [&victim, &home.join("absent")] {
+        let log = results.join("episodes/x.jsonl");
+        symlink(target, &log).unwrap();
+        assert!(Journal::open(&log).is_err());
+        fs::remove_file(&log).unwrap();
+    }
+    assert!(!home.join("absent").exists());
+    assert_eq!(fs::read_to_string(&victim).unwrap(), "precious");
+}

@@ -380,20 +380,40 @@ fn slow_clients_are_disconnected() {
     assert!(reply.starts_with("HTTP/1.1 408") && reply.contains("request_timeout"), "{reply}");
 }
 
-/// Connections beyond the limit wait for one to be closed.
+/// If all places are taken, whoever has been silent for longest gives way: idle clients, and those that ask and read nothing.
 #[test]
-fn connections_are_bounded() {
+fn idle_and_slow_clients_give_way() {
+    let ask = "GET /v1/models HTTP/1.1\r\nHost: localhost\r\n";
+    let last = format!("{ask}Connection: close\r\n\r\n");
     let server = bounded(Bounds { connections: 2, head_time: GENEROUS, ..Bounds::default() });
-    let idle = [connection(&server, GENEROUS), connection(&server, GENEROUS)];
-    let mut third = connection(&server, Duration::from_millis(300));
-    third.write_all(b"GET /v1/models HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n").unwrap();
-    let kind = third.read(&mut [0; 1]).unwrap_err().kind();
-    assert!(matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut), "{kind:?}");
-    drop(idle);
-    third.set_read_timeout(Some(GENEROUS)).unwrap();
-    let mut reply = String::new();
-    third.read_to_string(&mut reply).unwrap();
-    assert!(reply.starts_with("HTTP/1.1 200"), "{reply}");
+    let mut idle = [connection(&server, GENEROUS), connection(&server, GENEROUS)];
+    for _ in 0..4 {
+        assert!(raw(&server, &last).starts_with("HTTP/1.1 200"));
+    }
+    // There are never more than two.
+    assert_eq!(idle[0].read(&mut [0; 1]).unwrap_or(0), 0);
+    let mut greedy = [connection(&server, GENEROUS), connection(&server, GENEROUS)];
+    for client in &mut greedy {
+        client.set_write_timeout(Some(Duration::from_millis(300))).unwrap();
+        // Until neither side can send more.
+        while client.write_all(format!("{ask}\r\n").repeat(1000).as_bytes()).is_ok() {}
+    }
+    for _ in 0..4 {
+        assert!(raw(&server, &last).starts_with("HTTP/1.1 200"));
+    }
+}
+
+/// A client that reads nothing is disconnected, though nobody else comes.
+#[test]
+fn clients_that_read_nothing_are_disconnected() {
+    let short = Duration::from_millis(200);
+    let server = bounded(Bounds { write_time: short, head_time: GENEROUS, ..Bounds::default() });
+    let mut client = connection(&server, GENEROUS);
+    let many = "GET /v1/models HTTP/1.1\r\nHost: localhost\r\n\r\n".repeat(1000);
+    // Writing ends with an error only because the server has left.
+    client.set_write_timeout(Some(GENEROUS)).unwrap();
+    let gone = std::iter::repeat_with(|| client.write_all(many.as_bytes())).find_map(Result::err).unwrap();
+    assert!(!matches!(gone.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut), "{gone}");
 }
 
 /// The bodies in flight together use no more memory than the bounds allow.

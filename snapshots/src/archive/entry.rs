@@ -76,7 +76,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
             _ => here(Flaw::NotAsPacked(describe_difference(block))),
         };
     }
-    let listed = found == MANIFEST_FILE || manifest.items.iter().any(|item| item.path == found);
+    let listed = found == MANIFEST_FILE || manifest.files().any(|item| item.path == found);
     let passed = expected.is_none_or(|item| found == MANIFEST_FILE || found < item.path.as_str());
     match (listed, passed) {
         (false, _) => here(Flaw::Extra),

@@ -2,7 +2,8 @@
 //!
 //! The same folder gives the same file. Inside is a tar archive with every detail fixed:
 //!
-//! - `<name>/MANIFEST.json` first, so that a reader knows what to expect, then the items in the manifest's order;
+//! - `<name>/MANIFEST.json` first, so that a reader knows what to expect, then the items in the manifest's order; of a
+//!   revealed release then the lists of what was withheld, and the files that they name, sorted;
 //! - each a regular file in a ustar header: mode 0644, owner, group and time 0, no names of owners; no folders, no
 //!   extensions; at the end two blocks of zeros;
 //! - around it one zstd frame with the size of its content, a checksum and no dictionary, and after it a skippable
@@ -30,6 +31,7 @@ use crate::papers::Untracked;
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 use crate::verify::refuse_unfinished;
+use crate::withheld::{HeldPart, LIST_LIMIT, disclose};
 use engine::Digest;
 use entry::{BLOCK, END, padding};
 use frame::{FrameReader, FrameWriter, Unreadable};
@@ -97,12 +99,15 @@ fn pack_into(
     partial: &Path,
 ) -> Result<Packed, SnapshotError> {
     let is_held = |item: &&Item| item.path.starts_with(HELD) && !folder::join(root, &item.path).exists();
-    if manifest.kind == ReleaseKind::Sealed && manifest.items.iter().any(|item| is_held(&item)) {
+    if manifest.is_hiding()
+        || manifest.kind == ReleaseKind::Sealed && manifest.items.iter().any(|item| is_held(&item))
+    {
         return Err(SnapshotError::HeldBack(root.to_path_buf()));
     }
     let bytes = manifest.to_bytes()?;
     let top = Item::of(MANIFEST_FILE, &bytes);
-    let unpacked = entry::total([&top].into_iter().chain(&manifest.items));
+    let files = || [&top].into_iter().chain(manifest.in_archive_order());
+    let unpacked = entry::total(files());
     let too_large = |limit| SnapshotError::TooLarge { path: root.to_path_buf(), limit };
     if unpacked > MAX_UNPACKED {
         return Err(too_large(MAX_UNPACKED));
@@ -114,7 +119,7 @@ fn pack_into(
         hasher.update(bytes);
         writer.write(bytes).map_err(io)
     };
-    for item in [&top].into_iter().chain(&manifest.items) {
+    for item in files() {
         let header = entry::header(&manifest.name, item)
             .ok_or_else(|| SnapshotError::Untarable(format!("{}/{}", manifest.name, item.path)))?;
         let content = match item.path == MANIFEST_FILE {
@@ -211,7 +216,7 @@ impl Archive {
         let (name, manifest_bytes) =
             read_manifest(&mut reader).map_err(|error| unreadable(error, &format!("{MANIFEST_FILE}: ")))?;
         let place = PathBuf::from(format!("{}: {MANIFEST_FILE}", path.display()));
-        let manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
+        let mut manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
         let mut problems = manifest_problems(&manifest, &manifest_bytes)?;
         if name != manifest.name {
             let what = format!("its folder is `{}`, its release `{}`", name.escape_debug(), manifest.name);
@@ -223,7 +228,7 @@ impl Archive {
                 files.insert(path.to_owned(), content);
             }
         };
-        match read_items(&mut reader, &manifest, take, &mut problems) {
+        match read_items(&mut reader, &mut manifest, take, &mut problems) {
             Ok(()) => {}
             Err(Stop::Problem(problem)) if problem.path == WHOLE => {
                 let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -313,19 +318,75 @@ enum Stop {
 
 fn read_items(
     reader: &mut FrameReader,
-    manifest: &Manifest,
+    manifest: &mut Manifest,
     mut take: impl FnMut(&str, Vec<u8>),
     problems: &mut Vec<Problem>,
 ) -> Result<(), Stop> {
-    let at = |path: &str, flaw| Stop::Problem(Problem { path: path.to_owned(), flaw });
-    let stop = |path: &str| {
-        let path = path.to_owned();
-        move |unreadable| match unreadable {
-            Unreadable::Io(source) => Stop::Io(source),
-            Unreadable::Damaged(what) => Stop::Problem(Problem { path, flaw: Flaw::NotAsPacked(what) }),
+    read_listed(reader, manifest, manifest.items.iter(), &mut take, problems)?;
+    if manifest.withheld.is_some() {
+        for part in HeldPart::ALL {
+            let (list, content) = read_list(reader, manifest, part)?;
+            if let Err(flaw) = disclose(manifest, part, &content) {
+                return Err(Stop::Problem(Problem { path: list, flaw }));
+            }
+            take(&list, content);
         }
+        read_listed(reader, manifest, manifest.withheld_files(), &mut take, problems)?;
+    }
+    for _ in 0..END / BLOCK {
+        match reader.block().map_err(stop(WHOLE))? {
+            None => return Err(at(WHOLE, Flaw::NotAsPacked("it is cut off before its end".into()))),
+            Some(block) if block.iter().any(|byte| *byte != 0) => {
+                return Err(Stop::Problem(entry::diagnose(&block, manifest, None)));
+            }
+            Some(_) => {}
+        }
+    }
+    reader.finish().map_err(stop(WHOLE))
+}
+
+fn at(path: &str, flaw: Flaw) -> Stop {
+    Stop::Problem(Problem { path: path.to_owned(), flaw })
+}
+
+/// The reason to stop reading at an unreadable entry.
+fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
+    let path = path.to_owned();
+    move |unreadable| match unreadable {
+        Unreadable::Io(source) => Stop::Io(source),
+        Unreadable::Damaged(what) => Stop::Problem(Problem { path, flaw: Flaw::NotAsPacked(what) }),
+    }
+}
+
+/// Reads the list of a part of what was withheld. Its size is the one that the header states.
+fn read_list(
+    reader: &mut FrameReader,
+    manifest: &Manifest,
+    part: HeldPart,
+) -> Result<(String, Vec<u8>), Stop> {
+    let path = part.list();
+    let block = match reader.block().map_err(stop(path))? {
+        Some(block) if block.iter().any(|byte| *byte != 0) => block,
+        _ => return Err(at(path, Flaw::Missing)),
     };
-    for item in &manifest.items {
+    let size = entry::path_and_size(&block).map_or(0, |(_, size)| size);
+    let item = Item { path: path.to_owned(), size: size.min(LIST_LIMIT), digest: Digest::of(b"") };
+    if entry::header(&manifest.name, &item).as_ref() != Some(&block) {
+        return Err(Stop::Problem(entry::diagnose(&block, manifest, Some(&item))));
+    }
+    let content = reader.file(item.size).map_err(stop(path))?;
+    Ok((item.path, content))
+}
+
+/// Reads files that the manifest lists.
+fn read_listed<'a>(
+    reader: &mut FrameReader,
+    manifest: &Manifest,
+    items: impl Iterator<Item = &'a Item>,
+    take: &mut impl FnMut(&str, Vec<u8>),
+    problems: &mut Vec<Problem>,
+) -> Result<(), Stop> {
+    for item in items {
         let path = item.path.as_str();
         let block = match reader.block().map_err(stop(path))? {
             Some(block) if block.iter().any(|byte| *byte != 0) => block,
@@ -345,14 +406,5 @@ fn read_items(
         }
         take(path, content);
     }
-    for _ in 0..END / BLOCK {
-        match reader.block().map_err(stop(WHOLE))? {
-            None => return Err(at(WHOLE, Flaw::NotAsPacked("it is cut off before its end".into()))),
-            Some(block) if block.iter().any(|byte| *byte != 0) => {
-                return Err(Stop::Problem(entry::diagnose(&block, manifest, None)));
-            }
-            Some(_) => {}
-        }
-    }
-    reader.finish().map_err(stop(WHOLE))
+    Ok(())
 }

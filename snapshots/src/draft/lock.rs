@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::error::SnapshotError;
 use crate::folder;
+use report::files;
 
 /// The lock file. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.
 pub(super) const LOCK: &str = ".lock";
@@ -42,8 +43,7 @@ pub(super) fn take(partial: &Path) -> Result<File, SnapshotError> {
             Err(source) if source.kind() == ErrorKind::NotFound => continue,
             Err(source) => return Err(SnapshotError::io("examine", partial)(source)),
         }
-        let options = || File::options().read(true).write(true).create(true).truncate(false).open(&lock_path);
-        let lock = match options() {
+        let lock = match files::open_own(&lock_path) {
             Ok(lock) => lock,
             Err(source) if source.kind() == ErrorKind::NotFound => continue,
             Err(source) => return Err(SnapshotError::io("lock", &lock_path)(source)),

@@ -1,10 +1,14 @@
 //! The soundness of a manifest in itself: everything but the syntax, the root and the files.
 
-use super::{FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT, ReleaseKind};
+use super::{
+    FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT, ReleaseKind,
+    SEALED_FORMAT,
+};
 use crate::canary::is_canary;
 use crate::error::SnapshotError;
 use crate::folder::Limits;
 use crate::path::check_path;
+use crate::sealed::HELD;
 use crate::version::is_version_number;
 
 /// Returns the first fault as an error. Cost: O(n log n) in the items.
@@ -25,12 +29,43 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
         (ReleaseKind::Open, Some(_)) => return Err(unsound("it is open and has a commitment".into())),
         _ => {}
     }
-    check_items(&manifest.items, &Limits::SNAPSHOT)
+    if manifest.withheld.is_some() {
+        if manifest.kind == ReleaseKind::Open {
+            return Err(unsound("it is open and withholds files".into()));
+        }
+        if let Some(item) = manifest.items.iter().find(|item| item.path.starts_with(HELD)) {
+            return Err(unsound(format!(
+                "`{}` is listed, but all of {HELD} is withheld",
+                item.path.escape_debug()
+            )));
+        }
+    }
+    check_files(manifest)
+}
+
+/// Checks the items together with the withheld files that are known.
+pub(super) fn check_files(manifest: &Manifest) -> Result<(), SnapshotError> {
+    check_items(&manifest.items, &Limits::SNAPSHOT)?;
+    if manifest.disclosed().is_empty() {
+        return Ok(());
+    }
+    let mut items: Vec<Item> = manifest.files().cloned().collect();
+    items.sort_by(|a, b| a.path.cmp(&b.path));
+    check_items(&items, &Limits::SNAPSHOT)
+}
+
+/// The format of a manifest, by its fields.
+pub(super) fn shape(manifest: &Manifest) -> u32 {
+    match (&manifest.version, &manifest.withheld) {
+        (None, _) => OLDEST_FORMAT,
+        (Some(_), None) => FORMAT,
+        (Some(_), Some(_)) => SEALED_FORMAT,
+    }
 }
 
 /// From format 2 on, a manifest names the version that minted it.
 fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
-    let shape = if manifest.version.is_some() { FORMAT } else { OLDEST_FORMAT };
+    let shape = shape(manifest);
     if manifest.format != shape {
         return Err(unsound(format!(
             "it says format {}, but has the shape of format {shape}",

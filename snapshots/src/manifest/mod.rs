@@ -4,6 +4,7 @@
 //! The root is that of the [`merkle`] tree over
 //!
 //! - one leaf per item: every file of the release but `MANIFEST.json` itself, at its path;
+//! - from format 3 on, instead of leaves for withheld files, one for each list of them;
 //! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]; no file of that name may exist), whose digest is
 //!   the BLAKE3 of the [canonical JSON](crate::canonical) of the *header*: an object of the manifest's fields
 //!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format 2
@@ -23,12 +24,16 @@ use crate::error::SnapshotError;
 use crate::merkle::{self, Leaf};
 use crate::sealed::HELD;
 use crate::version::MintedBy;
+use crate::withheld::{HeldPart, Withheld};
 use engine::Digest;
 use report::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 use std::collections::BTreeSet;
 
-/// The snapshot format that this crate writes, and the newest that it reads.
+/// The snapshot format of open releases.
 pub const FORMAT: u32 = 2;
+/// The snapshot format of sealed releases, and the newest that this crate reads: it [hides](crate::withhold) what is
+/// withheld. Sealed releases of earlier formats listed it.
+pub const SEALED_FORMAT: u32 = 3;
 /// The oldest snapshot format that this crate reads: its manifests name no version.
 pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file that holds the manifest, at the top of the release.
@@ -42,7 +47,7 @@ pub const MANIFEST_LIMIT: u64 = 64 << 20;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// The version of the folder's layout: [`FORMAT`].
+    /// The version of the folder's layout: [`FORMAT`] or [`SEALED_FORMAT`].
     pub format: u32,
     /// The name of the release, such as `2026-12`: one path component.
     pub name: String,
@@ -68,8 +73,11 @@ pub struct Manifest {
     /// The recipe in full.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
-    /// Every file except `MANIFEST.json`, sorted by the bytes of the path.
+    /// Every file except `MANIFEST.json`, sorted by the bytes of the path; from format 3 on, without withheld ones.
     pub items: Vec<Item>,
+    /// The commitments to withheld files; `None` if there are none, and in earlier formats.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub withheld: Option<Withheld>,
     /// The root of the tree over the items and the header.
     pub root: Digest,
     /// BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, to detect a
@@ -128,15 +136,54 @@ impl Manifest {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
     }
 
-    /// The paths of the files of a sealed release that are withheld until the reveal.
+    /// The files of a sealed release that are withheld until the reveal, as far as they are known, without lists.
     pub(crate) fn held(&self) -> BTreeSet<&str> {
-        self.items.iter().map(|item| item.path.as_str()).filter(|path| path.starts_with(HELD)).collect()
+        let held = self.files().map(|item| item.path.as_str());
+        held.filter(|path| path.starts_with(HELD) && HeldPart::of_list(path).is_none()).collect()
     }
 
-    /// The item at a path.
-    pub(crate) fn item(&self, path: &str) -> Option<&Item> {
-        let at = self.items.binary_search_by(|item| item.path.as_str().cmp(path)).ok()?;
-        Some(&self.items[at])
+    /// The items, and what is known of withheld files.
+    pub fn files(&self) -> impl Iterator<Item = &Item> {
+        self.items.iter().chain(self.disclosed())
+    }
+
+    /// The withheld files that are known: lists, and what they name. Empty before format 3.
+    pub(crate) fn disclosed(&self) -> &[Item] {
+        self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
+    }
+
+    /// The withheld files that are known, without their lists.
+    pub(crate) fn withheld_files(&self) -> impl Iterator<Item = &Item> {
+        self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_none())
+    }
+
+    /// The files as archives have them: the items, then the lists of withheld files, then these files.
+    pub(crate) fn in_archive_order(&self) -> impl Iterator<Item = &Item> {
+        let lists = self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_some());
+        self.items.iter().chain(lists).chain(self.withheld_files())
+    }
+
+    /// The item or the known withheld file at a path.
+    pub fn item(&self, path: &str) -> Option<&Item> {
+        [&self.items[..], self.disclosed()].into_iter().find_map(|items| {
+            let at = items.binary_search_by(|item| item.path.as_str().cmp(path)).ok()?;
+            Some(&items[at])
+        })
+    }
+
+    /// Tests whether the files of a part of what is withheld are hidden: not even their paths are known.
+    pub(crate) fn hides(&self, part: HeldPart) -> bool {
+        self.withheld.as_ref().is_some_and(|withheld| !withheld.knows(part))
+    }
+
+    /// Tests whether something is withheld whose paths are not known either.
+    pub fn is_hiding(&self) -> bool {
+        HeldPart::ALL.into_iter().any(|part| self.hides(part))
+    }
+
+    /// Checks the items together with the withheld files that are known.
+    pub(crate) fn check_files(&self) -> Result<(), SnapshotError> {
+        check::check_files(self)
     }
 
     /// The leaves of the tree, sorted by the bytes of their paths: the items and the header, for [`merkle::root`] and
@@ -159,6 +206,10 @@ impl Manifest {
         })?;
         let items = self.items.iter().map(|item| Leaf { path: item.path.clone(), digest: item.digest });
         let mut leaves: Vec<Leaf> = items.collect();
+        let lists = HeldPart::ALL.into_iter().zip(self.withheld.iter().cycle());
+        leaves.extend(
+            lists.map(|(part, withheld)| Leaf { path: part.list().into(), digest: withheld.digest(part) }),
+        );
         leaves.push(Leaf { path: HEADER_LEAF.into(), digest: header });
         leaves.sort_by(|a, b| a.path.cmp(&b.path));
         Ok(leaves)
@@ -207,8 +258,8 @@ impl Manifest {
         let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
         // The version first: additions of a newer format must not be judged by this one.
         let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
-        if version.format > u64::from(FORMAT) && !commits_to_this_format(bytes) {
-            return Err(SnapshotError::Format { found: version.format, known: FORMAT });
+        if version.format > u64::from(SEALED_FORMAT) && !commits_to_known_format(bytes) {
+            return Err(SnapshotError::Format { found: version.format, known: SEALED_FORMAT });
         }
         let manifest: Manifest = serde_json::from_slice(bytes).map_err(syntax)?;
         check::check(&manifest)?;
@@ -251,11 +302,11 @@ impl Manifest {
     }
 }
 
-/// Tests whether a manifest is of this format whatever version it states. The root covers the version, so no release
-/// of another format has the root that this one gives.
-fn commits_to_this_format(bytes: &[u8]) -> bool {
+/// Tests whether a manifest is of the format of its shape whatever version it states. The root covers the version, so no
+/// release of another format has the root that this one gives.
+fn commits_to_known_format(bytes: &[u8]) -> bool {
     let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
-    manifest.format = FORMAT;
+    manifest.format = check::shape(&manifest);
     manifest.computed_root().is_ok_and(|root| root == manifest.root)
 }
 
@@ -286,6 +337,7 @@ pub(crate) mod tests {
             lockfile: Digest::of(b"lock"),
             recipe: json!({ "name": "2026-12", "games": [{ "count": 2, "rate": 0.1 }], "sizes": [9, 13] }),
             items: files.iter().map(|(path, content)| Item::of(*path, content)).collect(),
+            withheld: None,
             root: Digest::of(b"not yet"),
             checksum: Digest::of(b"not yet"),
         };
@@ -408,7 +460,7 @@ pub(crate) mod tests {
     fn the_format_is_judged_first() {
         refuse(
             r#"{ "format": 7, "novelty": [] }"#,
-            "snapshot format 7 is newer than this arcade understands (2): use a newer arcade",
+            "snapshot format 7 is newer than this arcade understands (3): use a newer arcade",
         );
         refuse(r#"{ "format": 18446744073709551615 }"#, "snapshot format 18446744073709551615 is newer");
         refuse("[7]", "snapshot format 7 is newer");

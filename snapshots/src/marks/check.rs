@@ -5,6 +5,7 @@ use crate::SnapshotError;
 use crate::contents::Contents;
 use crate::manifest::{Manifest, ReleaseKind};
 use crate::sealed::HELD;
+use crate::withheld::HeldPart;
 use forge::card::Card;
 use generators::GENERATION;
 use std::collections::BTreeMap;
@@ -18,6 +19,9 @@ pub(crate) fn problems(
 ) -> Result<Vec<String>, SnapshotError> {
     let Some(path) = Marks::path_in(manifest) else { return Ok(Vec::new()) };
     let named = |what: String| format!("{path}: {what}");
+    if path.starts_with(HELD) && manifest.hides(HeldPart::Rest) {
+        return Ok(Vec::new());
+    }
     if manifest.item(&path).is_none() {
         return Ok(vec![named("missing: the recipe asks for marks".to_owned())]);
     }

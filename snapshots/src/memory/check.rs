@@ -122,7 +122,7 @@ mod tests {
     fn check(change: impl Fn(&mut String, &mut Vec<String>), heads: bool, expect: Option<&str>) {
         let game = Game::from_source(GAME).unwrap();
         let levels = [(game.level(LEVEL).unwrap(), None)];
-        let renamed = twin::renamed(GAME, &[LEVEL.to_owned()], &[], Seed::from_text("secret")).unwrap();
+        let renamed = twin::renamed(GAME, &[LEVEL.to_owned()], &[], Seed::from_text("secret")).unwrap().0;
         let other = Game::from_source(&renamed.text).unwrap().digest();
         let seeds = (0..).map(|number| Seed::from_text("coins").child("try", number));
         let mut tossed = seeds.map(|seed| (seed, publishes_sibling(seed, game.digest(), other)));

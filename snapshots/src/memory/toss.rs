@@ -16,8 +16,10 @@ use validators::Criteria;
 const TRIES: u64 = 4;
 /// The most actions of a detour at the start of a deterministic level, after which a win is searched for.
 const DETOUR: usize = 6;
+/// The number of pairs of renamings that are made until the two have different themes.
+const THEME_TRIES: u64 = 16;
 
-/// Makes the pairs of a game that the recipe asks for, and publishes of each what its coin says. A game without another theme has
+/// Makes the pairs of a game that the recipe asks for, and publishes of each what its coin says. A game without other themes has
 /// no sibling, a level without another win has no second. `criteria` are those of its judges. Cost: up to [`TRIES`] searches for
 /// a win of each level.
 pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
@@ -29,37 +31,41 @@ pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criter
     }
 }
 
-/// The seed of the second renaming of a game.
-fn sibling_seed(root: Seed, game: &Game) -> Seed {
-    root.child(&format!("sibling of {}", game.digest()), 0)
-}
-
+/// Replaces a game by one of two renamings, and keeps the other as its sibling. Both are made alike, and the game itself is
+/// neither, so nothing that is published tells which of the two was withheld.
 fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
     let Ok(game) = Game::from_source(&frozen.text) else { return };
-    let seed = sibling_seed(root, &game);
-    let Ok(renamed) = twin::renamed(&frozen.text, &frozen.levels, &frozen.witnesses, seed) else { return };
-    let Ok(other) = Game::from_source(&renamed.text) else { return };
-    let witnesses: Option<Vec<Episode>> = renamed.witnesses.into_iter().collect();
+    let seed = root.child(&format!("siblings of {}", game.digest()), 0);
+    let renaming = |number| {
+        twin::renamed(&frozen.text, &frozen.levels, &frozen.witnesses, seed.child("renaming", number)).ok()
+    };
+    // Of one theme they would share words.
+    let pair = (0..THEME_TRIES).find_map(|number| {
+        let (one, other) = (renaming(2 * number)?, renaming(2 * number + 1)?);
+        (one.1 != other.1).then_some([one.0, other.0])
+    });
+    let Some([one, other]) = pair else { return };
+    let games = [&one, &other].map(|twin| Game::from_source(&twin.text));
+    let [Ok(first), Ok(second)] = games else { return };
+    let ((published, game), withheld) = match publishes_sibling(root, first.digest(), second.digest()) {
+        true => ((one, first), other),
+        false => ((other, second), one),
+    };
+    let witnesses: Option<Vec<Episode>> = published.witnesses.into_iter().collect();
     let Some(witnesses) = witnesses else { return };
-    let mut sibling = Sibling { title: renamed.title, text: renamed.text, levels: renamed.levels };
-    if !publishes_sibling(root, game.digest(), other.digest()) {
-        let card = &mut frozen.card;
-        std::mem::swap(&mut card.title, &mut sibling.title);
-        std::mem::swap(&mut frozen.text, &mut sibling.text);
-        std::mem::swap(&mut frozen.levels, &mut sibling.levels);
-        card.id = format!("{}-{}", slug(&card.title), other.digest().short());
-        (card.digest, card.rules) = (other.digest(), engine::describe(&other));
-        (card.description, card.goal) = (renamed.description, renamed.goal);
-        if let Origin::Generated { patterns, .. } = &mut card.origin {
-            patterns.retain(|pattern| !["scene/", "fiction/"].iter().any(|kind| pattern.starts_with(kind)));
-        }
-        for (level, witness) in card.levels.iter_mut().zip(&witnesses) {
-            // A question is put in the names of the scene.
-            (level.digest, level.asks) = (witness.level, None);
-        }
-        frozen.witnesses = witnesses;
+    let card = &mut frozen.card;
+    card.id = format!("{}-{}", slug(&published.title), game.digest().short());
+    (card.digest, card.rules) = (game.digest(), engine::describe(&game));
+    (card.title, card.description, card.goal) = (published.title, published.description, published.goal);
+    if let Origin::Generated { patterns, .. } = &mut card.origin {
+        patterns.retain(|pattern| !["scene/", "fiction/"].iter().any(|kind| pattern.starts_with(kind)));
     }
-    frozen.sibling = Some(sibling);
+    for (level, witness) in card.levels.iter_mut().zip(&witnesses) {
+        // A question is put in the names of the scene.
+        (level.digest, level.asks) = (witness.level, None);
+    }
+    (frozen.text, frozen.levels, frozen.witnesses) = (published.text, published.levels, witnesses);
+    frozen.sibling = Some(Sibling { title: withheld.title, text: withheld.text, levels: withheld.levels });
 }
 
 fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {

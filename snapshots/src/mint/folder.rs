@@ -8,6 +8,7 @@ use crate::marks::{GameMarks, LevelMarks, Marks, Wins};
 use crate::memory::{SecondWin, second_path, sibling_path};
 use crate::recipe::Recipe;
 use crate::sealed::{SECRET_FILE, Secret};
+use crate::withheld::withhold;
 use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
 use engine::syntax;
@@ -123,9 +124,15 @@ impl<'a, 'b> Folder<'a, 'b> {
             lockfile,
             recipe: serde_json::to_value(recipe).expect("a recipe is plain data"),
             items: self.items,
+            withheld: None,
             root: Digest::of(b""),
             checksum: Digest::of(b""),
         };
+        if let (ReleaseKind::Sealed, Some(secret)) = (self.kind, secret) {
+            for (path, content) in withhold(&mut manifest, secret)? {
+                (self.sink)(&path, &content)?;
+            }
+        }
         manifest.seal_root()?;
         Ok((manifest, self.cards))
     }

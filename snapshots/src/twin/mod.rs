@@ -114,18 +114,18 @@ fn of_levels(
     match kind {
         Twin::Masked => original.masked(),
         Twin::Mirrored => mirrored::twin(&original),
-        Twin::Renamed => original.renamed(original.seed(Twin::Renamed)),
+        Twin::Renamed => original.renamed(original.seed(Twin::Renamed)).map(|(twin, _)| twin),
         Twin::Sibling => Err(TwinError::NoSibling),
     }
 }
 
-/// Makes a renamed twin by a seed of the caller's, instead of one that everybody knows.
+/// Makes a renamed twin by a seed of the caller's, instead of one that everybody knows. Returns the name of its theme, too.
 pub(crate) fn renamed(
     source: &str,
     levels: &[String],
     witnesses: &[Episode],
     seed: Seed,
-) -> Result<TwinGame, TwinError> {
+) -> Result<(TwinGame, &'static str), TwinError> {
     let known = (0..levels.len()).map(|number| witnesses.get(number)).collect();
     Original::load(source, levels, known)?.renamed(seed)
 }
@@ -174,14 +174,14 @@ impl<'a> Original<'a> {
         Ok(made.headed(self))
     }
 
-    fn renamed(&self, seed: Seed) -> Result<TwinGame, TwinError> {
+    fn renamed(&self, seed: Seed) -> Result<(TwinGame, &'static str), TwinError> {
         let rethemed = Rethemed::of(&self.game, seed)?;
         let levels = self.levels.iter().map(|level| rethemed.level(level)).collect();
         let mut made = Made::of(self, &rethemed.description, levels, |action| action)?;
         made.twin.title = rethemed.title;
         made.twin.description = rethemed.summary;
         made.twin.goal = rethemed.goal;
-        Ok(made.headed(self))
+        Ok((made.headed(self), rethemed.theme))
     }
 }
 

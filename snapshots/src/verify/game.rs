@@ -7,8 +7,9 @@ use crate::manifest::{Manifest, ReleaseKind};
 use crate::sealed::{Secret, UNRELATED_WITNESS};
 use crate::witness::{Witness, witness_path};
 use crate::{Digest, SnapshotError};
-use engine::Game;
+use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
+use forge::games::slug;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum size of a `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.
@@ -50,6 +51,28 @@ impl Checker<'_> {
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
+    }
+
+    /// The texts and facts of a card that follow from the rules, and do not. Only this version's words can be compared.
+    fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
+        let version = (self.manifest.generation, self.manifest.semantics);
+        if version != (generators::GENERATION, engine::SEMANTICS) {
+            return Vec::new();
+        }
+        let mut found = Vec::new();
+        if card.rules != engine::describe(game) {
+            found.push("its `rules` are not those of game.vgdl in words".to_owned());
+        }
+        if card.deterministic == Analysis::of(game).is_stochastic() {
+            found.push("its `deterministic` is not what game.vgdl says".to_owned());
+        }
+        let comments = &game.description().header.trivia.above;
+        if card.id != format!("{}-{}", slug(&card.title), game.digest().short())
+            || comments.first().is_none_or(|title| title.trim() != card.title.trim())
+        {
+            found.push("its `title` is not that of game.vgdl and its folder".to_owned());
+        }
+        found
     }
 
     fn game(
@@ -113,6 +136,9 @@ impl Checker<'_> {
         }
         if card.levels.is_empty() {
             wrong("card.json", "the game has no levels".to_owned());
+        }
+        for what in self.of_the_rules(&card, &game) {
+            wrong("card.json", what);
         }
         let twin = seen.get(&game.digest());
         if let Some(other) = twin {

@@ -12,8 +12,10 @@ use crate::contents::Contents;
 use crate::known::Known;
 use crate::manifest::{Manifest, ReleaseKind};
 use crate::marks::{self, Marks};
+use crate::memory::is_solution;
 use crate::mint::RELEASE_CARD_FILE;
 use crate::sealed::{HELD, SECRET_FILE, Secret};
+use crate::withheld::{HeldPart, salt_flaw};
 use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
 use forge::card::Card;
 use game::{Checker, Files, GameCheck};
@@ -113,6 +115,10 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     };
     if let Some(secret) = &secret {
         problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
+        for part in HeldPart::ALL {
+            let list = contents.find(part.list())?;
+            problems.extend(list.and_then(|bytes| salt_flaw(part, &bytes, secret)));
+        }
     }
     let mut games = Vec::new();
     let mut work = 0;
@@ -153,7 +159,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     let replayed: usize = games.iter().map(|game| game.replayed).sum();
     Ok(Verification {
         root: manifest.root,
-        files: manifest.items.len(),
+        files: manifest.files().count(),
         papers: integrity.beside.papers.len(),
         ignored: integrity.beside.ignored,
         games: games.len(),
@@ -259,7 +265,13 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     let marks = Marks::path_in(manifest);
     let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(marks.as_deref()).collect();
     let listed = manifest.held();
-    let absent = awaited.difference(&listed).map(|path| format!("{path}: not committed to"));
+    // What is hidden is judged when it is revealed.
+    let is_hidden = |path: &str| {
+        let part = if is_solution(path) { HeldPart::Solutions } else { HeldPart::Rest };
+        manifest.hides(part)
+    };
+    let absent = awaited.difference(&listed).filter(|path| !is_hidden(path));
+    let absent = absent.map(|path| format!("{path}: not committed to"));
     let foreign = listed.difference(&awaited).map(|path| format!("{path}: not a file of a sealed release"));
     problems.extend(absent.chain(foreign));
 }

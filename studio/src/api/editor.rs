@@ -5,11 +5,29 @@ use crate::frames::Tiles;
 use crate::positions;
 use crate::refusal::Refusal;
 use crate::studio::Studio;
+use axum::http::StatusCode;
 use editor::Hover;
 use editor::positions::byte_of_utf16;
-use engine::{Diagnostics, LevelMapping, describe};
+use engine::{Diagnostics, LevelMapping, MAX_LEVEL_TEXT, MAX_SOURCE, describe};
 use serde::Deserialize;
 use serde_json::{Value, json};
+
+/// The most places that a renaming changes: each takes some hundred bytes of the answer.
+const MAX_EDITS: usize = 100_000;
+
+/// Refuses texts that no game and no level has.
+fn bounded(source: &str, levels: &[String]) -> Result<(), Refusal> {
+    let too_large = |what: &str, limit: usize| {
+        Refusal::new(StatusCode::PAYLOAD_TOO_LARGE, format_args!("{what} has at most {limit} bytes"))
+    };
+    match () {
+        () if source.len() > MAX_SOURCE => Err(too_large("a game", MAX_SOURCE)),
+        () if levels.iter().any(|level| level.len() > MAX_LEVEL_TEXT) => {
+            Err(too_large("a level", MAX_LEVEL_TEXT))
+        }
+        () => Ok(()),
+    }
+}
 
 /// The text of a game, and its levels.
 #[derive(Deserialize)]
@@ -21,6 +39,7 @@ pub(crate) struct Check {
 
 pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
     let Check { source, levels } = asked;
+    bounded(&source, &levels)?;
     let listed = |text: &str, problems: &[engine::Diagnostic]| -> Vec<Value> {
         problems.iter().map(|problem| positions::problem(text, problem)).collect()
     };
@@ -100,6 +119,7 @@ pub(crate) struct At {
 }
 
 pub(crate) fn hover(_: &Studio, At { source, at }: At) -> Result<Value, Refusal> {
+    bounded(&source, &[])?;
     let found = editor::hover(&source, byte_of_utf16(&source, at));
     Ok(json!(found.map(|Hover { span, markdown }| {
         let (start, end) = positions::range(&source, span);
@@ -108,6 +128,7 @@ pub(crate) fn hover(_: &Studio, At { source, at }: At) -> Result<Value, Refusal>
 }
 
 pub(crate) fn complete(_: &Studio, At { source, at }: At) -> Result<Value, Refusal> {
+    bounded(&source, &[])?;
     let found = editor::complete(&source, byte_of_utf16(&source, at));
     let (start, end) = positions::range(&source, found.span);
     let items = found.items.into_iter().map(|item| {
@@ -117,6 +138,7 @@ pub(crate) fn complete(_: &Studio, At { source, at }: At) -> Result<Value, Refus
 }
 
 pub(crate) fn definition(_: &Studio, At { source, at }: At) -> Result<Value, Refusal> {
+    bounded(&source, &[])?;
     let found = editor::definition(&source, byte_of_utf16(&source, at));
     Ok(json!(found.map(|span| {
         let (start, end) = positions::range(&source, span);
@@ -137,6 +159,7 @@ pub(crate) struct Rename {
 
 pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     let Rename { source, at, name, levels } = asked;
+    bounded(&source, &levels)?;
     let byte = byte_of_utf16(&source, at);
     let edits = editor::rename(&source, byte, &name).map_err(Refusal::bad)?;
     // A level character is a single one, and the same in the levels.
@@ -151,6 +174,11 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
         let edits = symbols.map_or(Vec::new(), |(old, new)| editor::rename_in_level(level, old, new));
         edits.iter().map(|made| positions::edit(level, made)).collect()
     };
+    let places = |level: &String| symbols.map_or(0, |(old, _)| level.matches(old).count());
+    if edits.len() + levels.iter().map(places).sum::<usize>() > MAX_EDITS {
+        return Err(Refusal::bad(format_args!("the name is in more than {MAX_EDITS} places"))
+            .help("change it with a program for texts"));
+    }
     let edits: Vec<Value> = edits.iter().map(|made| positions::edit(&source, made)).collect();
     Ok(json!({ "edits": edits, "levels": levels.iter().map(of_level).collect::<Vec<_>>() }))
 }
@@ -168,6 +196,7 @@ pub(crate) struct Source {
 }
 
 pub(crate) fn format(_: &Studio, Source { source }: Source) -> Result<Value, Refusal> {
+    bounded(&source, &[])?;
     let refused = |problems: Vec<editor::Problem>| {
         let first = problems.first().map_or("", |problem| problem.message.as_str());
         Refusal::bad(format_args!("the game has errors: {first}")).help("repair them first")

@@ -77,7 +77,7 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     let (root, released) = opened(studio)?;
     // Of an archive, the verification reads all files at once.
     if root.is_dir() {
-        let items = &released.manifest.items;
+        let items: Vec<_> = released.manifest.files().collect();
         for (done, item) in items.iter().enumerate() {
             let content = folder::read(root, &item.path, Limits::SNAPSHOT.file_bytes);
             let ok = content.is_ok_and(|bytes| Digest::of(&bytes) == item.digest);

@@ -120,7 +120,8 @@ impl Judgements {
     /// The file cannot be read, or a complete line is no judgement.
     pub fn read(file: &Path) -> Result<(Judgements, Vec<String>), JudgingError> {
         let mut bytes = Vec::new();
-        let opened = File::open(file).and_then(|opened| opened.take(MOST_BYTES + 1).read_to_end(&mut bytes));
+        let opened =
+            report::files::open(file).and_then(|opened| opened.take(MOST_BYTES + 1).read_to_end(&mut bytes));
         opened.map_err(JudgingError::io("read", file))?;
         if bytes.len() as u64 > MOST_BYTES {
             let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
@@ -174,6 +175,10 @@ pub(super) struct Keeper {
 impl Keeper {
     /// Opens a record, which may be new. A last line that was cut off is removed, with a remark.
     pub(super) fn open(path: &Path) -> Result<(Keeper, Vec<String>), JudgingError> {
+        if path.exists() {
+            // A pipe would block for ever.
+            report::files::open(path).map_err(JudgingError::io("open", path))?;
+        }
         let mut options = OpenOptions::new();
         let mut file = options
             .read(true)

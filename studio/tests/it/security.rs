@@ -2,6 +2,8 @@
 
 use crate::client::{GAME, LEVEL, in_folder, run, studio, usual};
 use serde_json::json;
+use std::io::Write;
+use std::net::TcpStream;
 
 /// Paths that read or change something.
 const QUESTIONS: [(&str, &str); 11] = [
@@ -206,4 +208,107 @@ fn large_and_broken_requests_are_refused() {
     assert_eq!(running.send("POST", "/api/check", &running.own(), deep.as_bytes()).status, 400);
     assert_eq!(running.send("DELETE", "/api/workspace", &running.own(), b"").status, 405);
     assert_eq!(running.get("/api/workspace").status, 200);
+}
+
+/// Neither idle connections nor those that read nothing lock the owner out, with or without the token.
+#[test]
+fn silent_clients_lock_nobody_out() {
+    let running = usual();
+    let idle: Vec<TcpStream> =
+        (0..64).map(|_| TcpStream::connect(running.host()).expect("connected")).collect();
+    assert_eq!(running.get("/api/workspace").status, 200);
+    drop(idle);
+    let ask = format!("GET /app.js HTTP/1.1\r\nHost: {}\r\n\r\n", running.host()).repeat(20);
+    let greedy: Vec<TcpStream> = (0..64)
+        .map(|_| {
+            let mut stream = TcpStream::connect(running.host()).expect("connected");
+            stream.write_all(ask.as_bytes()).expect("sent");
+            stream
+        })
+        .collect();
+    for _ in 0..3 {
+        assert_eq!(running.get("/api/workspace").status, 200);
+        assert_eq!(running.get("/").status, 200);
+    }
+    drop(greedy);
+}
+
+/// A folder that is a link, or becomes one while it is open, is not written to.
+#[cfg(unix)]
+#[test]
+fn linked_folders_are_not_written_to() {
+    use std::os::unix::fs::symlink;
+    let home = tempfile::tempdir().expect("temporary folder");
+    let (outside, link, inside) = {
+        let [a, b, c] = ["outside", "link", "inside"].map(|name| home.path().join(name));
+        (a, b, c)
+    };
+    std::fs::create_dir(&outside).expect("created");
+    std::fs::create_dir(&inside).expect("created");
+    symlink(&outside, &link).expect("linked");
+    let running = run(studio(home.path(), vec![in_folder("linked", &link), in_folder("one", &inside)]));
+    std::fs::rename(&inside, home.path().join("moved")).expect("moved");
+    symlink(&outside, &inside).expect("linked");
+    let before = names(&outside);
+    for id in ["linked", "one"] {
+        for (name, base) in
+            [("game.vgdl", json!(engine::Digest::of(GAME.as_bytes()))), ("lvl7.txt", json!(null))]
+        {
+            let path = format!("/api/games/{id}/files/{name}");
+            assert_eq!(running.put(&path, &json!({ "text": "x", "base": base })).status, 403, "{path}");
+        }
+        let base = json!({ "base": engine::Digest::of(LEVEL.as_bytes()) });
+        assert_eq!(running.delete(&format!("/api/games/{id}/files/lvl0.txt"), &base).status, 403);
+    }
+    assert_eq!(names(&outside), before);
+    assert_eq!(std::fs::read_to_string(outside.join("game.vgdl")).expect("read"), GAME);
+}
+
+/// Pipes in the place of files are told, and nobody waits for them.
+#[cfg(unix)]
+#[test]
+fn pipes_are_no_files() {
+    let home = tempfile::tempdir().expect("temporary folder");
+    let folder = home.path().join("game");
+    std::fs::create_dir(&folder).expect("created");
+    let running = run(studio(home.path(), vec![in_folder("one", &folder)]));
+    for name in ["lvl1.txt", "game.vgdl"] {
+        let _ = std::fs::remove_file(folder.join(name));
+        let made = std::process::Command::new("mkfifo").arg(folder.join(name)).status();
+        assert!(made.expect("mkfifo runs").success());
+        let answer = running.get("/api/games/one");
+        assert_eq!(answer.status, 400);
+        assert_eq!(answer.json()["error"], format!("{name} is not a file"));
+    }
+    assert_eq!(running.get("/api/workspace").status, 200);
+}
+
+/// Texts beyond the sizes of games and levels are refused, and so are games with too much text in all levels together.
+#[test]
+fn answers_take_bounded_memory() {
+    let running = usual();
+    let source = format!("{GAME}    {}\n", "key ".repeat(100_000));
+    for path in ["/api/rename", "/api/check", "/api/hover", "/api/complete", "/api/definition"] {
+        let asked = json!({ "source": source, "at": GAME.find("key").expect("there"), "name": "lamp" });
+        assert_eq!(running.post(path, &asked).status, 413, "{path}");
+    }
+    let level = "k".repeat(engine::MAX_LEVEL_TEXT);
+    let asked = |levels: Vec<&str>| {
+        let at = GAME.find("k > key").expect("there");
+        json!({ "source": GAME, "at": at, "name": "K", "levels": levels })
+    };
+    let answer = running.post("/api/rename", &asked(vec![&level; 8]));
+    assert_eq!(answer.status, 400);
+    assert!(answer.json()["error"].as_str().expect("a message").contains("more than 100000 places"));
+    assert_eq!(running.post("/api/rename", &asked(vec![LEVEL])).status, 200);
+    let home = tempfile::tempdir().expect("temporary folder");
+    let folder = home.path().join("game");
+    std::fs::create_dir(&folder).expect("created");
+    let running = run(studio(home.path(), vec![in_folder("one", &folder)]));
+    for number in 0..20 {
+        std::fs::write(folder.join(format!("lvl{number}.txt")), &level).expect("written");
+    }
+    let answer = running.get("/api/games/one");
+    assert_eq!(answer.status, 400);
+    assert!(answer.json()["error"].as_str().expect("a message").contains("4194304 bytes together"));
 }

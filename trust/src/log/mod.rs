@@ -18,7 +18,8 @@ use crate::disk::{Access, Disk};
 use crate::error::TrustError;
 use crate::key::{PublicKey, SecretKey};
 use crate::signatures::read_bounded;
-use std::fs::{File, TryLockError};
+use report::files;
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 /// The file of the newest checkpoint, in the folder of a log.
@@ -87,6 +88,29 @@ impl Log {
             let found = read_own(&self.folder.join(&file.path), file.bytes.len() as u64);
             if !found.is_ok_and(|found| found == file.bytes) {
                 faults.push(format!("{}: it is missing, or does not follow from the entries", file.path));
+            }
+        }
+        let earlier = self.earlier_faults().into_iter().filter(|fault| !faults.contains(fault));
+        let earlier: Vec<String> = earlier.collect();
+        faults.extend(earlier);
+        faults
+    }
+
+    /// The faults of partial tiles of earlier states, which whoever was told of those states may still read. Larger ones than
+    /// the checkpoint are of an append that was interrupted.
+    fn earlier_faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        for (place, parts) in tiles::parts(&self.entries, &self.leaves) {
+            let listed = fs::read_dir(self.folder.join(&place)).into_iter().flatten().flatten();
+            let mut widths: Vec<usize> =
+                listed.filter_map(|entry| entry.file_name().to_str()?.parse().ok()).collect();
+            widths.sort_unstable();
+            for width in widths.into_iter().filter(|&width| width < parts.len()) {
+                let (path, due) = (format!("{place}/{width}"), parts[..width].concat());
+                let found = read_own(&self.folder.join(&path), due.len() as u64);
+                if !found.is_ok_and(|found| found == due) {
+                    faults.push(format!("{path}: it does not follow from the entries"));
+                }
             }
         }
         faults
@@ -237,7 +261,7 @@ fn read_own(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
 /// Keeps other processes from appending, until it is dropped.
 fn lock(folder: &Path) -> Result<File, TrustError> {
     let path = folder.join(".lock");
-    let file = File::create(&path).map_err(TrustError::io("write", &path))?;
+    let file = files::open_own(&path).map_err(TrustError::io("write", &path))?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
             Err(TrustError::Refused(format!("another process appends to `{}`: try again", folder.display())))

@@ -69,6 +69,30 @@ pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile>
     files
 }
 
+/// The folders of partial tiles that a log of these entries may have had, each with the parts of the tile in order.
+pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Vec<u8>>)> {
+    let mut found = Vec::new();
+    let mut add = |level: &str, parts: Vec<Vec<u8>>| {
+        for (number, parts) in parts.chunks(WIDTH as usize).enumerate() {
+            let of_one = path(level, number as u64, 1);
+            let place = of_one.strip_suffix("/1").expect("a partial tile").to_owned();
+            found.push((place, parts.to_vec()));
+        }
+    };
+    let with_length = |entry: &Vec<u8>| {
+        let length = u16::try_from(entry.len()).expect("entries are bounded");
+        [&length.to_be_bytes()[..], entry].concat()
+    };
+    add("entries", entries.iter().map(with_length).collect());
+    let (mut level, mut hashes) = (0, leaves.to_vec());
+    while !hashes.is_empty() {
+        add(&level.to_string(), hashes.iter().map(|hash| hash.to_vec()).collect());
+        hashes = hashes.chunks_exact(WIDTH as usize).map(tree::root).collect();
+        level += 1;
+    }
+    found
+}
+
 /// Splits a file of entries; `None` if it does not hold exactly so many.
 pub(super) fn split(bytes: &[u8], width: u64) -> Option<Vec<Vec<u8>>> {
     let mut entries = Vec::new();

@@ -594,3 +594,35 @@ fn altered_rows_are_told() {
         assert!(found.len() == 1 && found[0].starts_with(key), "{key}: {found:?}");
     }
 }
+
+/// Whoever prepares the folder of a log can put a link in the place of its lock.
+#[cfg(unix)]
+#[test]
+fn a_linked_lock_empties_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let (victim, folder) = (home.path().join("victim"), home.path().join("log"));
+    fs::write(&victim, "precious").unwrap();
+    fs::create_dir(&folder).unwrap();
+    std::os::unix::fs::symlink(&victim, folder.join(".lock")).unwrap();
+    assert!(Publisher::new().append(&folder, &year()[..1]).is_err());
+    assert_eq!(fs::read_to_string(&victim).unwrap(), "precious");
+}
+
+/// Partial tiles of earlier states are still read by whoever was told of those states.
+#[test]
+fn damaged_tiles_of_earlier_states_are_faults() {
+    let home = tempfile::tempdir().unwrap();
+    let publisher = Publisher::new();
+    let entries = year();
+    publisher.append(home.path(), &entries[..2]).unwrap();
+    let log = publisher.append(home.path(), &entries[2..4]).unwrap();
+    for tile in ["tile/0/000.p/2", "tile/entries/000.p/2"] {
+        let path = home.path().join(tile);
+        let whole = fs::read(&path).unwrap();
+        fs::write(&path, &whole[..3]).unwrap();
+        let faults = log.faults(&publisher.secret.public());
+        assert!(faults.len() == 1 && faults[0].starts_with(tile), "{faults:?}");
+        fs::write(&path, whole).unwrap();
+    }
+    assert_eq!(log.faults(&publisher.secret.public()), [""; 0]);
+}

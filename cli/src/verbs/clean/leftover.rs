@@ -23,6 +23,8 @@ pub(super) enum LeftoverKind {
     /// An unfinished file; while it is open, no other process considers it abandoned.
     File(#[expect(dead_code, reason = "it holds the lock")] File),
     Scratch,
+    /// A file that led a browser to the page of `arcade studio`.
+    Page,
 }
 
 impl Leftover {
@@ -53,6 +55,7 @@ impl Leftover {
             LeftoverKind::Shard(shard) => ("shard", shard.clone()),
             LeftoverKind::File(_) => ("file", "an unfinished file".to_owned()),
             LeftoverKind::Scratch => ("scratch", "temporary files of a player".to_owned()),
+            LeftoverKind::Page => ("page", "a file that led to the page of `arcade studio`".to_owned()),
         }
     }
 
@@ -76,7 +79,7 @@ impl Leftover {
         let removed = match self.kind {
             LeftoverKind::Draft(draft) => return draft.remove().map_err(Failure::from),
             LeftoverKind::Shard(_) | LeftoverKind::Scratch => fs::remove_dir_all(&self.path),
-            LeftoverKind::File(_) => fs::remove_file(&self.path),
+            LeftoverKind::File(_) | LeftoverKind::Page => fs::remove_file(&self.path),
         };
         removed.map_err(|error| {
             Failure::environment(error, format_args!("cannot remove `{}`", self.path.display()))
@@ -109,10 +112,24 @@ const SETTLED: Duration = Duration::from_secs(3600);
 pub(super) fn scratch() -> Vec<Leftover> {
     let Some(used) = working_folders() else { return Vec::new() };
     let Ok(place) = fs::canonicalize(std::env::temp_dir()) else { return Vec::new() };
-    let mut paths =
+    let paths =
         fs::read_dir(&place).into_iter().flatten().flatten().map(|entry| entry.path()).sorted().collect_vec();
-    paths.retain(|path| is_scratch(path) && !used.iter().any(|used| used.starts_with(path)));
-    paths.into_iter().map(|path| Leftover { path, kind: LeftoverKind::Scratch }).collect()
+    let of = |path: PathBuf| match path {
+        path if is_page(&path) => Some(Leftover { path, kind: LeftoverKind::Page }),
+        path if is_scratch(&path) && !used.iter().any(|used| used.starts_with(&path)) => {
+            Some(Leftover { path, kind: LeftoverKind::Scratch })
+        }
+        _ => None,
+    };
+    paths.into_iter().filter_map(of).collect()
+}
+
+/// Returns `true` for a file of this user that led a browser to a studio an hour ago or longer.
+fn is_page(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str());
+    let drawn = name.and_then(|name| name.strip_prefix("arcade-studio-")?.strip_suffix(".html"));
+    let Ok(found) = fs::symlink_metadata(path) else { return false };
+    drawn.is_some_and(is_drawn) && found.is_file() && is_own(&found) && found.modified().is_ok_and(is_settled)
 }
 
 /// Returns `true` for a scratch folder of this user's players, untouched for an hour.

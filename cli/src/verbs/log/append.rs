@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
 use crate::shell;
-use crate::trusted::{open_secret, signatures_of};
+use crate::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file};
 use engine::Digest;
 use evaluation::scale::ScaleFile;
@@ -128,6 +128,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let all: Vec<Entry> = known.iter().chain(&new).cloned().collect();
     reachable(&all, &new)?;
+    warn_of_readers(&args.secret, console);
     let secret = open_secret(&args.secret, args.password_file.as_deref())?;
     let log = append(&args.log, args.origin.as_deref(), &secret, &new, &rules, &Disk::new())?;
     let checkpoint = &log.checkpoint;

@@ -3,7 +3,7 @@
 use super::{checkpoint, counted, open, public_key};
 use crate::console::Console;
 use crate::failure::Answer;
-use crate::trusted::open_secret;
+use crate::trusted::{open_secret, warn_of_readers};
 use serde_json::json;
 use std::path::PathBuf;
 use trust::Disk;
@@ -45,6 +45,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let key = public_key(&args.key)?;
     let log = open(&args.log)?;
     let mut problems = log.faults(&key);
+    warn_of_readers(&args.secret, console);
     let secret = open_secret(&args.secret, args.password_file.as_deref())?;
     if let Some(file) = &args.seen {
         let seen = checkpoint(file)?;

@@ -18,6 +18,7 @@ use crate::protected;
 use crate::shell;
 use crate::threads::bound_searches;
 pub(crate) use crate::threads::in_pool;
+use crate::trusted::warn_of_readers;
 pub(crate) use outline::{forecast, words as forecast_words};
 pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
@@ -130,6 +131,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let what = if args.solutions { Reveal::Solutions } else { Reveal::All };
         return sealed::reveal(args.recipe.as_deref(), held, what, args.out.as_deref(), console);
     }
+    args.secret.iter().for_each(|file| warn_of_readers(file, console));
     let secret = args.secret.as_deref().map(sealed::read).transpose()?;
     let mut recipe = find_recipe(args.recipe(), |text| sealed::recipe(text, secret.as_ref()))?;
     if let Some(file) = &args.beacon {

@@ -10,7 +10,7 @@ use snapshots::folder::{self, Limits};
 use snapshots::proof::{ItemProof, MAX_PROOF};
 use snapshots::{Manifest, SnapshotError};
 use std::collections::BTreeSet;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -100,6 +100,8 @@ fn read(file: &Path) -> Result<Vec<u8>, Failure> {
         bail!("`{}` is not a file", file.display());
     }
     let mut bytes = Vec::new();
-    File::open(file).and_then(|open| open.take(MAX_PROOF + 1).read_to_end(&mut bytes)).map_err(io)?;
+    report::files::open(file)
+        .and_then(|open| open.take(MAX_PROOF + 1).read_to_end(&mut bytes))
+        .map_err(io)?;
     Ok(bytes)
 }

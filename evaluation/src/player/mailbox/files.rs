@@ -2,6 +2,7 @@
 
 use crate::client::ChatMessage;
 use crate::error::EvaluationError;
+use report::files;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -153,8 +154,9 @@ pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> 
         }
         Ok(_) => {}
     }
-    match fs::read(path) {
-        Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
+    match files::read_own(path, MAX_FILE) {
+        Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove it")),
+        Ok(Some(bytes)) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
         // An evaluation removes answered prompts at any time.
         Err(error) if is_absent(&error) => Ok(None),
         Err(error) => Err(EvaluationError::io("read", path)(error)),

@@ -6,6 +6,7 @@ use crate::error::EvaluationError;
 use crate::player::Halt;
 use crate::run::{Settings, Tally};
 use engine::Digest;
+use report::files;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -153,14 +154,17 @@ pub(super) fn marker(folder: &Path) -> Result<Option<Marker>, EvaluationError> {
 
 /// Returns `true` if an evaluation is writing to the mailbox.
 pub(super) fn is_locked(folder: &Path) -> bool {
-    let lock = File::open(folder.join(LOCK_FILE));
+    // Not through a link, and without creating anything: the player may have prepared the file.
+    let path = folder.join(LOCK_FILE);
+    let lock =
+        if path.is_symlink() { Err(std::io::ErrorKind::InvalidInput.into()) } else { files::open(&path) };
     lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 /// Locks the folder against other evaluations. The operating system releases the lock when the program ends for any reason.
 fn lock(folder: &Path) -> Result<File, EvaluationError> {
     let path = folder.join(LOCK_FILE);
-    let file = File::create(&path).map_err(EvaluationError::io("create", &path))?;
+    let file = files::open_own(&path).map_err(EvaluationError::io("open", &path))?;
     for _ in 0..TRIES {
         match file.try_lock() {
             Ok(()) => return Ok(file),

@@ -18,8 +18,10 @@ use crate::run::clock::Stopwatch;
 use crate::turn::Turn;
 use engine::Outcome;
 use itertools::Itertools;
+use report::files;
 use serde::{Deserialize, Serialize};
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::thread;
@@ -310,9 +312,13 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
         let (bytes, limit) = (found.len(), MAX_ANSWER / 1024);
         return Ok(Look::Wrong(format!("it has {bytes} bytes; an answer has at most {limit} KiB")));
     }
-    match fs::read(path) {
-        Ok(bytes) if bytes.trim_ascii().is_empty() => Ok(Look::Empty),
-        Ok(bytes) => Ok(Look::Bytes(bytes)),
+    match files::read_own(path, MAX_ANSWER as u64) {
+        Ok(None) => Ok(Look::Wrong("it is growing".to_owned())),
+        Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+            Ok(Look::Wrong("it is not a plain file".to_owned()))
+        }
+        Ok(Some(bytes)) if bytes.trim_ascii().is_empty() => Ok(Look::Empty),
+        Ok(Some(bytes)) => Ok(Look::Bytes(bytes)),
         Err(error) if is_absent(&error) => Ok(Look::Absent),
         Err(error) => Err(EvaluationError::io("read", path)(error)),
     }

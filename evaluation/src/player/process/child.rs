@@ -95,7 +95,11 @@ impl LineProcess {
         guard: &[OsString],
     ) -> std::io::Result<LineProcess> {
         let place = std::path::absolute(std::env::temp_dir())?;
-        let folder = tempfile::Builder::new().prefix("arcade-player-").tempdir_in(place)?;
+        let mut builder = tempfile::Builder::new();
+        // What players write there is nobody else's business.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+        let folder = builder.prefix("arcade-player-").tempdir_in(place)?;
         let (program, arguments) = words.split_first().expect("a command has a first word");
         let own = resolved(program, program.contains(std::path::is_separator));
         let mut command = match guard.split_first() {

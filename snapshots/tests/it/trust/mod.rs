@@ -10,3 +10,4 @@ mod small;
 mod statements;
 #[cfg(unix)]
 mod tamper;
+mod withheld;

@@ -97,8 +97,8 @@ fn newer_formats_are_refused_by_name() {
     let home = super::small::home();
     let place = home.path().join("newer");
     fs::create_dir(&place).expect("created");
-    fs::write(place.join("MANIFEST.json"), "{ \"format\": 3, \"novelty\": true }").expect("written");
-    assert!(matches!(verify(&place), Err(SnapshotError::Format { found: 3, known: 2 })));
+    fs::write(place.join("MANIFEST.json"), "{ \"format\": 4, \"novelty\": true }").expect("written");
+    assert!(matches!(verify(&place), Err(SnapshotError::Format { found: 4, known: 3 })));
 }
 
 /// A copy of a stored release.

@@ -86,7 +86,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
         deterministic: true,
         digest: game.digest(),
         origin: Origin::Corpus { name: "mole".into() },
-        rules: "The door goes when the mole comes.".into(),
+        rules: engine::describe(&game),
         levels: vec![LevelCard {
             file: "lvl0.txt".into(),
             digest: level.digest(),
@@ -146,7 +146,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
         (RELEASE_CARD_FILE.to_owned(), json(&release_card)),
         ("README.md".to_owned(), format!("# {name}\n\nCanary: `{mark}`\n").into_bytes()),
         (format!("games/{id}/card.json"), json(&card)),
-        (format!("games/{id}/game.vgdl"), format!("# {mark}\n{GAME}").into_bytes()),
+        (format!("games/{id}/game.vgdl"), format!("# Mole\n# canary {mark}\n{GAME}").into_bytes()),
         (format!("games/{id}/lvl0.txt"), tunnel(name).into_bytes()),
         (format!("games/{id}/witness/lvl0.json"), json(&witness(&mark, episode, &[]))),
     ];
@@ -163,6 +163,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
         lockfile: Digest::of(b"the bytes of Cargo.lock"),
         recipe,
         items: files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect(),
+        withheld: None,
         root: Digest::of(b""),
         checksum: Digest::of(b""),
     };

@@ -293,7 +293,7 @@ fn impossible_card_numbers() {
 fn large_cards_are_not_read() {
     complains(
         |release| change_card(release, |card| card["title"] = json!("x".repeat(1 << 20))),
-        &["card.json: 1049", "a card has at most 1048576"],
+        &["card.json: 1050", "a card has at most 1048576"],
     );
     let patterns =
         json!({ "from": "generated", "generator": "x", "patterns": vec!["a"; 2000], "candidate": 0 });
@@ -487,4 +487,31 @@ fn sealed_releases_export_no_solutions() {
     assert_eq!(sealed(true).expect("revealed"), 1);
     let error = sealed(false).expect_err("held back").to_string();
     assert!(error.contains("`2026-12` is sealed") && error.contains("--reveal"), "{error}");
+}
+
+/// What follows from the rules is compared with them: texts of another game, or of none, are problems.
+#[test]
+fn cards_say_of_the_rules_what_the_game_says() {
+    let html = "<script>alert(1)</script>";
+    check(
+        |release| change_card(release, |card| card["rules"] = json!(html)),
+        &["card.json: its `rules` are not those of game.vgdl in words"],
+    );
+    for title in [html, "Mole "] {
+        check(
+            |release| change_card(release, |card| card["title"] = json!(title)),
+            if title == html { &["card.json: its `title` is not that of game.vgdl"] } else { &[] },
+        );
+    }
+    complains(
+        |release| change_card(release, |card| card["deterministic"] = json!(false)),
+        &["card.json: its `deterministic` is not what game.vgdl says"],
+    );
+    // Other versions have other words.
+    let mut release = small("2026-12", None);
+    (release.manifest.semantics, release.manifest.generation) = (2, 8);
+    release.manifest.version = Some("0.8.0".to_owned());
+    change_card(&mut release, |card| card["rules"] = json!("Rules in the words of another version."));
+    let problems = verified(&mut release, &Bounds::RELEASE).problems;
+    assert!(!problems.iter().any(|problem| problem.contains("`rules`")), "{problems:?}");
 }

@@ -20,7 +20,7 @@ let token = '';
 /** This page among others of the same browser: a newer question of it ends the older stream. */
 const page = Array.from(crypto.getRandomValues(new Uint32Array(2)), (part) => part.toString(36)).join('');
 
-/** Takes the token from the address, keeps it for reloads of this tab, and takes it out of the address bar and the history. */
+/** Takes the token from the address, keeps it for reloads of this tab, and takes it out of the address bar (the history of some browsers keeps it). */
 export function takeToken(): void {
   const here = new URL(location.href);
   const given = here.searchParams.get('token');

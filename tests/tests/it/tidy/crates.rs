@@ -30,6 +30,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "snapshots",
             "statistics",
             "render",
+            "report",
             "evaluation",
         ],
     ),

@@ -1,0 +1,205 @@
+//! Opening files that others may have prepared.
+//!
+//! A folder that a user names may be shared: a mailbox with players, a cache with colleagues. Whoever can write there can put
+//! a link to somebody else's file, or a pipe, in the place of a file that we are about to open. So our own files in such a
+//! folder are never opened through a link, never truncated when they are opened, and pipes and devices are never opened at
+//! all: opening a pipe waits for its other end, maybe for ever.
+
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::Path;
+
+/// Opens a regular file for reading, maybe through links: the user chose its name.
+///
+/// # Errors
+/// It is not a regular file, or cannot be read.
+pub fn open(path: &Path) -> io::Result<File> {
+    regular(&fs::metadata(path)?)?;
+    let file = File::open(path)?;
+    regular(&file.metadata()?)?;
+    Ok(file)
+}
+
+/// Reads a regular file of at most `limit` bytes, maybe through links; `None` if it is larger.
+///
+/// # Errors
+/// It is not a regular file, or cannot be read.
+pub fn read(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    bounded(open(path)?, limit)
+}
+
+/// Reads a file of our own of at most `limit` bytes, not through a link; `None` if it is larger.
+///
+/// # Errors
+/// It is not a regular file, or cannot be read.
+pub fn read_own(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    bounded(existing(path, OpenOptions::new().read(true))?, limit)
+}
+
+/// Opens a file of our own for reading and writing, not through a link and without truncating it; creates it if it is absent.
+///
+/// # Errors
+/// It is not a regular file, or cannot be opened.
+pub fn open_own(path: &Path) -> io::Result<File> {
+    open_or_create(path, OpenOptions::new().read(true).write(true))
+}
+
+/// Opens a file of our own for appending, not through a link; creates it if it is absent.
+///
+/// # Errors
+/// It is not a regular file, or cannot be opened.
+pub fn append_own(path: &Path) -> io::Result<File> {
+    open_or_create(path, OpenOptions::new().append(true))
+}
+
+/// Writes a file of our own. What has its name is removed first, a link instead of the file that it leads to.
+///
+/// # Errors
+/// The file system refuses.
+pub fn write_own(path: &Path, bytes: &[u8]) -> io::Result<File> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    file.write_all(bytes)?;
+    Ok(file)
+}
+
+/// Creates a folder of our own with its parents. If it is there already, it may not be a link.
+///
+/// # Errors
+/// It is a link or a file, or the file system refuses.
+pub fn create_own_folder(path: &Path) -> io::Result<()> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if !found.is_dir() => Err(invalid("is not a folder")),
+        Ok(_) => Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound => fs::create_dir_all(path),
+        Err(error) => Err(error),
+    }
+}
+
+/// Tests whether others than the owner can read a file; `false` where that is unknown.
+pub fn is_readable_by_others(path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        fs::metadata(path).is_ok_and(|found| found.permissions().mode() & 0o044 != 0)
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = path;
+        false
+    }
+}
+
+fn bounded(file: File, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+    Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= limit))
+}
+
+fn open_or_create(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
+    // Somebody may create or remove the file between the two tries.
+    for _ in 0..16 {
+        match existing(path, options) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            opened => return opened,
+        }
+        match options.clone().create_new(true).open(path) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            opened => return opened,
+        }
+    }
+    Err(io::Error::from(ErrorKind::AlreadyExists))
+}
+
+/// Opens a file that is there, if it is a regular one and not a link.
+fn existing(path: &Path, options: &OpenOptions) -> io::Result<File> {
+    let examined = fs::symlink_metadata(path)?;
+    regular(&examined)?;
+    let file = options.open(path)?;
+    let found = file.metadata()?;
+    if is_same(&examined, &found) { Ok(file) } else { Err(invalid("is not a file")) }
+}
+
+fn regular(found: &Metadata) -> io::Result<()> {
+    match () {
+        () if found.is_file() => Ok(()),
+        () if found.is_dir() => Err(ErrorKind::IsADirectory.into()),
+        () => Err(invalid("is not a file")),
+    }
+}
+
+fn invalid(what: &str) -> io::Error {
+    io::Error::new(ErrorKind::InvalidInput, what)
+}
+
+/// Tests whether both describe the same file; `true` where that is unknown.
+fn is_same(one: &Metadata, other: &Metadata) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        (one.dev(), one.ino()) == (other.dev(), other.ino())
+    }
+    #[cfg(not(unix))]
+    {
+        one.file_type() == other.file_type()
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::symlink;
+    use std::process::Command;
+
+    /// Every way to open a file of our own leaves the file alone that a link leads to, and does not create what a dangling link
+    /// leads to.
+    #[test]
+    fn links_lead_nowhere() {
+        let home = tempfile::tempdir().unwrap();
+        let at = |name: &str| home.path().join(name);
+        fs::write(at("victim"), "precious").unwrap();
+        symlink(at("victim"), at("link")).unwrap();
+        symlink(at("absent"), at("dangling")).unwrap();
+        for link in ["link", "dangling"] {
+            assert_eq!(open_own(&at(link)).unwrap_err().kind(), ErrorKind::InvalidInput);
+            assert_eq!(append_own(&at(link)).unwrap_err().kind(), ErrorKind::InvalidInput);
+            assert_eq!(read_own(&at(link), 99).unwrap_err().kind(), ErrorKind::InvalidInput);
+            assert!(create_own_folder(&at(link)).is_err());
+            write_own(&at(link), b"new").unwrap();
+            assert_eq!(fs::read(at(link)).unwrap(), b"new");
+        }
+        assert_eq!(fs::read(at("victim")).unwrap(), b"precious");
+        assert!(!at("absent").exists());
+        symlink(home.path(), at("folder")).unwrap();
+        assert!(create_own_folder(&at("folder")).is_err());
+        create_own_folder(&at("new/folder")).unwrap();
+        create_own_folder(&at("new/folder")).unwrap();
+    }
+
+    #[test]
+    fn opening_truncates_nothing() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("file");
+        open_own(&path).unwrap().write_all(b"one").unwrap();
+        drop(open_own(&path).unwrap());
+        append_own(&path).unwrap().write_all(b" two").unwrap();
+        assert_eq!(read_own(&path, 7).unwrap().unwrap(), b"one two");
+        assert_eq!(read(&path, 6).unwrap(), None);
+    }
+
+    /// A pipe without a writer would block for ever.
+    #[test]
+    fn pipes_are_not_opened() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("pipe");
+        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+        for opened in [open(&path), open_own(&path), append_own(&path)] {
+            assert_eq!(opened.unwrap_err().to_string(), "is not a file");
+        }
+        assert_eq!(read(Path::new("/dev/zero"), 9).unwrap_err().to_string(), "is not a file");
+        assert_eq!(read(home.path(), 9).unwrap_err().kind(), ErrorKind::IsADirectory);
+    }
+}
