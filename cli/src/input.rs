@@ -3,8 +3,8 @@
 use crate::failure::Failure;
 use crate::{embedded, paths, shell};
 use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE, dialect, layout};
-use std::collections::BTreeSet;
 use report::files;
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -337,7 +337,7 @@ pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
         let is_known = embedded::corpus()?.find(&place.to_string_lossy()).is_some();
         return Ok(!is_known && place.extension().is_none());
     };
-    if !found.is_dir() || game_in(place)?.is_some() {
+    if !found.is_dir() || !layout::games(file_names(place)?.iter().map(String::as_str)).is_empty() {
         return Ok(false);
     }
     let is_hidden =

@@ -155,7 +155,7 @@ fn replay(
         Err(_) if broken => return Ok((0, None)),
         Err(why) => return refused(why.clone()),
     };
-    let named = subject.input.numbered_level(trace.header.level)?;
+    let named = subject.input.numbered_level(trace.header.level as usize)?;
     let level = match game.level(&named.text) {
         Ok(level) => level,
         Err(_) if broken => return Ok((0, None)),
