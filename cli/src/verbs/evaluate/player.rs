@@ -226,7 +226,7 @@ pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> R
     let is_named = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Mailbox(_));
     if args.name.is_some() && !is_named {
         bail!(
-            "--name applies to models (--model) and the players `human` and `mailbox:DIR` only; remove it for the player `{player}`"
+            "--name applies to the players `human` and `mailbox:DIR` and to models (--model) only; remove it for the player `{player}`"
         );
     }
     let is_shown_prompts = is_named || matches!(requested, RequestedPlayer::Prompted(..));
