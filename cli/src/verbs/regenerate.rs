@@ -109,10 +109,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     interrupt::watch(|| (), hint);
     let left = left(&plan, &*store)?;
     let (cost, _) = in_pool(args.jobs, || forecast(&plan, &left, &corpus))?;
-    console.remark(format_args!("minting it again takes {}", forecast_words(cost)));
     if cost.median >= LONG {
         console.remark(told);
     }
+    console.remark(format_args!("minting it again takes {}", forecast_words(cost)));
     let bars = ProgressBars::new(console);
     let result = in_pool(args.jobs, || {
         make_jobs(&plan, plan.jobs(), &*store, &bars)?;

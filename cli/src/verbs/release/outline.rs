@@ -129,6 +129,9 @@ pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forec
 
 /// Returns the cost in words.
 pub(crate) fn words(Forecast { median, tail }: Forecast) -> String {
+    if tail == 0.0 {
+        return "0 seconds: there is nothing to make".to_owned();
+    }
     format!("about {} of one core; one mint in twenty takes more than {}", duration(median), duration(tail))
 }
 

@@ -289,9 +289,6 @@ fn no_snapshot(path: &Path) -> Failure {
         Ok(found) if found.is_dir() && path.join(SHARD_FILE).exists() => {
             "is a shard of a snapshot: join the shards with `arcade merge`"
         }
-        Ok(found) if found.is_dir() && path.join("public").join(MANIFEST_FILE).exists() => {
-            "holds the two parts of a sealed snapshot: name its folder `public`"
-        }
         Ok(found) if found.is_dir() => "is a folder without MANIFEST.json",
         Ok(found) if !found.is_file() => "is neither a file nor a folder",
         Ok(_) if path.file_name().is_some_and(|name| name == MANIFEST_FILE) => {

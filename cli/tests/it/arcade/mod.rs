@@ -84,7 +84,8 @@ fn suggested(said: &str) -> Vec<Vec<String>> {
             let (before, rest) = line.split_at(at);
             let command = match before.chars().next_back() {
                 Some('`') => rest.split('`').next(),
-                _ if before.ends_with(": ") => Some(rest),
+                // Several commands stand after each other, as a shell takes them.
+                _ if before.ends_with(": ") || before.ends_with("; ") => rest.split("; ").next(),
                 _ => None,
             };
             found.extend(command.and_then(shlex::split));
