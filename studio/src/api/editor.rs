@@ -8,6 +8,7 @@ use crate::studio::Studio;
 use axum::http::StatusCode;
 use editor::Hover;
 use editor::positions::byte_of_utf16;
+use engine::analysis::Role;
 use engine::{Diagnostics, LevelMapping, MAX_LEVEL_TEXT, MAX_SOURCE, describe};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -78,12 +79,8 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
 
 /// Returns the characters of levels, with what each places and looks like.
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
-    let Compiled { source, game, looks, .. } = compiled;
+    let Compiled { source, game, looks, analysis } = compiled;
     let order = game.drawing_order();
-    let interacts = |name: &str| {
-        let mut lines = game.description().interactions.iter();
-        lines.any(|line| line.first.text == name || line.second.iter().any(|second| second.text == name))
-    };
     let entry = |symbol: u8| {
         let types = game.places(symbol);
         let visible = types.iter().filter(|&&stype| looks.is_visible(stype));
@@ -91,7 +88,7 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let tile = on_top.map(|&stype| tiles.number(&render::sprite_tile(looks, stype)));
         let names: Vec<&str> = types.iter().map(|&stype| game.name(stype)).collect();
         let label = on_top.map_or("", |&stype| looks.meaning(stype));
-        let is_floor = types.iter().all(|&stype| !looks.is_visible(stype) && !interacts(game.name(stype)));
+        let is_floor = types.iter().all(|&stype| analysis.role(stype) == Role::Floor);
         json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile, "floor": is_floor })
     };
     // Those that the game maps, in its order, then those that are mapped by default to a type that the game names.

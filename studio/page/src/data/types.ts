@@ -104,7 +104,7 @@ export interface LegendEntry {
   types: string[];
   label: string;
   tile: number | null;
-  /** Places only what is drawn as nothing. */
+  /** Places only the ground, which has no rule. */
   floor: boolean;
 }
 
