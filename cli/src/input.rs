@@ -415,7 +415,13 @@ fn nearest_sibling(path: &Path) -> Option<String> {
     let here = if folder == Path::new("") { Path::new(".") } else { folder };
     let there = sorted_entries(here).ok()?;
     let names: Vec<_> = there.iter().filter_map(|path| path.file_name()?.to_str()).collect();
-    let near = engine::nearest(&wanted, names)?;
+    let with_ending =
+        |name: &&str| ["vgdl", "txt"].iter().any(|ending| **name == format!("{wanted}.{ending}"));
+    let near = names
+        .iter()
+        .copied()
+        .find(with_ending)
+        .or_else(|| engine::nearest(&wanted, names.iter().copied()))?;
     Some(folder.join(near).display().to_string())
 }
 

@@ -60,6 +60,8 @@ fn games_are_found_with_the_levels_beside_them() {
     assert_eq!(played(folder, &["."]), ["mine 0", "mine 1", "pond 0", "pond 2", "x-hill 7"]);
     let error = text(&run(folder, &["describe", "public"], 2).stderr);
     assert!(error.contains("2 games") && error.contains("public/pond.txt"), "{error}");
+    let error = text(&run(folder, &["describe", "public/pond"], 2).stderr);
+    assert!(error.contains("did you mean `public/pond.txt`?"), "{error}");
 }
 
 #[test]
@@ -77,6 +79,13 @@ fn levels_find_their_game() {
     let levels: Vec<&Value> =
         validated["levels"].as_array().unwrap().iter().map(|level| &level["level"]).collect();
     assert_eq!(levels, ["mine/lvl0.txt"]);
+    let url = ["--base-url", "http://127.0.0.1:9", "--model", "none"];
+    for (subject, levels) in [("public", 3), ("public/pond_lvl2.txt", 1), ("mine", 2)] {
+        let args: Vec<&str> =
+            ["evaluate", subject, "--out", "results", "--dry-run"].into_iter().chain(url).collect();
+        let planned = json(folder, &args, 0);
+        assert_eq!(planned["episodes"], levels, "{planned}");
+    }
     let drawn = json(folder, &["render", "public/pond_lvl2.txt", "-o", "-"], 0);
     assert_eq!(drawn["level"], "public/pond_lvl2.txt");
     assert_eq!(
