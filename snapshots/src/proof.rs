@@ -103,10 +103,9 @@ impl ItemProof {
             })
             .collect();
         if files.is_empty() {
-            if let Some(part) = HeldPart::ALL.into_iter().find(|part| part.has(id)) {
-                if manifest.item(id).is_some() {
-                    return Err(ProofError::Listed { id: id.into(), list: part.list() });
-                }
+            let part = HeldPart::ALL.into_iter().find(|part| part.has(id));
+            if let Some(part) = part.filter(|_| manifest.item(id).is_some()) {
+                return Err(ProofError::Listed { id: id.into(), list: part.list() });
             }
             let games = manifest.items.iter().filter_map(|item| game_of(&item.path));
             let known: BTreeSet<&str> =

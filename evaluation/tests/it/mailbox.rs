@@ -333,7 +333,7 @@ fn links_in_the_place_of_our_files_are_not_followed() {
     fs::write(&victim, "precious").unwrap();
     fs::create_dir(&folder).unwrap();
     symlink(&victim, folder.join(".lock")).unwrap();
-    let error = open(&folder, "test", false).err().expect("refused");
+    let error = open(&folder, "test", false).expect_err("refused");
     assert!(error.contains(".lock"), "{error}");
     let subjects = [corridor()];
     let results = home.join("results");

@@ -13,6 +13,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
+/// The files of a release, by path.
+type Files = Vec<(String, Vec<u8>)>;
+
 const LISTS: [&str; 2] = ["held/REST.json", "held/SOLUTIONS.json"];
 
 /// A sealed release whose recipe has coins for wins, with its secret. `more` are further files that it withholds.
@@ -179,7 +182,7 @@ fn lists_bind_what_was_withheld() {
         check(&altered(path), &|_| true, &format!("{path}: altered"));
     }
     // Forgeries with a root of their own.
-    let forged = |change: &dyn Fn(&mut Vec<(String, Vec<u8>)>)| {
+    let forged = |change: &dyn Fn(&mut Files)| {
         let mut forged = release.clone();
         change(&mut forged.files);
         hide(&mut forged, &secret);
