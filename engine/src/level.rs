@@ -473,15 +473,16 @@ impl LevelReader<'_> {
             let fatal = ["unknown-sprite", "missing-image", "too-large"];
             self.problems.retain(|problem| fatal.contains(&problem.code));
         }
-        if !self.game.0.as_reference && !Diagnostics::has_errors(&self.problems) {
-            self.problems.extend(crate::lint::over_at_start(self.game, &cells));
+        if !Diagnostics::has_errors(&self.problems) {
+            let aliases = self.game.0.aliases.clone();
+            let mut level = Level { columns, rows, cells, aliases, warnings: Vec::new(), messages };
+            if !self.game.0.as_reference {
+                self.problems.extend(crate::lint::over_at_start(self.game, &level));
+            }
+            level.warnings = Diagnostics::sorted(self.problems).shortened(text.len()).0;
+            return Ok(level);
         }
-        let problems = Diagnostics::sorted(self.problems).shortened(text.len());
-        if Diagnostics::has_errors(&problems.0) {
-            return Err(problems);
-        }
-        let aliases = self.game.0.aliases.clone();
-        Ok(Level { columns, rows, cells, aliases, warnings: problems.0, messages })
+        Err(Diagnostics::sorted(self.problems).shortened(text.len()))
     }
 }
 

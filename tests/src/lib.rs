@@ -7,6 +7,8 @@ extern crate infinite_arcade_engine as engine;
 
 pub mod any_game;
 pub mod choices;
+pub mod claims;
+pub mod generated;
 pub mod hostile;
 pub mod isomorphic;
 pub mod mutation;

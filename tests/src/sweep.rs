@@ -34,6 +34,11 @@ pub fn seed(purpose: &str) -> Seed {
     }
 }
 
+/// Returns `true` in a sweep.
+pub fn is_full() -> bool {
+    fresh().is_some()
+}
+
 fn fresh() -> Option<String> {
     std::env::var_os(VARIABLE)?.into_string().ok()
 }

@@ -191,6 +191,10 @@ impl Explanation<'_> {
                 self.links.push(Evidence { rule, ..Evidence::new(text) });
                 obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
             }
+            Missing::Inside => {
+                let text = format!("that {} never gets to the edge of the screen", self.name(*target));
+                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise("let it get there"));
+            }
             Missing::Nowhere(first, second) => {
                 let second = second.map_or("the edge of the screen".to_owned(), |second| self.acting(second));
                 let text = format!("{} and {second} never meet", self.acting(*first));

@@ -116,6 +116,10 @@ impl PopulationChanges {
                 }
                 EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
                     for &from in sides[0] {
+                        // A dead avatar stays on the board, and can turn into others again and again.
+                        if rules.types[from.index()].class.is_some_and(SpriteClass::is_avatar) {
+                            effect.makes().iter().for_each(|to| self.appears[to.index()] = true);
+                        }
                         effect.makes().iter().for_each(|&to| turn(from, to));
                     }
                     &[]

@@ -21,7 +21,7 @@ pub struct Encounter {
     /// Index of the line in [`Description::interactions`](crate::Description).
     pub line: usize,
     /// The effect with all its parameters.
-    pub(super) effect: u16,
+    pub(crate) effect: u16,
     /// The index of the effect's keyword, for shields.
     pub(super) keyword: u16,
 }
@@ -86,7 +86,9 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     }
     let encounter = |(first, second, effect, keyword): (SpriteType, Option<SpriteType>, u16, u16)| {
         let info = &rules.effects[usize::from(effect)];
-        let mut effects = info.summary.effects.clone();
+        // At the edge, an effect that needs a partner gives its points and does nothing else.
+        let runs = second.is_some() || !info.summary.needs_partner;
+        let mut effects = if runs { info.summary.effects.clone() } else { SmallVec::new() };
         effects.extend(info.summary.schedules.into_iter().flat_map(|timed| global_part(rules, timed)));
         let mut precondition = info.summary.precondition;
         // Effects on or with undeclared types, in games loaded as the reference does, never happen.

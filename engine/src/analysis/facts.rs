@@ -220,20 +220,22 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
 fn motion(class: SpriteClass, traits: &Traits) -> Motion {
     use SpriteClass as C;
     let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
+    // It keeps a sprite from moves of its own choice only, and only with grid physics.
+    let walks = !traits.stationary || traits.continuous;
     let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
     use ClassFamily as Family;
     match (class, class.family()) {
         (_, Family::Avatar) => Motion::Steered,
-        _ if traits.stationary => Motion::Still,
-        _ if follows => match traits.stypes.first().filter(|target| **target != SpriteType::NONE) {
+        _ if follows && walks => match traits.stypes.first().filter(|target| **target != SpriteType::NONE) {
             Some(&target) if traits.fleeing => Motion::Fleeing(target),
             Some(&target) => Motion::Chasing(target),
             None => Motion::Wandering,
         },
-        (C::RandomNPC | C::RandomInertial | C::RandomBomber, _) => Motion::Wandering,
+        (C::RandomNPC | C::RandomInertial | C::RandomBomber, _) if walks => Motion::Wandering,
         (_, Family::Walker) => Motion::Straight(traits.orientation),
         // A sprite without a direction of its own moves only if it is given one.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
+        _ if drifts && traits.falls() => Motion::Straight(Direction::DOWN),
         (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => Motion::Still,
         (_, Family::Npc | Family::Producer) => Motion::Still,
     }

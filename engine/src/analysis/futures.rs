@@ -260,7 +260,7 @@ impl<'a> PossibleFutures<'a> {
 }
 
 /// By type: some rule, or its use as ammunition, gives it as a resource regardless of its limit.
-fn unlimited(rules: &Rules) -> Vec<bool> {
+pub(super) fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];
     let mut mark =
         |stype: SpriteType| unlimited.get_mut(stype.index()).into_iter().for_each(|one| *one = true);

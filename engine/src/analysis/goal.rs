@@ -3,6 +3,7 @@
 use super::Analysis;
 use super::attain::Attainable;
 use super::encounter::{EffectSummary, timed_effects};
+use crate::rules::class::SpriteClass;
 use crate::rules::terminations::{Condition as Written, Decision};
 use crate::rules::{Rules, SpriteType};
 use crate::state::State;
@@ -185,7 +186,7 @@ impl Analysis {
     }
 
     /// Returns `true` if there are never more sprites of these types together than a level begins with: what makes one takes
-    /// another. Cost: O(encounters × types).
+    /// another. (A dead avatar can turn into others again and again.) Cost: O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);
@@ -198,8 +199,13 @@ impl Analysis {
                 return first
                     .is_none_or(|first| game.sprite_types().any(|s| one_of(&s) && self.applies(first, s)));
             }
+            let is_avatar = |written: SpriteType| {
+                let tree = game.sprite_types().filter(|stype| self.applies(written, *stype));
+                tree.into_iter().any(|stype| game.class(stype).is_some_and(SpriteClass::is_avatar))
+            };
             let replaced = if let EffectSummary::BecomeAll(from, _) = effect { Some(*from) } else { first };
-            let takes_one = !matches!(effect, EffectSummary::Make(_)) && replaced.is_some_and(all_of);
+            let takes_one = !matches!(effect, EffectSummary::Make(_))
+                && replaced.is_some_and(|from| all_of(from) && !is_avatar(from));
             effect.makes().iter().any(one_of) && !takes_one
         };
         let timed = timed_effects(&game.0);

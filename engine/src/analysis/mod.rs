@@ -43,7 +43,7 @@ pub use win_methods::WinMethod;
 use crate::game::Game;
 use crate::geometry::Direction;
 use crate::rules::SpriteType;
-use crate::rules::effects::Turn;
+use crate::rules::effects::{Displacement, Turn};
 use futures::{PossibleFutures, Start};
 use lock::Touches;
 use pairs::Pairs;
@@ -284,6 +284,18 @@ impl Analysis {
         &self.resources
     }
 
+    /// Returns `true` if `wanted` accepts an effect of an interaction or a timed effect. Cost: O(interactions).
+    pub(crate) fn any_effect(&self, wanted: impl Fn(&EffectSummary) -> bool) -> bool {
+        let timed = encounter::timed_effects(&self.game.0);
+        self.encounters.iter().any(|encounter| encounter.does(&wanted))
+            || timed.iter().any(|(_, effects)| effects.iter().any(&wanted))
+    }
+
+    /// Returns `true` if some rule, or its use as ammunition, gives a resource regardless of its limit. Cost: O(interactions).
+    pub fn can_exceed_limit(&self, resource: SpriteType) -> bool {
+        futures::unlimited(&self.game.0)[resource.index()]
+    }
+
     /// The types that start locked, sorted by type.
     pub fn locks(&self) -> &[Lock] {
         &self.locks
@@ -318,7 +330,8 @@ impl Analysis {
         let idle = |stype: SpriteType| {
             let facts = self.facts(stype);
             !facts.possible
-                || self.role(stype) == Role::Shot
+                // Levels and others may make such sprites, too.
+                || self.role(stype) == Role::Shot && facts.symbols.is_empty()
                 || match facts.motion {
                     Motion::Still => facts.makes.is_empty(),
                     Motion::Steered => {
@@ -328,6 +341,25 @@ impl Analysis {
                     _ => false,
                 }
         };
+        // Sprites that lie on top of each other may make others, or step aside.
+        let breeds = |encounter: &Encounter| {
+            let Some(second) = encounter.second else { return false };
+            let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
+            let together = |places: &[SpriteType]| {
+                (0..places.len()).any(|one| {
+                    let other = |two: usize| two != one && on(second, places[two]);
+                    on(encounter.first, places[one]) && (0..places.len()).any(other)
+                })
+            };
+            let steps = self.game.0.effects[usize::from(encounter.effect)].summary.displacement
+                == Some(Displacement::BackAndDown);
+            let makes =
+                |effect: &EffectSummary| matches!(effect, EffectSummary::Make(_) | EffectSummary::Clone);
+            (steps || encounter.does(makes)) && self.game.0.mapping.iter().any(|places| together(places))
+        };
+        if self.encounters.iter().any(breeds) {
+            return false;
+        }
         // Timed effects that start by themselves move something too.
         let clock = self.game.0.timed.iter().any(|timed| timed.first_due.is_some());
         !clock && self.game.sprite_types().all(idle)

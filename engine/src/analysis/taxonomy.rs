@@ -54,7 +54,7 @@ crate::named_enum! {
         Line = "line",
         /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of them.
         Grid = "grid",
-        /// The avatar has a velocity that the keys change, and nothing pulls it down.
+        /// The avatar has a velocity, which the keys may change, and nothing pulls it down.
         Continuous = "continuous",
         /// The avatar has a velocity that the keys change, and it falls.
         Gravity = "gravity",
@@ -151,10 +151,10 @@ impl Analysis {
             let falls = traits.gravity > 0.0 || avatar.steering == Steering::Jumping;
             match avatar.steering {
                 _ if traits.continuous && falls => Spatiality::Gravity,
-                Steering::Fixed => Spatiality::Fixed,
+                Steering::Fixed if !traits.continuous => Spatiality::Fixed,
                 Steering::Horizontal | Steering::Vertical => Spatiality::Line,
                 _ if traits.continuous => Spatiality::Continuous,
-                _ if traits.stationary => Spatiality::Fixed,
+                _ if traits.stationary && avatar.steering.waits_for_keys() => Spatiality::Fixed,
                 _ => Spatiality::Grid,
             }
         };

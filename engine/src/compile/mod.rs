@@ -475,7 +475,8 @@ impl<'a> Names<'a> {
                 problems.push(problem.help(format!("name one of its subtypes: {}", below.join(", "))));
             }
         } else if info.order.is_none() {
-            let message = format!("`{}` is a parent type: its sprites are never updated", name.text);
+            let apart = if info.is_like_avatar() { ", apart from the player's avatar" } else { "" };
+            let message = format!("`{}` is a parent type: its sprites are never updated{apart}", name.text);
             let problem = Diagnostic::warning("parent-sprite", name.span, message);
             let below = self.subtypes(stype).join(", ");
             problems.push(problem.help(format!("name one of its subtypes: {below}")));

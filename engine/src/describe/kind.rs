@@ -13,7 +13,7 @@ pub(super) fn kind(taxonomy: &Taxonomy) -> Vec<String> {
         Spatiality::Fixed => "Space: you stay where you are.",
         Spatiality::Line => "Space: you move along a line.",
         Spatiality::Grid => "Space: you move on a grid.",
-        Spatiality::Continuous => "Space: you drift, and the keys change your velocity.",
+        Spatiality::Continuous => "Space: you drift with a velocity.",
         Spatiality::Gravity => "Space: you fall, and the keys change your velocity.",
     };
     let genres: Vec<&str> = taxonomy.genres.iter().map(|genre| genre.name()).collect();

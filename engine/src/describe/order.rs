@@ -1,7 +1,7 @@
 //! The course of a tick, in words.
 
 use super::phrases::Phrase;
-use super::rules::ending;
+use super::rules::way;
 use super::sprites::{chase, distance, is_updated_at_once};
 use super::words::list;
 use crate::analysis::{Analysis, EffectSummary, Encounter, Goal, Motion, Side};
@@ -177,7 +177,7 @@ fn tie(analysis: &Analysis) -> Option<String> {
     let wins_first = pairs().any(|(one, two)| one.win && two.can_lose());
     let loses_first = pairs().any(|(one, two)| one.can_lose() && two.win);
     let told = |goals: &[Goal], word: &str| {
-        let ways: Vec<String> = goals.iter().map(|goal| ending(analysis, goal, goal.win)).collect();
+        let ways: Vec<String> = goals.iter().map(|goal| way(analysis, goal)).collect();
         list(&ways, word)
     };
     let first_win = goals.iter().position(|goal| goal.win)?;
@@ -201,7 +201,7 @@ fn tie(analysis: &Analysis) -> Option<String> {
                     (true, false) => "you win",
                     (false, _) => "you lose",
                 };
-                format!("{verb} {}", ending(analysis, goal, goal.win))
+                format!("{verb} {}", way(analysis, goal))
             });
             Phrase::TieOrder.with(&[("ways", &each.collect::<Vec<String>>().join("; "))])
         }

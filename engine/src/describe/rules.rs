@@ -4,8 +4,9 @@ use super::fill::{by_the_clock, if_scored, when_they_meet};
 use super::phrases::Phrase;
 use super::words::{Party, count, list, members, plural, sentence};
 use crate::analysis::{Analysis, Condition, Encounter, Goal, Motion};
-use crate::rules::terminations::Decision;
-use crate::rules::{Counting, SpriteType, Timed};
+use crate::rules::effects::Sentence;
+use crate::rules::terminations::{Condition as Written, Decision, Termination};
+use crate::rules::{Counting, Rules, SpriteType, Timed};
 
 /// One sentence for each interaction line, in order of execution; partners of one line together. A line that runs in
 /// several places, because one of its pairs has been named before, has a sentence for each.
@@ -29,10 +30,14 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
             |party: Option<SpriteType>| party.map_or_else(Party::edge, |stype| Party::of(analysis, stype));
         Party::any(&kept.into_iter().map(named).collect::<Vec<Party>>())
     };
+    // At the edge, an effect that needs a partner does nothing.
+    let idle = |encounter: &Encounter| encounter.second.is_none() && info.summary.needs_partner;
+    let all_idle = encounters.iter().all(|encounter| idle(encounter));
+    let told = encounters.iter().filter(|encounter| all_idle || !idle(encounter));
     // A line that names the edge first has several first sprites.
     let first = distinct(encounters.iter().map(|encounter| Some(encounter.first)).collect());
-    let second = distinct(encounters.iter().map(|encounter| encounter.second).collect());
-    let template = info.effect.sentence();
+    let second = distinct(told.map(|encounter| encounter.second).collect());
+    let template = if all_idle { Sentence::of_nothing() } else { info.effect.sentence() };
     let mut text = sentence(&when_they_meet(analysis, &template, &first, &second));
     // Some effects decide as they run whether their points are due.
     let decides = !template.if_scored.is_empty() && !info.steady;
@@ -125,8 +130,12 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
 
 /// One sentence for each termination that can win, or lose, in order of priority.
 pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
+    let rules = &analysis.game().0;
+    // Without a StopCounter, nothing lets counters end a game that does not start so.
+    let ends =
+        |goal: &&Goal| rules.can_end || can_be_stopped(rules) || matches!(goal.condition, Condition::Tick(_));
     let goals = analysis.goals().iter().filter(|goal| if win { goal.win } else { goal.can_lose() });
-    goals.map(|one| format!("{}.", goal(analysis, one, win))).collect()
+    goals.filter(ends).map(|one| format!("{}.", goal(analysis, one, win))).collect()
 }
 
 /// A termination as a sentence about winning or losing, without its full stop.
@@ -141,11 +150,52 @@ pub(super) fn goal(analysis: &Analysis, goal: &Goal, win: bool) -> String {
         (Decision::Value(value), false) => Phrase::AndCounter.with(&[("value", &value.to_string())]),
     };
     let verb = if win { "win" } else { "lose" };
-    format!("You {verb} {}{provided}", ending(analysis, goal, win))
+    format!("You {verb} {}{provided}{}", ending(analysis, goal, win), held_up(analysis, goal))
+}
+
+/// A termination as one of several ways to win or lose.
+pub(super) fn way(analysis: &Analysis, goal: &Goal) -> String {
+    ending(analysis, goal, goal.win) + &held_up(analysis, goal)
+}
+
+/// Tests whether some termination keeps others from ending the game.
+fn can_be_stopped(rules: &Rules) -> bool {
+    rules.terminations.iter().any(|end| matches!(end.condition, Written::StopCounter { .. }))
+}
+
+/// The condition under which a StopCounter keeps a termination from ending the game: of those before it, the last one
+/// decides, or else the last one of all in the tick before.
+fn held_up(analysis: &Analysis, goal: &Goal) -> String {
+    let rules = &analysis.game().0;
+    let stops = |end: &&Termination| matches!(end.condition, Written::StopCounter { .. });
+    let before = rules.terminations[..goal.line].iter().rfind(stops);
+    let Some(stop) = before.or_else(|| rules.terminations.iter().rfind(stops)) else { return String::new() };
+    let Written::StopCounter { ref stypes, limit, min } = stop.condition else { return String::new() };
+    if matches!(goal.condition, Condition::Tick(_)) {
+        return String::new();
+    }
+    let tree = |stype: &SpriteType| rules.types[stype.index()].tree.iter().copied();
+    let types = stypes.iter().flat_map(tree).filter(|stype| rules.types[stype.index()].class.is_some());
+    let types: Vec<SpriteType> = types.collect();
+    let (are, then) = match (limit == 1, before.is_some()) {
+        (true, true) => ("is", ""),
+        (false, true) => ("are", ""),
+        (true, false) => ("was", Phrase::Before.text()),
+        (false, false) => ("were", Phrase::Before.text()),
+    };
+    let name =
+        if limit == 1 { summed(analysis, &types, str::to_owned) } else { summed(analysis, &types, plural) };
+    let phrase = if min { Phrase::HeldUpBy } else { Phrase::HeldUp };
+    let limit = limit.to_string();
+    let mut text = phrase.with(&[("limit", &limit), ("name", &name), ("are", are), ("then", then)]);
+    if before.is_none() && !rules.can_end {
+        text += Phrase::NotFirst.text();
+    }
+    text
 }
 
 /// The condition of a termination, as the end of a sentence about winning or losing.
-pub(super) fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
+fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     let when = condition(analysis, &goal.condition, win);
     match goal.kinds {
         None => when,
@@ -156,9 +206,11 @@ pub(super) fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
 fn condition(analysis: &Analysis, condition: &Condition, win: bool) -> String {
     let one = counted(analysis, condition.types(), str::to_owned);
     let limited = |phrase: Phrase, limit: i32| {
-        let many = counted(analysis, condition.types(), plural).name;
-        let (name, are) = if limit == 1 { (&one.name, "is") } else { (&many, "are") };
-        phrase.with(&[("limit", &limit.to_string()), ("name", name), ("are", are)])
+        let (name, are) = match limit {
+            1 => (summed(analysis, condition.types(), str::to_owned), "is"),
+            _ => (summed(analysis, condition.types(), plural), "are"),
+        };
+        phrase.with(&[("limit", &limit.to_string()), ("name", &name), ("are", are)])
     };
     match condition {
         Condition::AtMost(_, 0) | Condition::Exactly(_, 0) if one.you => Phrase::Gone.with(&[]),
@@ -177,6 +229,18 @@ fn condition(analysis: &Analysis, condition: &Condition, win: bool) -> String {
             phrase.with(&[("tick", &tick)])
         }
     }
+}
+
+/// The types of a condition, by name, those that can occur. A type that occurs twice counts twice.
+fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> String {
+    counted(analysis, types, |name| {
+        let own = |stype: &&SpriteType| analysis.game().name(**stype) == name;
+        match types.iter().filter(own).count() {
+            0 | 1 => named(name),
+            times => Phrase::Repeated.with(&[("name", &named(name)), ("times", &times.to_string())]),
+        }
+    })
+    .name
 }
 
 /// The types of a condition, by name, those that can occur. They are the player if they are all that the player can be.

@@ -56,7 +56,8 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     if facts.is_resource {
         let value = traits.value.to_string();
         let each = if traits.value == 1 { String::new() } else { Phrase::Each.with(&[("value", &value)]) };
-        parts.push(Phrase::Held.with(&[("limit", &info.resource_limit.to_string()), ("each", &each)]));
+        let held = if analysis.can_exceed_limit(stype) { Phrase::HeldBeyond } else { Phrase::Held };
+        parts.push(held.with(&[("limit", &info.resource_limit.to_string()), ("each", &each)]));
     }
     if updated.is_some_and(|class| class.is_a(SpriteClass::Flicker)) {
         parts.extend(vanishing(analysis, stype, i64::from(traits.limit) - i64::from(traits.age) + 2));
@@ -69,7 +70,8 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
         let most = most_health(analysis, traits);
         parts.push(Phrase::Health.with(&[("points", &points), ("most", &most)]));
     }
-    if facts.singleton {
+    let at_once = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
+    if facts.singleton && !analysis.any_effect(at_once) {
         let phrase = if parts.is_empty() { Phrase::SingleOnly } else { Phrase::Single };
         parts.push(phrase.with(&[]));
     }
@@ -93,6 +95,7 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     };
     Some(match analysis.facts(stype).motion {
         Motion::Still | Motion::Steered => return None,
+        Motion::Straight(_) if !traits.is_oriented && traits.falls() => Phrase::Falls.with(&[]),
         Motion::Straight(direction) => match direction_name(direction) {
             Some(way) if is_turned(analysis, stype) => {
                 Phrase::MovesFirstTo.with(&[("way", way), ("pace", &pace)])
@@ -340,6 +343,7 @@ fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool
     use SpriteClass as C;
     match (class, avatar.steering) {
         (C::NullAvatar, _) => "no key does anything",
+        (C::ShootOnlyAvatar, _) if continuous => "you drift, and no key steers you",
         (C::AimedAvatar, _) => "the up and down keys turn your aim",
         (C::CarAvatar, _) => "the left and right keys steer you, up and down choose forwards or backwards",
         (C::LanderAvatar, _) => "you fall; the left and right keys turn you, and up fires your engine",

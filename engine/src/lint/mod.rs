@@ -12,6 +12,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::game::Game;
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
+use crate::rules::effects::{Displacement, EffectFamily};
 use crate::syntax::Param;
 
 /// Returns all warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
@@ -148,26 +149,22 @@ impl Linter<'_> {
         let facts = self.analysis.facts(stype);
         let info = &self.game.0.types[stype.index()];
         let made = |effect: &EffectSummary| effect.makes().contains(&stype);
-        let moves = |effect: &EffectSummary| {
-            matches!(
-                effect,
-                EffectSummary::Push
-                    | EffectSummary::Carry
-                    | EffectSummary::Teleport
-                    | EffectSummary::Wrap
-                    | EffectSummary::Clone
-                    | EffectSummary::Undo(_)
-            )
+        let copied = |effect: &EffectSummary| matches!(effect, EffectSummary::Clone | EffectSummary::Undo(_));
+        let moves = |encounter: &Encounter| {
+            let displacement = self.game.0.effects[usize::from(encounter.effect)].summary.displacement;
+            encounter.does(copied) || displacement.is_some_and(|to| to != Displacement::Back)
         };
         // Avatars that no player controls have a problem of their own.
         facts.motion != Motion::Still
             || info.class.is_some_and(SpriteClass::is_avatar)
+            || info.given_speed
+            || info.traits.continuous
             || info.traits.width_factor != 1.0
             || info.traits.height_factor != 1.0
             || self.game.sprite_types().any(|maker| self.analysis.facts(maker).makes.contains(&stype))
             || !self.game.0.timed.is_empty()
             || self.analysis.encounters().iter().any(|encounter| {
-                encounter.does(made) || self.analysis.applies(encounter.first, stype) && encounter.does(moves)
+                encounter.does(made) || self.analysis.applies(encounter.first, stype) && moves(encounter)
             })
     }
 
@@ -272,7 +269,13 @@ impl Linter<'_> {
         use SpriteClass as C;
         let info = &self.game.0.types[stype.index()];
         let Some(class) = info.class else { return true };
+        // Walls slow down to the speed of gravity, whatever the physics.
+        let hits = |encounter: &Encounter| {
+            let family = self.game.0.effects[usize::from(encounter.effect)].summary.family;
+            family == EffectFamily::Bounce && self.analysis.applies(encounter.first, stype)
+        };
         match key {
+            "gravity" if self.analysis.encounters().iter().any(hits) => true,
             "gravity" | "mass" | "friction" => info.traits.continuous || class.is_a(C::Walker),
             "max_speed" => info.traits.continuous || class.is_a(C::Walker),
             "jump_strength" => {

@@ -6,37 +6,32 @@ use crate::analysis::{
 };
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::Game;
+use crate::level::Level;
 use crate::limits::MAX_TICKS;
-use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
-use crate::rules::terminations::{Condition, Decision, can_be_held_up};
+use crate::rules::terminations::{Condition, Decision, Termination, can_be_held_up};
+use crate::rules::{Outcome, SpriteType};
+use crate::seed::Seed;
 use crate::syntax::{Param, TerminationLine};
 
-/// Returns warnings about terminations that hold when an episode of the level starts, given the level's characters
-/// `cells`.
-pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
+/// Seeds with which the first tick of a level is tried, in games of chance.
+const SEEDS: u64 = 4;
+
+/// Returns a warning about the termination that ends an episode of the level in its first tick.
+pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     let rules = &game.0;
     if can_be_held_up(rules) {
-        return Vec::new();
+        return None;
     }
     let mut placed = vec![0_i64; rules.types.len()];
-    for &stype in cells.iter().flat_map(|&symbol| game.places(symbol)) {
+    for &stype in level.cells().iter().flat_map(|&symbol| game.places(symbol)) {
         placed[stype.index()] += 1;
     }
     let tree = |written: SpriteType| rules.types[written.index()].tree.iter().copied();
     let count = |written: SpriteType| tree(written).map(|stype| placed[stype.index()]).sum::<i64>();
-    // Sprites made by a placed sprite may exist before the first check.
-    let made = |written: SpriteType| {
-        let makers = game.sprite_types().filter(|stype| placed[stype.index()] > 0);
-        makers
-            .flat_map(|maker| &rules.types[maker.index()].traits.stypes)
-            .any(|&made| tree(written).any(|t| t == made))
-    };
-    let mut problems = Vec::new();
-    for (end, line) in rules.terminations.iter().zip(&rules.description.terminations) {
-        let stypes = end.counts();
-        let sum: i64 = stypes.iter().map(|&stype| count(stype)).sum();
-        let holds = match end.condition {
+    let holds = |end: &Termination| {
+        let sum: i64 = end.counts().iter().map(|&stype| count(stype)).sum();
+        match end.condition {
             Condition::SpriteCounter { limit, .. } => sum <= i64::from(limit),
             Condition::SpriteCounterMore { limit, .. } => sum >= i64::from(limit),
             Condition::MultiSpriteCounter { limit, min, .. } => {
@@ -44,25 +39,60 @@ pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
             }
             Condition::MultiSpriteCounterSubTypes { .. }
             | Condition::StopCounter { .. }
-            | Condition::Timeout { .. } => continue,
-        };
-        if holds && !stypes.iter().any(|&stype| made(stype)) {
-            let counts = stypes.iter().map(|&stype| format!("{} `{}`", count(stype), game.name(stype)));
-            let outcome = match end.decided_by {
-                Decision::Line if end.win => "won",
-                Decision::Line => "lost",
-                _ => "over",
-            };
-            let message = format!(
-                "the level is {outcome} in its first tick: with {}, a {} holds",
-                counts.collect::<Vec<_>>().join(" and "),
-                line.class.text
-            );
-            let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
-            problems.push(problem.help("place some of the sprites that it counts, or change its `limit=`"));
+            | Condition::Timeout { .. } => false,
+        }
+    };
+    let at = rules.terminations.iter().position(holds)?;
+    let (end, line) = (&rules.terminations[at], &rules.description.terminations[at]);
+    // Sprites may appear or disappear in the first tick already.
+    let outcomes = first_outcomes(game, level);
+    if outcomes.contains(&Outcome::Ongoing) {
+        return None;
+    }
+    let certain = game.is_deterministic();
+    let made = Analysis::of(game).made_in(level);
+    let never_made = || end.counts().iter().flat_map(|&stype| tree(stype)).all(|stype| !made[stype.index()]);
+    let stays = match end.condition {
+        Condition::SpriteCounter { .. } | Condition::MultiSpriteCounter { limit: 0, min: false, .. } => {
+            never_made()
+        }
+        Condition::SpriteCounterMore { limit, .. } => limit <= 0,
+        _ => false,
+    };
+    // Another termination may come first.
+    let line_decides = |end: &Termination| end.decided_by == Decision::Line;
+    let alike = |other: &Termination| line_decides(other) && other.win == end.win;
+    let decided = line_decides(end) && (certain || rules.terminations[..at].iter().all(alike));
+    let all = |outcome: Outcome| outcomes.iter().all(|&other| other == outcome);
+    let outcome = match decided {
+        true if end.win && all(Outcome::Won) => "won",
+        true if !end.win && all(Outcome::Lost) => "lost",
+        _ => "over",
+    };
+    let counts = end.counts().iter().map(|&stype| format!("{} `{}`", count(stype), game.name(stype)));
+    let counts = counts.collect::<Vec<_>>().join(" and ");
+    let class = &line.class.text;
+    let message = match certain || stays {
+        true => format!("the level is {outcome} in its first tick: with {counts}, a {class} holds"),
+        false => format!(
+            "the level is over in its first tick unless that changes a count: with {counts}, a {class} holds"
+        ),
+    };
+    let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
+    Some(problem.help("place some of the sprites that it counts, or change its `limit=`"))
+}
+
+/// The outcomes of the first tick of a level: with each action, and several seeds if chance plays a part.
+fn first_outcomes(game: &Game, level: &Level) -> Vec<Outcome> {
+    let seeds = if game.is_deterministic() { 1 } else { SEEDS };
+    let mut outcomes = Vec::new();
+    for seed in 0..seeds {
+        let start = game.start(level, Seed::from_text("first tick").child("seed", seed));
+        for &action in game.actions(&start) {
+            outcomes.push(game.step(&mut start.clone(), action));
         }
     }
-    problems
+    outcomes
 }
 
 /// Returns the span of the limit of a termination, or of its class if it has none.
@@ -104,7 +134,17 @@ impl Linter<'_> {
                 Condition::MultiSpriteCounterSubTypes { .. } | Condition::StopCounter { .. } => false,
             };
             if at_once && (!stoppable || matches!(end.condition, Condition::Timeout { .. })) {
-                let message = "this holds at the start of every level: the game is over in its first tick";
+                let counts =
+                    !matches!(end.condition, Condition::Timeout { .. } | Condition::SpriteCounterMore { .. });
+                let tree = |&stype: &SpriteType| self.game.0.types[stype.index()].tree.iter().copied();
+                let mut counted = end.counts().iter().flat_map(tree);
+                let unless = match counts && counted.any(|stype| self.analysis.can_exist(stype)) {
+                    true => ", unless a rule makes such a sprite in that tick",
+                    false => "",
+                };
+                let message = format!(
+                    "this holds at the start of every level: the game is over in its first tick{unless}"
+                );
                 let problem = Diagnostic::warning("ends-at-once", limit_of(line), message);
                 problems.push(problem.help(match (&end.condition, limit_of(line) == line.class.span) {
                     (Condition::Timeout { .. }, true) => "add `limit=` and a number of ticks",
@@ -261,14 +301,23 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a level can place sprites counted as this type, or something makes them in the first tick.
+    /// Returns `true` if a level can place sprites counted as this type, or sprites that make them, perhaps in several steps.
     fn at_start(&self, written: SpriteType) -> bool {
-        self.game.sprite_types().filter(|&stype| self.analysis.applies(written, stype)).any(|stype| {
-            let maker = |other: SpriteType| {
-                let facts = self.analysis.facts(other);
-                !facts.symbols.is_empty() && facts.makes.contains(&stype)
-            };
-            !self.analysis.facts(stype).symbols.is_empty() || self.game.sprite_types().any(maker)
-        })
+        let types: Vec<SpriteType> = self.game.sprite_types().collect();
+        let mut there: Vec<bool> =
+            types.iter().map(|&stype| !self.analysis.facts(stype).symbols.is_empty()).collect();
+        // Sprites that are made in a tick may be updated in it, and make others.
+        loop {
+            let made = types.iter().filter(|stype| there[stype.index()]);
+            let made: Vec<SpriteType> =
+                made.flat_map(|&maker| self.analysis.facts(maker).makes.clone()).collect();
+            let before = there.clone();
+            made.into_iter().for_each(|stype| there[stype.index()] = true);
+            if there == before {
+                return types
+                    .iter()
+                    .any(|&stype| there[stype.index()] && self.analysis.applies(written, stype));
+            }
+        }
     }
 }

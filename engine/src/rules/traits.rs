@@ -93,6 +93,11 @@ crate::with_defaults! {
 pub(crate) const BLOCK_PAUSE: i32 = 5;
 
 impl Traits {
+    /// Returns `true` if gravity pulls its sprites down as they drift.
+    pub(crate) fn falls(&self) -> bool {
+        self.continuous && self.gravity > 0.0 && self.mass > 0.0
+    }
+
     /// The columns and rows of the cells that such a sprite overlaps if it starts at the corner of one: at least one
     /// each, at most [`MAX_REACH`](crate::limits::MAX_REACH).
     pub(crate) fn span(&self) -> (usize, usize) {

@@ -10,6 +10,7 @@ extern crate infinite_arcade_validators as validators;
 mod allocations;
 mod analysis;
 mod batch;
+mod claims;
 mod corpus;
 mod faults;
 mod fixes;

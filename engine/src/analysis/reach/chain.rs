@@ -51,6 +51,8 @@ pub enum Missing {
     Blocked(SpriteType, usize),
     /// Sprites of the two types never meet anywhere; none: the edge of the screen.
     Nowhere(SpriteType, Option<SpriteType>),
+    /// The sprite stays where it is, and so never gets to the edge of the screen.
+    Inside,
 }
 
 /// A resource that cannot be obtained in the required amount.
@@ -305,7 +307,7 @@ impl<'a, 'e> Chains<'a, 'e> {
             });
         };
         let Some(other) = (if side == Side::First { second } else { Some(first) }) else {
-            return Some(Missing::Nowhere(first, None));
+            return Some(Missing::Inside);
         };
         // With two sprites of one type, it is unclear which one is meant.
         if self.analysis.applies(other, stype) {
@@ -352,6 +354,10 @@ impl<'a, 'e> Chains<'a, 'e> {
                         .gifts
                         .get(&(resource, stype))
                         .is_some_and(|gift| !model.of_type(stype).fixed || gift.cells.contains(cell));
+                    // With two sprites of one type, it is unclear which one has to come.
+                    if !got && self.analysis.applies(taker, stype) {
+                        continue;
+                    }
                     let unreachable = (!got).then(|| self.unreachable(taker, at, reported));
                     sources.push(Source { stype, cell: at, count, each: own, unreachable });
                 }
@@ -477,7 +483,7 @@ impl Missing {
             Missing::Resource(_) => 0,
             Missing::Blocked(..) => 1,
             Missing::Unreachable(_) => 2,
-            Missing::Nowhere(..) => 3,
+            Missing::Nowhere(..) | Missing::Inside => 3,
             Missing::Unmade(..) => 2,
             Missing::Absent(_) => 4,
         }

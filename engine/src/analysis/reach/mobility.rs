@@ -219,5 +219,6 @@ fn is_driven(class: SpriteClass) -> bool {
 /// Returns `true` if an effect at the edge, or with a partner, stops every sprite of the type, whatever it holds.
 pub(super) fn is_stop(meeting: &Meeting<'_>, summary: &Summary) -> bool {
     let stops = |effect: &EffectSummary| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_));
-    meeting.with != With::NoPartner && summary.effects.iter().any(stops)
+    let runs = meeting.with != With::Edge || !summary.needs_partner;
+    meeting.with != With::NoPartner && runs && summary.effects.iter().any(stops)
 }

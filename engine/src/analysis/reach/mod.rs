@@ -211,6 +211,11 @@ impl Analysis {
         (placed, board)
     }
 
+    /// By type: sprites of it may appear in play on a level.
+    pub(crate) fn made_in(&self, level: &Level) -> Vec<bool> {
+        self.prospect_of(&self.placed(level).0).made
+    }
+
     fn prospect_of(&self, placed: &Placed) -> PossibleFutures<'_> {
         let rules = &*self.game.0;
         let existing = self.game.sprite_types().filter(|stype| !placed[stype.index()].is_empty()).collect();

@@ -27,6 +27,9 @@ pub(crate) struct Sentence {
 /// The template of effects that do nothing by the clock, or that have no words for it.
 pub(crate) const UNTOLD: &str = "something happens to {every}";
 
+/// The template of effects that do nothing.
+const NOTHING: &str = "when {one} {one:touch|touches} {two}, nothing happens";
+
 /// The text with which a probability starts.
 pub(crate) const CHANCE: &str = " with a chance of ";
 
@@ -64,6 +67,11 @@ pub(crate) enum Value {
 impl Sentence {
     fn of(meeting: &'static str) -> Sentence {
         Sentence { meeting, alone: UNTOLD, if_scored: "", values: SmallVec::new() }
+    }
+
+    /// The sentence of an effect that does nothing.
+    pub(crate) fn of_nothing() -> Sentence {
+        Sentence::of(NOTHING)
     }
 
     fn alone(self, alone: &'static str) -> Sentence {
@@ -158,7 +166,7 @@ pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
         let sentence = effect.sentence();
         [sentence.meeting, sentence.alone]
     };
-    recorded().flat_map(both).filter(|text| *text != UNTOLD)
+    recorded().flat_map(both).filter(|text| *text != UNTOLD).chain([NOTHING])
 }
 
 impl Effect {
@@ -467,9 +475,7 @@ impl Effect {
                 "while {one} {one:touch|touches} {two}, {one:you|it} {one:are|is} safe from {from}",
             )
             .with("from", Value::Party(stype)),
-            Effect::Disabled(_) => {
-                Sentence::of("when {one} {one:touch|touches} {two}, nothing happens")
-            }
+            Effect::Disabled(_) => Sentence::of_nothing(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Warnings about rules that cannot do what they seem to.
 
+mod refuted;
 mod swapped;
 mod terminations;
 

@@ -1,14 +1,12 @@
 //! Tests of the analysis in play: its proofs hold on the corpus, and on the reference's games if they are available.
 
-mod generated;
-
 use engine::analysis::{Attainable, Reach};
 use engine::{Action, Analysis, Game, Level, Outcome, Rect, Sampler, Seed, SpriteType, State};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
-use tests::{sweep, workspace_root};
+use tests::{generated, sweep, workspace_root};
 
 /// The number of generated games of a sweep, and ticks of each.
 const GAMES: usize = 4000;

@@ -44,6 +44,7 @@ fn obstacle(analysis: &Analysis, Obstacle { target, line, missing }: &Obstacle) 
         Missing::Unreachable(found) => apart(analysis, found),
         Missing::Blocked(stype, by) => format!("{} blocked by {by}", name(*stype)),
         Missing::Nowhere(..) => "nowhere together".to_owned(),
+        Missing::Inside => "never at the edge".to_owned(),
     };
     format!("{} by {line:?}: {missing}", name(*target))
 }

@@ -3,7 +3,7 @@
 use engine::{Sampler, SpriteClass};
 
 /// Returns a game with a level, as texts. It need not compile.
-pub(crate) fn game(sampler: &mut Sampler) -> (String, String) {
+pub fn game(sampler: &mut Sampler) -> (String, String) {
     let count = sampler.between(3, 7);
     let mut names: Vec<String> = (0..count).map(|number| format!("s{number}")).collect();
     // A wall is solid, and exists in every game.
@@ -68,12 +68,12 @@ fn some<'a>(sampler: &mut Sampler, names: &'a [String]) -> &'a str {
     &names[sampler.below(names.len())]
 }
 
-fn pick<'a>(sampler: &mut Sampler, options: &[&'a str]) -> &'a str {
+pub(crate) fn pick<'a>(sampler: &mut Sampler, options: &[&'a str]) -> &'a str {
     options[sampler.below(options.len())]
 }
 
 /// Returns a class with parameters.
-fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> String {
+pub(crate) fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> String {
     let classes: Vec<SpriteClass> =
         SpriteClass::ALL.iter().copied().filter(|class| class.is_avatar() == hero).collect();
     // Walls, things and walkers are more important than the rest.
@@ -238,7 +238,7 @@ fn effect(sampler: &mut Sampler, names: &[String]) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-fn interaction(sampler: &mut Sampler, names: &[String]) -> String {
+pub(crate) fn interaction(sampler: &mut Sampler, names: &[String]) -> String {
     let one = some(sampler, names).to_owned();
     let mut two = some(sampler, names).to_owned();
     let mut clock = String::new();
@@ -258,7 +258,7 @@ fn interaction(sampler: &mut Sampler, names: &[String]) -> String {
     format!("        {one} {two} > {effect}{clock}\n")
 }
 
-fn termination(sampler: &mut Sampler, names: &[String]) -> String {
+pub(crate) fn termination(sampler: &mut Sampler, names: &[String]) -> String {
     let limit = pick(sampler, &["0", "0", "1", "2", "5"]).to_owned();
     let win = pick(sampler, &["True", "False"]).to_owned();
     let (one, two) = (some(sampler, names).to_owned(), some(sampler, names).to_owned());

@@ -1,0 +1,220 @@
+//! Claims that play refuted, each with the smallest game that did so: the property test of all claims found them.
+
+use engine::analysis::Missing;
+use engine::describe::{Guide, describe};
+use engine::{Action, Analysis, Game, Outcome, Seed};
+
+/// Returns a game with these sections.
+#[track_caller]
+fn game(sprites: &str, mapping: &str, rules: &str, ends: &str) -> Game {
+    let lines = |text: &str| text.split("; ").map(|line| format!("        {line}\n")).collect::<String>();
+    let source = format!(
+        "BasicGame\n    SpriteSet\n{}    LevelMapping\n{}    InteractionSet\n{}    TerminationSet\n{}",
+        lines(sprites),
+        lines(mapping),
+        lines(rules),
+        lines(ends)
+    );
+    Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"))
+}
+
+fn warns(game: &Game, code: &str) -> bool {
+    game.warnings().iter().any(|warning| warning.code == code)
+}
+
+/// The message of the warning about the level, if there is one.
+#[track_caller]
+fn told(game: &Game, level: &str) -> String {
+    let level = game.level(level).unwrap_or_else(|problems| panic!("{problems}"));
+    level.warnings().first().map_or(String::new(), |warning| warning.message.clone())
+}
+
+const CLOCK: &str = "Timeout limit=9 win=True";
+
+#[test]
+fn some_effects_move_what_stands_still() {
+    let meet = |rule: &str| {
+        let rules = format!("vase wall > {rule}; vase vase > killSprite");
+        game(
+            "vase > Immovable; jar > Immovable; hero > MovingAvatar",
+            "v > vase wall; A > hero",
+            &rules,
+            CLOCK,
+        )
+    };
+    assert!(warns(&meet("stepBack"), "never-fires"), "two vases never share a cell");
+    assert!(!warns(&meet("turnAround"), "never-fires"), "two steps down, onto another vase");
+    // A speed sets it off.
+    let sprites = "vase > Missile orientation=RIGHT speed=0; jar > Immovable; hero > MovingAvatar";
+    let set_off = |rule: &str| {
+        game(
+            sprites,
+            "v > vase; j > jar; A > hero",
+            &format!("hero jar > {rule}; vase wall > killSprite"),
+            CLOCK,
+        )
+    };
+    assert!(warns(&set_off("stepBack"), "never-fires"));
+    assert!(!warns(&set_off("setSpeedForAll stype=vase value=1"), "never-fires"));
+}
+
+#[test]
+fn stationary_sprites_are_still_moved_by_their_orientation() {
+    let of = |class: &str| {
+        let sprites = format!("owl > {class} stationary=True; hero > MovingAvatar");
+        describe(&game(&sprites, "o > owl; A > hero", "hero owl > stepBack", CLOCK))
+    };
+    assert!(of("RandomNPC").contains("only stands there"));
+    for class in ["RandomMissile", "Walker", "Missile orientation=UP"] {
+        assert!(!of(class).contains("only stands there"), "{}", of(class));
+    }
+    let space = |avatar: &str| {
+        let game = game(&format!("hero > {avatar}"), "A > hero", "hero wall > stepBack", CLOCK);
+        Guide::of(&game).kind[2].clone()
+    };
+    assert_eq!(space("MovingAvatar stationary=True"), "Space: you stay where you are.");
+    assert_ne!(space("OngoingAvatar stationary=True"), "Space: you stay where you are.");
+}
+
+#[test]
+fn an_avatar_that_only_shoots_drifts_with_continuous_physics() {
+    let of = |physics: &str| {
+        let sprites = format!("shot > Missile; hero > ShootOnlyAvatar stype=shot {physics}");
+        Guide::of(&game(&sprites, "A > hero", "shot wall > killSprite", CLOCK)).controls[0].clone()
+    };
+    assert!(of("").starts_with("You are the hero: you stay where you are"));
+    assert!(of("physicstype=CONT").starts_with("You are the hero: you drift, and no key steers you"));
+}
+
+#[test]
+fn walls_slow_down_to_the_speed_of_gravity() {
+    let of = |effect: &str| {
+        let sprites = "stone > Passive gravity=2; hero > MovingAvatar";
+        game(sprites, "s > stone; A > hero", &format!("stone hero > {effect}"), CLOCK)
+    };
+    assert!(warns(&of("stepBack"), "ignored-parameter"));
+    assert!(!warns(&of("wallStop"), "ignored-parameter"));
+}
+
+#[test]
+fn the_first_termination_that_holds_decides_the_first_tick() {
+    let of = |ends: &str| {
+        let game = game(
+            "gem > Immovable; owl > Immovable; hero > MovingAvatar",
+            "g > gem; o > owl; A > hero",
+            "gem hero > killSprite; owl hero > killSprite",
+            ends,
+        );
+        told(&game, "A \n")
+    };
+    let won = "the level is won in its first tick: with 0 `gem`, a SpriteCounter holds";
+    assert_eq!(of("SpriteCounter stype=gem win=True; SpriteCounter stype=owl win=False"), won);
+    let over = "the level is over in its first tick: with 0 `owl`, a SpriteCounter holds";
+    let kinds = "MultiSpriteCounterSubTypes stype1=hero limit=1 subTypesNum=1 win=True";
+    assert_eq!(of(&format!("{kinds}; SpriteCounter stype=owl win=False")), over);
+}
+
+#[test]
+fn the_first_tick_may_make_or_remove_what_is_counted() {
+    // The hero is beside the egg, and turns it into an owl at once.
+    let sprites = "egg > Immovable; owl > Immovable; hero > MovingAvatar";
+    let of = |rule: &str| game(sprites, "e > egg; A > hero", rule, "SpriteCounter stype=owl win=True");
+    let turn = of("egg hero > transformTo stype=owl");
+    assert_eq!(told(&turn, "Ae\n"), "");
+    assert!(told(&turn, "A e\n").contains("is won in its first tick"));
+    let every = &turn.warnings().iter().find(|warning| warning.code == "ends-at-once").unwrap().message;
+    assert!(every.ends_with("unless a rule makes such a sprite in that tick"), "{every}");
+    // The avatar's shot makes another sprite in the tick in which it appears.
+    let sprites = "pod > SpawnPoint stype=owl; owl > Immovable; hero > FlakAvatar stype=pod";
+    let chain = game(sprites, "A > hero", "owl hero > killSprite", "SpriteCounter stype=owl win=True");
+    assert!(!warns(&chain, "ends-at-once"));
+}
+
+#[test]
+fn shots_that_levels_place_move_by_themselves() {
+    let of = |mapping: &str| {
+        let sprites = "shot > Missile orientation=DOWN; bat > Immovable; hero > ShootAvatar stype=shot";
+        let rules = "bat shot > killBoth; hero wall > stepBack";
+        Analysis::of(&game(sprites, mapping, rules, "SpriteCounter stype=bat win=True")).is_turn_based()
+    };
+    assert!(of("b > bat; A > hero"));
+    assert!(!of("b > bat; A > hero; s > shot"));
+}
+
+/// `wallReverse` needs a partner, so it stops nothing at the edge.
+#[test]
+fn the_edge_is_no_wall() {
+    let of = |rule: &str| {
+        let sprites = "jar > Immovable; key > Immovable; hero > MovingAvatar";
+        let rules = format!("hero wall > stepBack; hero EOS > {rule}; jar hero > killSprite");
+        let game = game(sprites, "j > jar; A > hero; w > wall", &rules, "SpriteCounter stype=jar win=True");
+        let level = game.level("Awj\n").unwrap();
+        (Analysis::of(&game).reach(&level).can_win(), describe(&game))
+    };
+    assert!(!of("stepBack").0);
+    for rule in ["wallReverse", "wallStop", "wallBounce"] {
+        let (can_win, text) = of(rule);
+        assert!(can_win, "{rule}: the hero walks around the wall, outside the board");
+        assert!(text.contains("  When you touch the edge of the board, nothing happens."), "{text}");
+    }
+}
+
+/// Sprites that lie on top of each other make others in every tick.
+#[test]
+fn sprites_that_breed_do_not_wait_for_the_player() {
+    let of = |mapping: &str| {
+        let sprites = "egg > Immovable; hen > Immovable; hero > MovingAvatar";
+        Analysis::of(&game(sprites, mapping, "egg hen > cloneSprite", CLOCK)).is_turn_based()
+    };
+    assert!(of("e > egg; h > hen; A > hero"));
+    assert!(!of("e > egg hen; A > hero"));
+}
+
+/// An avatar that turns into a parent type stays the player's.
+#[test]
+fn avatars_of_parent_types_are_updated() {
+    let sprites = "jar > Immovable; ghost > MovingAvatar;     pale >; hero > MovingAvatar";
+    let rules = "hero jar > transformTo stype=ghost";
+    let game = game(sprites, "j > jar; A > hero", rules, CLOCK);
+    let message = &game.warnings().iter().find(|warning| warning.code == "parent-sprite").unwrap().message;
+    let expected = "`ghost` is a parent type: its sprites are never updated, apart from the player's avatar";
+    assert_eq!(message, expected);
+}
+
+/// `transformToAll` turns all sprites at once.
+#[test]
+fn several_singletons_can_be_made_at_once() {
+    let of = |rule: &str| {
+        let sprites = "egg > Immovable; hen > Immovable singleton=True; hero > MovingAvatar";
+        describe(&game(sprites, "e > egg; A > hero", rule, CLOCK))
+            .contains("no other is made until it is gone")
+    };
+    assert!(of("egg hero > transformTo stype=hen"));
+    assert!(!of("hero wall > transformToAll stype=egg stypeTo=hen"));
+}
+
+/// What stands still never gets to the edge, but others of its type may.
+#[test]
+fn a_sprite_that_stays_inside_is_told_apart_from_its_type() {
+    let sprites = "jar > Immovable; hero > ShootAvatar stype=jar";
+    let rules = "jar EOS > killSprite; hero wall > stepBack";
+    let game = game(sprites, "j > jar; A > hero; w > wall", rules, "SpriteCounter stype=jar win=True");
+    let chains = Analysis::of(&game).causes(&game.level("A  \n   \n  j\n").unwrap());
+    let missing: Vec<&Missing> = chains[0].obstacles.iter().map(|obstacle| &obstacle.missing).collect();
+    assert_eq!(missing, [&Missing::Inside]);
+}
+
+/// A dead avatar stays on the board, and what it touches turns it into another sprite in every tick.
+#[test]
+fn a_dead_avatar_turns_again_and_again() {
+    let sprites = "jar > Immovable; box > Immovable; hero > MovingAvatar";
+    let rules = "hero jar > transformTo stype=jar; box wall > killSprite";
+    let ends = "MultiSpriteCounter stype1=hero stype2=jar limit=4 min=True win=True; SpriteCounter stype=box";
+    let game = game(sprites, "j > jar; b > box; A > hero", rules, ends);
+    let level = game.level("Ajb\n").unwrap();
+    let mut state = game.start(&level, Seed::from_text("dead"));
+    for _ in 0..4 {
+        game.step(&mut state, Action::Right);
+    }
+    assert_eq!((state.outcome(), Analysis::of(&game).can_win()), (Outcome::Won, true));
+}
