@@ -533,7 +533,7 @@ mod tests {
 
     #[test]
     fn levels_and_games_are_distinguished() {
-        for level in ["wwww\nw.Aw\nwwww\n", "A g\nw\nwww\nwww", "w w\r\nwAw\r\n", "\u{feff}w\rA\r\rww"] {
+        for level in ["wwww\nw.Aw\nwwww\n", "A g\nw\nwww\nwww", "w w\r\nwAw\r\n", "\u{feff}ww\rwA\rww"] {
             assert!(is_level(level), "{level}");
         }
         for other in

@@ -17,16 +17,16 @@ pub(crate) struct Page {
     pub(crate) text: &'static str,
 }
 
-/// The shelves of the manual, in the order of the list.
+/// The sections of the manual, in the order of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Shelf {
+pub(crate) enum Section {
     /// The pages for beginners.
     Start,
-    /// What users do, and what they read while they do it.
+    /// Tasks of users, and the pages that they read for them.
     Guides,
     /// The words of VGDL and the codes of diagnostics.
     Reference,
-    /// How the suite works inside, what was measured, and why it was decided so.
+    /// The inner workings of the suite, measurements and decisions.
     Internals,
 }
 
@@ -126,9 +126,9 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
         let Some((_, _, line)) = best.filter(|_| !wanted.is_empty() && !is_missing.contains(&true)) else {
             continue;
         };
-        let weight = match page.shelf() {
-            Shelf::Start => 4,
-            Shelf::Guides | Shelf::Reference if page.folder() != "diagnostics" => 2,
+        let weight = match page.section() {
+            Section::Start => 4,
+            Section::Guides | Section::Reference if page.folder() != "diagnostics" => 2,
             _ => 1,
         };
         hits.push((points * weight, Hit { page, line: shown(line) }));
@@ -208,13 +208,13 @@ impl Page {
         }
     }
 
-    pub(crate) fn shelf(&self) -> Shelf {
+    pub(crate) fn section(&self) -> Section {
         match self.folder() {
-            "" if START.contains(&self.name.as_str()) => Shelf::Start,
-            "" if INTERNALS.contains(&self.name.as_str()) => Shelf::Internals,
-            "" => Shelf::Guides,
-            folder if folder == "diagnostics" || folder.starts_with("ontology") => Shelf::Reference,
-            _ => Shelf::Internals,
+            "" if START.contains(&self.name.as_str()) => Section::Start,
+            "" if INTERNALS.contains(&self.name.as_str()) => Section::Internals,
+            "" => Section::Guides,
+            folder if folder == "diagnostics" || folder.starts_with("ontology") => Section::Reference,
+            _ => Section::Internals,
         }
     }
 

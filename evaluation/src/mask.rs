@@ -34,7 +34,7 @@ impl Mask {
         let names: BTreeMap<String, String> =
             own.into_iter().zip(numbers).map(|(name, number)| (name, format!("t{number}"))).collect();
         let mut masked = description.renamed(&names);
-        strip(&mut masked, &["img", "color"]);
+        strip(&mut masked, &["img", "autotiling", "randomtiling", "color"]);
         let game = Game::compile(&masked).map_err(|problems| {
             EvaluationError::Malformed(format!("the names of the game cannot be masked: {problems}"))
         })?;
@@ -88,7 +88,7 @@ pub(crate) fn nameless(description: &Description) -> Digest {
     let own = own.filter(|name| !RESERVED.contains(&name.as_str())).unique();
     let names = own.zip(1..).map(|(name, number)| (name, format!("t{number}"))).collect();
     let mut rules = description.renamed(&names);
-    strip(&mut rules, &["img", "color"]);
+    strip(&mut rules, &["img", "autotiling", "randomtiling", "color"]);
     rules.mapping.clear();
     Digest::of(engine::syntax::print_bare(&rules).as_bytes())
 }
@@ -108,7 +108,7 @@ fn strip(description: &mut Description, keys: &[&str]) {
 /// The rules without the names of pictures, which tell the roles of types.
 pub(crate) fn without_pictures(description: &Description) -> Description {
     let mut description = description.clone();
-    strip(&mut description, &["img"]);
+    strip(&mut description, &["img", "autotiling", "randomtiling"]);
     description
 }
 

@@ -479,7 +479,7 @@ impl Recipe {
         }
     }
 
-    /// What a release of this recipe does not promise, in sentences. Empty if it follows another, and asks for gates and for
+    /// The promises that a release of this recipe does not make, in sentences. Empty if it follows another, and asks for gates and for
     /// `skill`.
     pub fn caveats(&self) -> Vec<&'static str> {
         let mut caveats = Vec::new();

@@ -129,7 +129,8 @@ fn rename(tree: &mut Description, sampler: &mut Sampler) {
 
 fn redraw(lines: &mut [SpriteLine], sampler: &mut Sampler) {
     walk(lines, &mut |line| {
-        line.params.retain(|param| !["color", "img"].contains(&param.key.text.as_str()));
+        let pictures = ["color", "img", "autotiling", "randomtiling"];
+        line.params.retain(|param| !pictures.contains(&param.key.text.as_str()));
         if sampler.ratio(1, 2) {
             line.params.push(Param::new("color", *sampler.choose(&["RED", "PINK", "BLUE"])));
         }

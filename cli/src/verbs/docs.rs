@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::failure::Answer;
-use crate::manual::{self, Page, Shelf};
+use crate::manual::{self, Page, Section};
 use crate::shell;
 use itertools::Itertools;
 use serde_json::json;
@@ -24,7 +24,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut pages = manual::pages();
-    pages.sort_by_key(Page::shelf);
+    pages.sort_by_key(Page::section);
     let wanted = args.page.join(" ");
     if wanted.is_empty() {
         let entry =
@@ -113,18 +113,18 @@ fn list(pages: &[Page]) -> String {
     let own = |page: &&Page| {
         !NAMED.contains(&page.folder()) || NAMED.iter().any(|folder| folder.ends_with(&page.name))
     };
-    for (shelf, heading) in [
-        (Shelf::Start, "Begin here:"),
-        (Shelf::Guides, "\nGuides:"),
-        (Shelf::Reference, "\nThe words of VGDL, and diagnostics:"),
-        (Shelf::Internals, "\nHow the suite works inside:"),
+    for (section, heading) in [
+        (Section::Start, "Begin here:"),
+        (Section::Guides, "\nGuides:"),
+        (Section::Reference, "\nThe words of VGDL, and diagnostics:"),
+        (Section::Internals, "\nHow the suite works inside:"),
     ] {
         let _ = writeln!(text, "{heading}");
-        for page in pages.iter().filter(|page| page.shelf() == shelf).filter(own) {
+        for page in pages.iter().filter(|page| page.section() == section).filter(own) {
             let _ = writeln!(text, "{:<width$}  {}", page.name, page.title());
         }
         for folder in NAMED {
-            let named = pages.iter().filter(|page| page.folder() == folder && page.shelf() == shelf);
+            let named = pages.iter().filter(|page| page.folder() == folder && page.section() == section);
             let mut column = 0;
             for page in named.filter(|page| !folder.ends_with(&page.name)) {
                 if column == 0 {

@@ -395,7 +395,7 @@ fn malformed_requests_are_reported() {
         assert!(told.contains(words), "{args:?}: {told}");
     }
     std::fs::write(home.path().join("alone.vgdl"), "BasicGame\n").unwrap();
-    assert!(refusal(&["alone.vgdl", "--player", "random"]).contains("put lvl0.txt"));
+    assert!(refusal(&["alone.vgdl", "--player", "random"]).contains("name level files after it"));
     assert!(refusal(&["alnoe.vgdl", "--player", "random"]).contains("did you mean `alone.vgdl`?"));
     let pasted = refusal(&["hailglass", "--model", "openai:m", "--key-variable", "sk-SECRET123"]);
     assert!(pasted.contains("takes the name") && !pasted.contains("SECRET"), "{pasted}");
@@ -556,7 +556,7 @@ fn episodes_stopped_by_the_engine_are_reported() {
     assert!(told.contains("now: arcade report r --out report-2"), "{told}");
 }
 
-/// What cannot work is refused before a folder is written, and the advice works as printed.
+/// Requests that cannot work are refused before a folder is written, and the advice works as printed.
 #[test]
 fn players_that_cannot_read_the_prompt_are_refused() {
     let home = tempfile::tempdir().unwrap();

@@ -30,9 +30,9 @@ pub struct Conversion {
     pub source: String,
     /// The levels that the file holds.
     pub levels: Vec<String>,
-    /// What was rewritten, by line.
+    /// The rewritten constructs, by line.
     pub changes: Vec<Change>,
-    /// What has no exact equivalent, sorted by place.
+    /// The constructs without an exact equivalent, sorted by place.
     pub problems: Vec<Diagnostic>,
 }
 

@@ -14,7 +14,7 @@ use crate::rules::{Outcome, SpriteType};
 use crate::seed::Seed;
 use crate::syntax::{Param, TerminationLine};
 
-/// Seeds with which the first tick of a level is tried, in games of chance.
+/// Seeds with which the first tick of a level is tried, in stochastic games.
 const SEEDS: u64 = 4;
 
 /// Returns a warning about the termination that ends an episode of the level in its first tick.

@@ -484,7 +484,7 @@ mod tests {
             prop_assert!(matches!(reading, Reading::Invalid { .. }), "{text:?}: {reading:?}");
         }
 
-        /// What is thought never counts.
+        /// Text inside reasoning tags never counts.
         #[test]
         fn thoughts_never_count(thought in "(ACTION: |left|up|<answer>|</answer>|\n|\\{\"action\": \"use\"\\}|so |I go ){0,12}", tag in 0_usize..6) {
             const TAGS: [(&str, &str); 6] = [

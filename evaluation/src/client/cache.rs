@@ -180,7 +180,7 @@ mod tests {
         assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
     }
 
-    /// Whoever shares the folder can replace an entry by anything.
+    /// Anyone who shares the folder can replace an entry by anything.
     #[cfg(unix)]
     #[test]
     fn only_plain_files_of_a_bounded_size_are_read() {

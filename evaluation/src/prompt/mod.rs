@@ -37,7 +37,7 @@ use render::Style;
 use serde::Serialize;
 
 /// The version of the templates and of the rules in words, raised when a word of them changes, so that results tell prompts apart at a glance.
-pub const VERSION: u32 = 7;
+pub const VERSION: u32 = 8;
 
 const TEMPLATES: [(&str, &str); 6] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),

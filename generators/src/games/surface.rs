@@ -27,7 +27,7 @@ pub(super) fn without_surface(description: &Description, names: &BTreeMap<String
 fn strip_lines(lines: &mut [SpriteLine]) {
     for line in lines {
         line.trivia = Trivia::default();
-        line.params.retain(|param| param.key.text != "img");
+        line.params.retain(|param| !["img", "autotiling", "randomtiling"].contains(&param.key.text.as_str()));
         strip_lines(&mut line.children);
     }
 }

@@ -92,7 +92,7 @@ fn a_release_is_the_same_as_itself() {
     assert_eq!(diff.neighbours.within, None, "there is no other game");
 }
 
-/// What was not measured has no distance and no p-value, and the first sentence says so.
+/// A value that was not measured has no distance and no p-value, and the first sentence says so.
 #[test]
 fn unmeasured_difficulty_is_not_equal_difficulty() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");

@@ -428,7 +428,7 @@ mod tests {
         assert_eq!(plan.forecast(&[]), Forecast { median: 0.0, tail: 0.0 });
     }
 
-    /// Whoever commits to a recipe cannot change it any more, so what cannot be filled is refused before.
+    /// A committed recipe cannot be changed any more, so a recipe that cannot be filled is refused before.
     #[test]
     fn recipes_that_cannot_be_filled_are_refused() {
         let check = |generated: &str, expect: Option<&str>| {

@@ -54,7 +54,7 @@ pub enum When {
     AtLeast(Vec<SpriteType>, i64),
     /// Exactly so many.
     Exactly(Vec<SpriteType>, i64),
-    /// So many ticks have been played.
+    /// The number of ticks played.
     Ticks(i64),
 }
 

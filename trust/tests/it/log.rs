@@ -595,7 +595,7 @@ fn altered_rows_are_told() {
     }
 }
 
-/// Whoever prepares the folder of a log can put a link in the place of its lock.
+/// Anyone who prepares the folder of a log can put a link in the place of its lock.
 #[cfg(unix)]
 #[test]
 fn a_linked_lock_empties_nothing() {

@@ -100,12 +100,25 @@ impl Analysis {
                 | EffectSummary::Teleport
                 | EffectSummary::Collect => Side::First,
                 EffectSummary::Health { of: None, by, .. } if *by < 0 => Side::First,
-                EffectSummary::KillAll(all) | EffectSummary::BecomeAll(all, _) if types.contains(all) => {
+                EffectSummary::KillAll(all) | EffectSummary::BecomeAll(all, _) if covers(*all) => {
                     return None;
                 }
                 EffectSummary::Health { of: Some(of), .. } if covers(*of) => return None,
                 EffectSummary::Clone if self.is_avatars(encounter.first, events) => return None,
-                _ => continue,
+                EffectSummary::KillAll(_)
+                | EffectSummary::BecomeAll(..)
+                | EffectSummary::Health { .. }
+                | EffectSummary::Clone
+                | EffectSummary::Stop
+                | EffectSummary::Undo(_)
+                | EffectSummary::Turn
+                | EffectSummary::Push
+                | EffectSummary::Carry
+                | EffectSummary::Wrap
+                | EffectSummary::Speed(_)
+                | EffectSummary::Make(_)
+                | EffectSummary::Change { .. }
+                | EffectSummary::Shield { .. } => continue,
             };
             if !(if side == Side::First { first } else { second }) || !self.can_happen(encounter, events) {
                 continue;
@@ -137,14 +150,13 @@ impl Analysis {
         if holder != pays || least < 1 || !self.is_one_avatar(payer, events) {
             return None;
         }
-        let at_once = encounter.effects.iter().find_map(|effect| match effect {
-            EffectSummary::Change { side, resource: changed, by }
-                if *side == pays && *changed == resource =>
-            {
-                Some(-i64::from(*by))
-            }
-            _ => None,
-        });
+        let taken = |encounter: &Encounter, payer: Side| {
+            encounter.effects.iter().find_map(|effect| {
+                let EffectSummary::Change { side, resource: changed, by } = effect else { return None };
+                (*side == payer && *changed == resource).then(|| -i64::from(*by))
+            })
+        };
+        let at_once = taken(encounter, pays);
         if let Some(each) = at_once {
             let all = each >= 1 && each <= i64::from(least);
             return all.then_some(Payment {
@@ -156,14 +168,7 @@ impl Analysis {
         }
         // The next rule for the two of them takes it: it runs in the same tick, as long as they still touch.
         let takes = |later: &Encounter| {
-            let by = later.effects.iter().find_map(|effect| match effect {
-                EffectSummary::Change { side: Side::First, resource: changed, by }
-                    if *changed == resource =>
-                {
-                    Some(-i64::from(*by))
-                }
-                _ => None,
-            })?;
+            let by = taken(later, Side::First)?;
             let second = later.second?;
             let all = |written: SpriteType, of: &mut dyn Iterator<Item = SpriteType>| {
                 of.filter(|&stype| events.can_occur(stype)).all(|stype| self.applies(written, stype))
@@ -188,7 +193,15 @@ impl Analysis {
                 | EffectSummary::Become(_)
                 | EffectSummary::BecomeAny(_) => self.is_avatars(between.first, events),
                 EffectSummary::BecomeAll(from, _) => self.is_avatars(*from, events),
-                _ => false,
+                EffectSummary::Kill(_)
+                | EffectSummary::KillAll(_)
+                | EffectSummary::Turn
+                | EffectSummary::Speed(_)
+                | EffectSummary::Make(_)
+                | EffectSummary::Collect
+                | EffectSummary::Change { .. }
+                | EffectSummary::Health { .. }
+                | EffectSummary::Shield { .. } => false,
             };
             between.does(apart) && self.can_happen(between, events)
         };
@@ -212,10 +225,8 @@ impl Analysis {
         let own = rules.types[written.index()].tree.iter().filter(|&&stype| events.can_occur(stype));
         let is_avatar = |stype: SpriteType| rules.types[stype.index()].is_like_avatar();
         let made = |stype: &SpriteType| is_avatar(*stype) && events.can_occur(*stype);
-        let makes = |effect: &EffectSummary| match effect {
-            EffectSummary::Make(made_type) => made(made_type),
-            EffectSummary::BecomeAll(_, to) => made(to),
-            _ => false,
+        let makes = |effect: &EffectSummary| {
+            matches!(effect, EffectSummary::Make(to) | EffectSummary::BecomeAll(_, to) if made(to))
         };
         let by_itself =
             |maker: SpriteType| events.can_occur(maker) && self.facts(maker).makes.iter().any(made);

@@ -193,7 +193,7 @@ fn several_singletons_can_be_made_at_once() {
     assert!(!of("hero wall > transformToAll stype=egg stypeTo=hen"));
 }
 
-/// What stands still never gets to the edge, but others of its type may.
+/// A sprite that stands still never gets to the edge, but others of its type may.
 #[test]
 fn a_sprite_that_stays_inside_is_told_apart_from_its_type() {
     let sprites = "jar > Immovable; hero > ShootAvatar stype=jar";

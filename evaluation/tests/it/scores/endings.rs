@@ -116,7 +116,7 @@ fn the_interaction_that_killed_is_named() {
     check(&format!("{both}{less}"), "", "died of touching pit", both.trim());
     let ghost = "        avatar seed > transformTo stype=ghost\n";
     let ghostly = "        ghost > MovingAvatar\n";
-    check(&format!("{ghost}{kill}"), ghostly, "died of touching seed", ghost.trim());
+    check(&format!("{ghost}{kill}"), ghostly, "lost avatar to seed", ghost.trim());
 }
 
 #[test]

@@ -489,7 +489,7 @@ fn sealed_releases_export_no_solutions() {
     assert!(error.contains("`2026-12` is sealed") && error.contains("--reveal"), "{error}");
 }
 
-/// What follows from the rules is compared with them: texts of another game, or of none, are problems.
+/// Texts that follow from the rules are compared with them: texts of another game, or of none, are problems.
 #[test]
 fn cards_say_of_the_rules_what_the_game_says() {
     let html = "<script>alert(1)</script>";
