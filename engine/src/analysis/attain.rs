@@ -1,7 +1,7 @@
 //! Tests, from the rules alone, whether a termination can ever hold.
 
 use super::Analysis;
-use super::encounter::{EffectSummary, Side, timed_effects};
+use super::encounter::{EffectSummary, Precondition, Side, timed_effects};
 use super::facts::Facts;
 use super::futures::PossibleFutures;
 use super::goal::{Condition, Goal};
@@ -78,13 +78,13 @@ impl PopulationChanges {
         for (encounter, _) in futures.encounters().iter().zip(&futures.live).filter(|(_, live)| **live) {
             let sides = [Some(encounter.first), encounter.second];
             let sides = sides.map(|written| written.map_or(&[][..], |w| &*rules.types[w.index()].tree));
-            changes.add(rules, sides, &encounter.effects, &mut turns);
+            changes.add(rules, sides, (&encounter.effects, encounter.precondition), &mut turns);
         }
         for ((target, effects), _) in
             timed_effects(rules).iter().zip(&futures.timed).filter(|(_, live)| **live)
         {
             let tree = target.map_or(&[][..], |target| &*rules.types[target.index()].tree);
-            changes.add(rules, [tree, &[]], effects, &mut turns);
+            changes.add(rules, [tree, &[]], (effects, Precondition::Always), &mut turns);
         }
         let types = facts.len();
         let pairs = (0..turns.len()).filter(|&at| turns[at]);
@@ -98,11 +98,14 @@ impl PopulationChanges {
         &mut self,
         rules: &Rules,
         sides: [&[SpriteType]; 2],
-        effects: &[EffectSummary],
+        (effects, precondition): (&[EffectSummary], Precondition),
         turns: &mut [bool],
     ) {
         let types = self.exists.len();
         let mut turn = |from: SpriteType, to: SpriteType| turns[from.index() * types + to.index()] = true;
+        let is_avatar =
+            |stype: SpriteType| rules.types[stype.index()].class.is_some_and(SpriteClass::is_avatar);
+        let turns_dead = turns_dead(effects, precondition);
         for effect in effects {
             let gone: &[SpriteType] = match effect {
                 EffectSummary::Kill(Side::Second) => sides[1],
@@ -115,17 +118,19 @@ impl PopulationChanges {
                     sides[0]
                 }
                 EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
+                    // A dead avatar stays on the board. Only `transformTo` leaves it alone.
+                    let again = matches!(effect, EffectSummary::BecomeAny(_)) || turns_dead;
                     for &from in sides[0] {
-                        // A dead avatar stays on the board, and can turn into others again and again.
-                        if rules.types[from.index()].class.is_some_and(SpriteClass::is_avatar) {
+                        effect.makes().iter().for_each(|&to| turn(from, to));
+                        if again && is_avatar(from) {
                             effect.makes().iter().for_each(|to| self.appears[to.index()] = true);
                         }
-                        effect.makes().iter().for_each(|&to| turn(from, to));
                     }
                     &[]
                 }
                 EffectSummary::BecomeAll(from, to) => {
                     turn(*from, *to);
+                    self.appears[to.index()] |= is_avatar(*from);
                     &[]
                 }
                 EffectSummary::Make(stype) => {
@@ -187,6 +192,15 @@ impl PopulationChanges {
             (Condition::Exactly(..), None) => when(falls || rises),
         }
     }
+}
+
+/// Returns `true` if effects that turn their sprite into another also turn a dead avatar, in every tick: all but `transformTo`
+/// do, which has no condition and turns nothing else.
+pub(super) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
+    precondition == Precondition::Movement
+        || effects
+            .iter()
+            .any(|effect| matches!(effect, EffectSummary::BecomeAny(_) | EffectSummary::BecomeAll(..)))
 }
 
 /// Returns `true` if sprites of the type disappear by themselves.

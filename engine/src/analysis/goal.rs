@@ -1,8 +1,8 @@
 //! Goals: the winning and losing terminations, in terms of sprite counts.
 
 use super::Analysis;
-use super::attain::Attainable;
-use super::encounter::{EffectSummary, timed_effects};
+use super::attain::{Attainable, turns_dead};
+use super::encounter::{EffectSummary, Precondition, timed_effects};
 use crate::rules::class::SpriteClass;
 use crate::rules::terminations::{Condition as Written, Decision};
 use crate::rules::{Rules, SpriteType};
@@ -186,7 +186,7 @@ impl Analysis {
     }
 
     /// Returns `true` if there are never more sprites of these types together than a level begins with: what makes one takes
-    /// another. (A dead avatar can turn into others again and again.) Cost: O(encounters × types).
+    /// another. (Most effects turn a dead avatar again and again.) Cost: O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);
@@ -194,7 +194,7 @@ impl Analysis {
             game.sprite_types().filter(|stype| self.applies(written, *stype)).all(|stype| one_of(&stype))
         };
         let is_made = |maker: SpriteType| self.can_exist(maker) && self.facts(maker).makes.iter().any(one_of);
-        let adds = |effect: &EffectSummary, first: Option<SpriteType>| {
+        let adds = |effect: &EffectSummary, first: Option<SpriteType>, turns_dead: bool| {
             if *effect == EffectSummary::Clone {
                 return first
                     .is_none_or(|first| game.sprite_types().any(|s| one_of(&s) && self.applies(first, s)));
@@ -205,13 +205,17 @@ impl Analysis {
             };
             let replaced = if let EffectSummary::BecomeAll(from, _) = effect { Some(*from) } else { first };
             let takes_one = !matches!(effect, EffectSummary::Make(_))
-                && replaced.is_some_and(|from| all_of(from) && !is_avatar(from));
+                && replaced.is_some_and(|from| all_of(from) && !(turns_dead && is_avatar(from)));
             effect.makes().iter().any(one_of) && !takes_one
         };
         let timed = timed_effects(&game.0);
         !game.sprite_types().any(is_made)
-            && !self.encounters.iter().any(|met| met.does(|effect| adds(effect, Some(met.first))))
-            && !timed.iter().any(|(target, effects)| effects.iter().any(|effect| adds(effect, *target)))
+            && !self.encounters.iter().any(|met| {
+                met.does(|effect| adds(effect, Some(met.first), turns_dead(&met.effects, met.precondition)))
+            })
+            && !timed.iter().any(|(target, effects)| {
+                effects.iter().any(|effect| adds(effect, *target, turns_dead(effects, Precondition::Always)))
+            })
     }
 
     /// Returns the termination that would end the game if this state were the end of a tick. Cost: O(goals × types).

@@ -177,6 +177,8 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let tree = |stype: &SpriteType| rules.types[stype.index()].tree.iter().copied();
     let types = stypes.iter().flat_map(tree).filter(|stype| rules.types[stype.index()].class.is_some());
     let types: Vec<SpriteType> = types.collect();
+    // Without sprites to count, the names of the line stand for none.
+    let types = if types.is_empty() { stypes.to_vec() } else { types };
     let (are, then) = match (limit == 1, before.is_some()) {
         (true, true) => ("is", ""),
         (false, true) => ("are", ""),
@@ -196,19 +198,23 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
 
 /// The condition of a termination, as the end of a sentence about winning or losing.
 fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
-    let when = condition(analysis, &goal.condition, win);
+    let written = analysis.game().0.terminations[goal.line].counts();
+    let types = goal.condition.types();
+    // Without sprites to count, the names of the line stand for none.
+    let types = if types.is_empty() { written } else { types };
+    let when = condition(analysis, &goal.condition, types, win);
     match goal.kinds {
         None => when,
         Some(kinds) => when + &Phrase::OfKinds.with(&[("kinds", &count(kinds.into(), "kind"))]),
     }
 }
 
-fn condition(analysis: &Analysis, condition: &Condition, win: bool) -> String {
-    let one = counted(analysis, condition.types(), str::to_owned);
+fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], win: bool) -> String {
+    let one = counted(analysis, types, str::to_owned);
     let limited = |phrase: Phrase, limit: i32| {
         let (name, are) = match limit {
-            1 => (summed(analysis, condition.types(), str::to_owned), "is"),
-            _ => (summed(analysis, condition.types(), plural), "are"),
+            1 => (summed(analysis, types, str::to_owned), "is"),
+            _ => (summed(analysis, types, plural), "are"),
         };
         phrase.with(&[("limit", &limit.to_string()), ("name", &name), ("are", are)])
     };
@@ -218,7 +224,7 @@ fn condition(analysis: &Analysis, condition: &Condition, win: bool) -> String {
         Condition::AtMost(_, limit) => limited(Phrase::AtMost, *limit),
         Condition::AtLeast(_, limit) => limited(Phrase::AtLeast, *limit),
         // What begins with more and never grows.
-        Condition::Exactly(types, limit) if !win && analysis.only_falls(types) => {
+        Condition::Exactly(_, limit) if !win && analysis.only_falls(types) => {
             limited(Phrase::OnlyLeft, *limit)
         }
         Condition::Exactly(_, limit) => limited(Phrase::Exactly, *limit),

@@ -294,11 +294,16 @@ fn cells_of(case: &Case, play: &Play, record: &SpriteRecord) -> Vec<usize> {
 
 /// The first difference between two plays of the same actions.
 fn differs(case: &Case, one: &Play, two: &Play, with: &str) -> Option<String> {
-    // As text, because some speeds are NaN.
-    let shown = |frame: &Frame| format!("{:?} {} {:?}", frame.outcome, frame.score, frame.sprites);
+    let equal = |one: &Frame, two: &Frame| {
+        // As text where they differ, because some speeds are NaN.
+        let same = |one: &[SpriteRecord], two: &[SpriteRecord]| {
+            one == two || format!("{one:?}") == format!("{two:?}")
+        };
+        one.outcome == two.outcome && one.score == two.score && same(&one.sprites, &two.sprites)
+    };
     let pairs = one.frames.iter().zip(&two.frames);
     let whole = |(one, two): &(&Frame, &Frame)| one.is_whole() && two.is_whole();
-    let at = pairs.take_while(whole).position(|(one, two)| shown(one) != shown(two));
+    let at = pairs.take_while(whole).position(|(one, two)| !equal(one, two));
     let at = at?;
     let (one, two) = (&one.frames[at], &two.frames[at]);
     let changed =

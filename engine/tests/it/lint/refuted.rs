@@ -204,17 +204,27 @@ fn a_sprite_that_stays_inside_is_told_apart_from_its_type() {
     assert_eq!(missing, [&Missing::Inside]);
 }
 
-/// A dead avatar stays on the board, and what it touches turns it into another sprite in every tick.
+/// A dead avatar stays on the board, and all effects but `transformTo` turn it into another sprite in every tick.
 #[test]
 fn a_dead_avatar_turns_again_and_again() {
-    let sprites = "jar > Immovable; box > Immovable; hero > MovingAvatar";
-    let rules = "hero jar > transformTo stype=jar; box wall > killSprite";
-    let ends = "MultiSpriteCounter stype1=hero stype2=jar limit=4 min=True win=True; SpriteCounter stype=box";
-    let game = game(sprites, "j > jar; b > box; A > hero", rules, ends);
-    let level = game.level("Ajb\n").unwrap();
-    let mut state = game.start(&level, Seed::from_text("dead"));
-    for _ in 0..4 {
-        game.step(&mut state, Action::Right);
-    }
-    assert_eq!((state.outcome(), Analysis::of(&game).can_win()), (Outcome::Won, true));
+    let of = |rule: &str| {
+        let sprites = "jar > Immovable; lid > Resource singleton=True; hero > MovingAvatar";
+        let ends =
+            "MultiSpriteCounter stype1=hero stype2=jar limit=4 min=True win=True; SpriteCounter stype=lid";
+        let game = game(sprites, "j > jar; l > lid; A > hero", &format!("hero jar > {rule}"), ends);
+        let mut state = game.start(&game.level("Aj l\n").unwrap(), Seed::from_text("dead"));
+        (0..4).for_each(|_| drop(game.step(&mut state, Action::Right)));
+        (state.outcome(), Analysis::of(&game).can_win())
+    };
+    assert_eq!(of("transformTo stype=jar"), (Outcome::Ongoing, false));
+    assert_eq!(of("transformToSingleton stype=jar stype_other=lid"), (Outcome::Won, true));
+}
+
+/// Types without a class have no sprites, and sentences about them still name them.
+#[test]
+fn endings_name_types_that_have_no_sprites() {
+    let source = "BasicGame\n    SpriteSet\n        herd >\n        hero > MovingAvatar\n    LevelMapping\n        A > hero\n    \
+        InteractionSet\n        hero wall > stepBack\n    TerminationSet\n        SpriteCounter stype=herd win=True\n";
+    let game = Game::from_source_as_reference(source).unwrap();
+    assert_eq!(Guide::of(&game).winning, ["You win when no herd is left."]);
 }
