@@ -118,7 +118,7 @@ fn tidied(mut fix: Fix, source: &str) -> Fix {
 mod tests {
     use super::*;
 
-    const GAME: &str = "BasicGame\n    SpriteSet\n        nut > Immovable size=3\n        hero > MovingAvatar\n    LevelMapping\n        n > nut\n        h > hero\n    InteractionSet\n        nut hero > killSprite\n    TerminationSet\n        SpriteCounter stype=nut win=True\n        Timeout limit=99\n";
+    const GAME: &str = "BasicGame\n    SpriteSet\n        nut > Immovable flavour=3\n        hero > MovingAvatar\n    LevelMapping\n        n > nut\n        h > hero\n    InteractionSet\n        nut hero > killSprite\n    TerminationSet\n        SpriteCounter stype=nut win=True\n        Timeout limit=99\n";
 
     #[test]
     fn a_repair_removes_its_problem() {
@@ -136,7 +136,7 @@ mod tests {
             ["undefined-character"]
         );
         assert_eq!(level_problems("", "nxh\n"), []);
-        let short = level_problems(&GAME.replace(" size=3", ""), "hn\nn\n");
+        let short = level_problems(&GAME.replace(" flavour=3", ""), "hn\nn\n");
         assert_eq!(applied("hn\nn\n", &short[0].fixes[0].edits), "hn\nn \n");
     }
 

@@ -34,12 +34,13 @@ pub const VERSIONS: &[Version] = &[
     superseded("0.10.0", 10, 3, "5182d4800aab8e21f4e6e70917feca3a2a298163"),
     superseded("0.11.0", 11, 3, "2794ad50f9d1f87fa618097a77bb9d6b81cbfe08"),
     superseded("0.12.0", 12, 3, "9f86038f584b06eb2adce814913672ab049928c5"),
+    superseded("0.13.0", 13, 3, "eb6380330268e994b1fdfb26e2f4c5f76c16dc27"),
     CURRENT,
 ];
 
 /// The current version.
 pub const CURRENT: Version = Version {
-    number: "0.13.0",
+    number: "0.14.0",
     generation: generators::GENERATION,
     semantics: engine::SEMANTICS,
     commit: None,

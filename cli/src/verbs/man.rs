@@ -67,7 +67,9 @@ mod tests {
             let name = format!("{}.1", path.replace(' ', "-"));
             let page = pages.iter().find(|(known, _)| *known == name);
             let page = &page.unwrap_or_else(|| panic!("no {name}")).1;
-            for flag in verb.get_arguments().filter(|flag| !flag.is_hide_set()).filter_map(clap::Arg::get_long) {
+            for flag in
+                verb.get_arguments().filter(|flag| !flag.is_hide_set()).filter_map(clap::Arg::get_long)
+            {
                 assert!(page.contains(&format!("\\-\\-{}", flag.replace('-', "\\-"))), "{name} --{flag}");
             }
         });

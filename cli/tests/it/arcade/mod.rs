@@ -88,6 +88,8 @@ fn suggested(said: &str) -> Vec<Vec<String>> {
                 _ if before.ends_with(": ") || before.ends_with("; ") => rest.split("; ").next(),
                 _ => None,
             };
+            // `arcade [OPTIONS] <COMMAND>` is a line of usage.
+            let command = command.filter(|command| !command.contains('<'));
             found.extend(command.and_then(shlex::split));
         }
     }

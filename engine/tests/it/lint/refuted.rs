@@ -213,7 +213,9 @@ fn a_dead_avatar_turns_again_and_again() {
             "MultiSpriteCounter stype1=hero stype2=jar limit=4 min=True win=True; SpriteCounter stype=lid";
         let game = game(sprites, "j > jar; l > lid; A > hero", &format!("hero jar > {rule}"), ends);
         let mut state = game.start(&game.level("Aj l\n").unwrap(), Seed::from_text("dead"));
-        (0..4).for_each(|_| drop(game.step(&mut state, Action::Right)));
+        for _ in 0..4 {
+            game.step(&mut state, Action::Right);
+        }
         (state.outcome(), Analysis::of(&game).can_win())
     };
     assert_eq!(of("transformTo stype=jar"), (Outcome::Ongoing, false));
