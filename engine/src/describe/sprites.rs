@@ -2,7 +2,7 @@
 
 use super::phrases::Phrase;
 use super::words::{Party, a, count, glide, list, pace, percent, plural};
-use crate::analysis::{Analysis, Avatar, EffectSummary, Encounter, Motion, Role, Steering};
+use crate::analysis::{Analysis, Avatar, EffectSummary, Encounter, Motion, Precondition, Role, Steering};
 use crate::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
@@ -70,8 +70,7 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
         let most = most_health(analysis, traits);
         parts.push(Phrase::Health.with(&[("points", &points), ("most", &most)]));
     }
-    let at_once = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
-    if facts.singleton && !analysis.any_effect(at_once) {
+    if facts.singleton && !is_made_regardless(analysis, stype) {
         let phrase = if parts.is_empty() { Phrase::SingleOnly } else { Phrase::Single };
         parts.push(phrase.with(&[]));
     }
@@ -193,6 +192,15 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
         (true, false) => count((updates - 1).max(0), "tick"),
         (false, _) => count(updates, "tick"),
     }
+}
+
+/// Tests whether some effect makes sprites of a singleton type although there is one.
+fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
+    let all = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
+    let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(stype);
+    // `transformIfCount`.
+    let counting = |met: &Encounter| met.precondition == Precondition::Movement && met.does(becomes);
+    analysis.any_effect(all) || analysis.encounters().iter().any(counting)
 }
 
 /// The limit of health points, in games where they can be gained.

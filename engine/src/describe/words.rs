@@ -58,7 +58,11 @@ impl Party {
 pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
     let game = analysis.game();
     let below = |stype: SpriteType| {
-        stype != group && game.0.types[stype.index()].path.contains(&group) && analysis.facts(stype).possible
+        let path = &game.0.types[group.index()].path;
+        stype != group
+            && analysis.applies(group, stype)
+            && !path.contains(&stype)
+            && analysis.facts(stype).possible
     };
     game.sprite_types().filter(|&stype| below(stype)).collect()
 }

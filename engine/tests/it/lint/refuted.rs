@@ -181,7 +181,7 @@ fn avatars_of_parent_types_are_updated() {
     assert_eq!(message, expected);
 }
 
-/// `transformToAll` turns all sprites at once.
+/// `transformToAll` and `transformIfCount` make singletons although there is one.
 #[test]
 fn several_singletons_can_be_made_at_once() {
     let of = |rule: &str| {
@@ -191,6 +191,7 @@ fn several_singletons_can_be_made_at_once() {
     };
     assert!(of("egg hero > transformTo stype=hen"));
     assert!(!of("hero wall > transformToAll stype=egg stypeTo=hen"));
+    assert!(!of("egg hero > transformIfCount stype=hen stypeCount=egg geq=1"));
 }
 
 /// A sprite that stands still never gets to the edge, but others of its type may.
@@ -229,4 +230,14 @@ fn endings_name_types_that_have_no_sprites() {
         InteractionSet\n        hero wall > stepBack\n    TerminationSet\n        SpriteCounter stype=herd win=True\n";
     let game = Game::from_source_as_reference(source).unwrap();
     assert_eq!(Guide::of(&game).winning, ["You win when no herd is left."]);
+}
+
+/// A type that is declared below two parents, as the reference reads it, belongs to both.
+#[test]
+fn a_type_declared_twice_belongs_to_both_groups() {
+    let source = "BasicGame\n    SpriteSet\n        flue > Immovable\n            slow >\n            quick >\n        cart > Immovable\n            \
+        slow >\n        hero > MovingAvatar\n    LevelMapping\n        s > slow\n        q > quick\n        A > hero\n    InteractionSet\n        \
+        flue hero > killSprite\n    TerminationSet\n        SpriteCounter stype=flue win=True\n";
+    let game = Game::from_source_as_reference(source).unwrap();
+    assert_eq!(Guide::of(&game).groups, ["Any flue means the slow or quick."]);
 }
