@@ -54,9 +54,12 @@ pub(crate) fn told(
     }
     if let Some((dialect, words)) = dialect(description) {
         let words: Vec<String> = words.iter().take(SHOWN).map(|word| format!("`{word}`")).collect();
-        let message =
-            format!("this game is in the dialect of {}, which has {}", dialect.name(), words.join(", "));
-        problems.insert(0, other_dialect(start, message, dialect));
+        let message = format!("this game is in the dialect of {}", dialect.name());
+        let problem = other_dialect(start, message, dialect);
+        // A repair of one word leaves the message as it is.
+        let help =
+            format!("{}; its words are {}", problem.help.as_deref().unwrap_or_default(), words.join(", "));
+        problems.insert(0, problem.help(help));
     }
     problems
 }

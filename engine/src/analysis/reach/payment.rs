@@ -225,9 +225,7 @@ impl Analysis {
         let own = rules.types[written.index()].tree.iter().filter(|&&stype| events.can_occur(stype));
         let is_avatar = |stype: SpriteType| rules.types[stype.index()].is_like_avatar();
         let made = |stype: &SpriteType| is_avatar(*stype) && events.can_occur(*stype);
-        let makes = |effect: &EffectSummary| {
-            matches!(effect, EffectSummary::Make(to) | EffectSummary::BecomeAll(_, to) if made(to))
-        };
+        let makes = |effect: &EffectSummary| matches!(effect, EffectSummary::Make(to) | EffectSummary::BecomeAll(_, to) if made(to));
         let by_itself =
             |maker: SpriteType| events.can_occur(maker) && self.facts(maker).makes.iter().any(made);
         let turns = |encounter: &Encounter| {
