@@ -46,7 +46,7 @@ pub(crate) fn told(
     {
         let message =
             format!("this is a Python file; its game is in a string that starts in line {}", file.line);
-        return vec![other_dialect(start, message, Dialect::PyVgdl, &[])];
+        return vec![other_dialect(start, message, Dialect::PyVgdl)];
     }
     if is_of_several_players(description) {
         problems.retain(|problem| problem.code == "unsupported");
@@ -55,7 +55,11 @@ pub(crate) fn told(
     if let Some((dialect, words)) = dialect(description) {
         let words: Vec<String> = words.iter().take(SHOWN).map(|word| format!("`{word}`")).collect();
         let message = format!("this game is in the dialect of {}", dialect.name());
-        problems.insert(0, other_dialect(start, message, dialect, &words));
+        let problem = other_dialect(start, message, dialect);
+        // A repair of one word leaves the message as it is.
+        let help =
+            format!("{}; its words are {}", problem.help.as_deref().unwrap_or_default(), words.join(", "));
+        problems.insert(0, problem.help(help));
     }
     problems
 }
@@ -66,11 +70,9 @@ pub(crate) fn is_of_several_players(description: &Description) -> bool {
     players.filter_map(|param| param.value.text.parse::<i64>().ok()).any(|players| players > 1)
 }
 
-/// The problem of a game in another dialect, with words that show it.
-fn other_dialect(span: Span, message: String, dialect: Dialect, words: &[String]) -> Diagnostic {
-    let has = if words.is_empty() { String::new() } else { format!("only that has {}; ", words.join(", ")) };
+fn other_dialect(span: Span, message: String, dialect: Dialect) -> Diagnostic {
     let help = format!(
-        "{has}`arcade fmt --from {} GAME` converts what has an exact equivalent here, and lists the rest",
+        "`arcade fmt --from {} GAME` converts what has an exact equivalent here, and lists the rest",
         dialect.flag()
     );
     Diagnostic::error("other-dialect", span, message).help(help)

@@ -64,7 +64,7 @@ fn invented_words_are_told_by_their_meaning() {
 fn dialects_are_named_once_by_their_words() {
     let told = |source: &str| -> Vec<String> {
         let found = problems(source).into_iter().filter(|problem| problem.code == "other-dialect");
-        found.map(|problem| problem.message).collect()
+        found.map(|problem| format!("{}: {}", problem.message, problem.help.unwrap_or_default())).collect()
     };
     let py_vgdl = PY_VGDL.replace("bonus=10", "");
     let py_vgdl = py_vgdl.replace("gem avatar > changeScore value=2", "ball avatar > killSprite");
