@@ -57,7 +57,10 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
             never_made()
         }
         Condition::SpriteCounterMore { limit, .. } => limit <= 0,
-        _ => false,
+        Condition::MultiSpriteCounter { .. }
+        | Condition::MultiSpriteCounterSubTypes { .. }
+        | Condition::StopCounter { .. }
+        | Condition::Timeout { .. } => false,
     };
     // Another termination may come first.
     let line_decides = |end: &Termination| end.decided_by == Decision::Line;

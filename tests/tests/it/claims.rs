@@ -93,6 +93,7 @@ BasicGame square_size=10
         owl > RandomNPC
         cart > Missile orientation=RIGHT
         veil > Immovable hidden=True
+        moss > Immovable
         hero > MovingAvatar
         ghost > MovingAvatar
     LevelMapping
@@ -102,6 +103,7 @@ BasicGame square_size=10
         o > owl
         c > cart
         v > veil
+        m > moss
         A > hero
     InteractionSet
         gem hero > collectResource scoreChange=1
@@ -118,9 +120,9 @@ BasicGame square_size=10
 /// Each check refutes a false claim, and no check refutes the true claims of the same game.
 #[test]
 fn false_claims_are_refuted() {
-    let case = Case::load(ZOO, "A.gv...\n..e.c..\n.o...p.\n", Policy::Strict);
+    let case = Case::load(ZOO, "A.gv...\nm.e.c..\n.o...p.\n", Policy::Strict);
     let case = case.unwrap_or_else(|| {
-        Case::load(ZOO, "A gv   \n  e c  \n o   p \n", Policy::Strict).expect("the zoo loads")
+        Case::load(ZOO, "A gv   \nm e c  \n o   p \n", Policy::Strict).expect("the zoo loads")
     });
     let named = |name: &str| case.game.sprite_type(name).expect("a type of the zoo");
     let line = |effect: &str| {
@@ -135,11 +137,12 @@ fn false_claims_are_refuted() {
     assert_eq!(won.frames.last().map(|frame| frame.outcome), Some(Outcome::Won));
     let other =
         Play::of(&case, seed, &[Action::Right, Action::Right, Action::Right, Action::Right, Action::Right]);
+    let down = Play::of(&case, seed, &[Action::Down]);
     let cell = |column: usize, row: usize| row * 7 + column;
     let nowhere = |_: SpriteType| vec![false; 21];
     let types: Vec<SpriteType> = case.game.sprite_types().collect();
-    let [gem, pit, egg, owl, cart, veil, hero, ghost] =
-        ["gem", "pit", "egg", "owl", "cart", "veil", "hero", "ghost"].map(named);
+    let [gem, pit, egg, owl, cart, veil, moss, hero, ghost] =
+        ["gem", "pit", "egg", "owl", "cart", "veil", "moss", "hero", "ghost"].map(named);
     let no_egg = || ending(true, When::AtMost(vec![egg], 0));
     let goal = case.analysis.goals().iter().position(|goal| goal.win).expect("a way to win");
     let speed = ZOO.find("scoreChange").expect("a score");
@@ -167,7 +170,7 @@ fn false_claims_are_refuted() {
         (&won, Fact::NeverAt(hero, cell(1, 0))),
         (&won, Fact::Within(types.iter().map(|&stype| nowhere(stype)).collect())),
         (&won, Fact::CellsVisited(2)),
-        (&won, Fact::CannotEnter(vec![hero], Some(vec![gem]))),
+        (&down, Fact::CannotEnter(vec![hero], Some(vec![moss]))),
         (&won, Fact::Unseen(gem)),
         (&won, Fact::DeadKeys),
         (&won, Fact::IdleKeys(vec![Action::Down])),
