@@ -267,6 +267,15 @@ fn of_source(path: &Path, text: String, title: String, names: &[String]) -> Game
 /// Advice for a level without a game beside it: the game may be in the folder above.
 fn lost_level(path: &Path) -> Failure {
     let name = path.display();
+    let beside = games_in(folder_of(path)).unwrap_or_default();
+    if beside.len() > 1 {
+        let names =
+            beside.iter().map(|game| format!("`{}`", game.source.name)).collect::<Vec<_>>().join(", ");
+        return malformed!(
+            "{name}: this is a level, and several games lie beside it: {names}; name its game first: arcade validate GAME {}",
+            shell::quoted(path)
+        );
+    }
     let above = folder_of(path)
         .parent()
         .map(|above| if above.as_os_str().is_empty() { Path::new(".") } else { above });

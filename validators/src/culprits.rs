@@ -94,12 +94,24 @@ impl Trials<'_> {
     fn all(&mut self) -> Vec<Evidence> {
         let repairs: Vec<Changed> = self.carriers().into_iter().chain(self.leavers()).collect();
         let dropped = self.dropped();
-        let swapped = self.swapped();
-        let waiting = (repairs.len() + dropped.len() + swapped.len()) as u64;
+        // A swapped push is the most frequent of these mistakes, and the change that keeps all other rules as they are.
+        let is_push = |(line, _): &(usize, Changed)| {
+            let mut encounters = self.case.analysis.encounters().iter();
+            encounters.any(|other| other.line == *line && other.does(|effect| *effect == EffectSummary::Push))
+        };
+        let (pushes, swapped): (Vec<_>, Vec<_>) = self.swapped().into_iter().partition(is_push);
+        let waiting = (repairs.len() + dropped.len() + pushes.len() + swapped.len()) as u64;
         let mut waiting = waiting.min(MAX_TRIALS);
         let mut found = Vec::new();
         for changed in repairs {
             found.extend(self.won(changed, &mut waiting).map(Won::evidence));
+        }
+        let before = found.len();
+        for (_, changed) in pushes {
+            found.extend(self.won(changed, &mut waiting).map(Won::evidence));
+        }
+        if found.len() > before {
+            return found;
         }
         let mut lines = Vec::new();
         // Walls keep the avatar from everywhere: without them, more than the cause is gone.
@@ -180,7 +192,8 @@ impl Trials<'_> {
         rules.chain(endings).collect()
     }
 
-    /// The games with the two sides of one interaction swapped.
+    /// The games with the two sides of one interaction swapped. A rule by which a wall stops the avatar is not swapped:
+    /// the avatar would walk through walls.
     fn swapped(&self) -> Vec<(usize, Changed)> {
         let game = self.case.game;
         let lines = &game.description().interactions;
@@ -203,7 +216,7 @@ impl Trials<'_> {
             let advice = format!("did you mean `{meant}`?");
             Some((line, Changed { game: changed, line: rule, how, advice }))
         };
-        (0..lines.len()).filter_map(swap).collect()
+        (0..lines.len()).filter(|&line| !is_guard(self.case.analysis, line)).filter_map(swap).collect()
     }
 
     /// The games in which sprites that fly off the board return at the opposite edge.

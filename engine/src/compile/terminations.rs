@@ -40,7 +40,7 @@ pub(super) fn terminations(
         let span = description.terminations[0].class.span;
         let problem =
             Diagnostic::warning("no-win", span, "no termination has `win=True`: the game cannot be won");
-        problems.push(problem.help("add `win=True` to one of them"));
+        problems.push(problem.help("add a line such as `SpriteCounter stype=GOAL limit=0 win=True`, with the type that a winner removes"));
     }
     (terminations, can_end)
 }

@@ -82,7 +82,20 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
         ),
     };
     let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
-    Some(problem.help("place some of the sprites that it counts, or change its `limit=`"))
+    let left = match end.condition {
+        Condition::SpriteCounter { limit, .. } => {
+            limit > 0 && end.counts().iter().any(|&stype| count(stype) > 0)
+        }
+        Condition::SpriteCounterMore { .. }
+        | Condition::MultiSpriteCounter { .. }
+        | Condition::MultiSpriteCounterSubTypes { .. }
+        | Condition::StopCounter { .. }
+        | Condition::Timeout { .. } => false,
+    };
+    Some(problem.help(match left {
+        true => "a SpriteCounter holds while at most `limit=` sprites are left: with `limit=0`, it holds when all are gone",
+        false => "place some of the sprites that it counts, or change its `limit=`",
+    }))
 }
 
 /// The outcomes of the first tick of a level: with each action, and several seeds if chance plays a part.

@@ -66,13 +66,13 @@ pub(super) fn ending(game: &Game, avatars: &[SpriteType], text: &str) -> Option<
         (", if the counters are not all the same", Provided::Difference),
         (" and the counters are all the same", Provided::NoDifference),
     ];
-    let values: [(&str, fn(i32) -> Provided); 2] =
-        [(", if the counter is at ", Provided::Value), (" and the counter is not at ", Provided::OtherValue)];
+    let values = [(", if the counter is at ", true), (" and the counter is not at ", false)];
     let known = provisos.iter().find_map(|(words, provided)| Some((text.strip_suffix(words)?, *provided)));
     let known = known.or_else(|| {
-        values.iter().find_map(|(words, provided)| {
+        values.iter().find_map(|(words, is_at)| {
             let (text, value) = text.split_once(words)?;
-            Some((text, provided(value.parse().ok()?)))
+            let value = value.parse().ok()?;
+            Some((text, if *is_at { Provided::Value(value) } else { Provided::OtherValue(value) }))
         })
     });
     let (text, provided) = known.unwrap_or((text, Provided::Always));

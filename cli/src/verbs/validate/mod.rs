@@ -65,7 +65,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let levels = levels(args, &input)?;
     if levels.is_empty() {
         let name = &input.source.name;
-        let help = "name a level file after it, or put lvl0.txt beside it";
+        let stem = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+        let own = match stem.eq_ignore_ascii_case("game") {
+            true => "lvl0.txt".to_owned(),
+            false => format!("{stem}_lvl0.txt"),
+        };
+        let help = format!("name a level file after it, or put {own} beside it");
         bail!("{name}: the game compiles, but there is no level to judge; {help}");
     }
     if args.witness.is_some() && levels.len() > 1 {
