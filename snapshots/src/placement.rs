@@ -26,12 +26,23 @@ const TABLES: [&str; 14] = [
     "yards",
 ];
 
+/// The name of the first table that holds a key, such as `corpus.criteria`.
+fn table_with(key: &str, tables: &toml::Table) -> Option<String> {
+    tables.iter().find_map(|(name, value)| {
+        let table = value.as_table()?;
+        match table.contains_key(key) {
+            true => Some(name.clone()),
+            false => table_with(key, table).map(|inner| format!("{name}.{inner}")),
+        }
+    })
+}
+
 /// Returns advice on a key that is known, but not where it stands: a line that is appended to a file belongs to its last table.
 pub(crate) fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
     let key = error.message().strip_prefix("unknown field `")?.split('`').next()?;
     let recipe: toml::Table = toml::from_str(text).ok()?;
     let holds = |value: &toml::Value| value.as_table().is_some_and(|table| table.contains_key(key));
-    if let Some((table, _)) = recipe.iter().find(|(_, value)| holds(value)) {
+    if let Some(table) = table_with(key, &recipe) {
         if HEAD.contains(&key) {
             return Some(format!(
                 "`{key}` stands in the table [{table}] here, and belongs to the recipe as a whole: move it above the first [table]"

@@ -526,18 +526,20 @@ impl Recipe {
 
     /// The number of levels of all games.
     pub fn levels(&self) -> u32 {
-        let puzzles: u32 = self.puzzle_parts().map(|part| part.games * part.levels).sum();
-        self.corpus.games * self.corpus.levels + self.generated.games * self.generated.levels + puzzles
+        let parts = self.puzzle_parts().map(|part| (part.games, part.levels));
+        let parts = parts
+            .chain([(self.corpus.games, self.corpus.levels), (self.generated.games, self.generated.levels)]);
+        parts.fold(0, |all, (games, levels)| all.saturating_add(games.saturating_mul(levels)))
     }
 
     /// The number of games.
     pub fn games(&self) -> u32 {
-        self.corpus.games + self.new_games()
+        self.corpus.games.saturating_add(self.new_games())
     }
 
     /// The number of games from generators.
     pub fn new_games(&self) -> u32 {
-        self.generated.games + self.puzzle_parts().map(|part| part.games).sum::<u32>()
+        self.puzzle_parts().fold(self.generated.games, |all, part| all.saturating_add(part.games))
     }
 
     /// The puzzles, of pushed things, of locks, of yards and of strays.
@@ -685,6 +687,10 @@ pub(crate) mod tests {
         );
         check(&format!("{GOOD}authors = ['Ada']"), "move it above the first [table]");
         check(
+            &format!("{GOOD}[generated.criteria]\nauthors = ['Ada']"),
+            "in the table [generated.criteria] here",
+        );
+        check(
             &format!("{GOOD}[generated.board]\nrows = [9, 9]"),
             "write [board] instead of [generated.board]",
         );
@@ -692,6 +698,7 @@ pub(crate) mod tests {
         check(&format!("authors = ['']\n{GOOD}"), "`authors` takes");
         check(&format!("publisher = ' '\n{GOOD}"), "`publisher` takes");
         check("name = ", "expected");
+        check(&GOOD.replace("games = 2", "games = 4294967295"), "games");
         check(&"#".repeat(MAX_RECIPE + 1), "larger than");
     }
 }

@@ -254,6 +254,14 @@ fn what_was_withheld_is_verified() {
         let sibling = game.sibling.as_ref().unwrap().game.digest();
         assert!(!corpus.contains(&game.game.digest()) && !corpus.contains(&sibling), "{}", game.card.id);
     }
+    // The length of the shortest win would tell which of two wins was published.
+    let all = files(&COINS.path().join("revealed"));
+    for path in all.keys().filter(|path| path.starts_with("held/seconds/")) {
+        let (id, level) = path["held/seconds/".len()..].split_once('/').unwrap();
+        let number: usize = level.trim_start_matches("lvl").trim_end_matches(".json").parse().unwrap();
+        let game = released.games.iter().find(|game| game.card.id == id).unwrap();
+        assert_eq!(game.card.levels[number].optimal_ticks, None, "{path}");
+    }
     // Forgeries with a root of their own.
     let forged = |change: Forgery<'_>, words: &str| {
         let (home, mut all) = (tempfile::tempdir().unwrap(), files(&COINS.path().join("revealed")));

@@ -288,6 +288,9 @@ impl ScaleFile {
         (counts.map(|count| format!("it counts {count}")))
             .or_else(|| spreads.into_iter().find_map(|value| logit("a spread", value)))
             .or_else(|| {
+                spreads.into_iter().find(|&value| value < 0.0).map(|value| format!("a spread is {value}"))
+            })
+            .or_else(|| {
                 self.origins.into_iter().chain([self.ease]).find_map(|value| logit("an origin", value))
             })
             .or_else(|| self.covariance.iter().find_map(|&value| variance(value)))

@@ -57,6 +57,10 @@ impl<'a, 'b> Folder<'a, 'b> {
         let FrozenGame { text, mut card, levels, witnesses, paths, marks, sibling, seconds, .. } = frozen;
         let folder = format!("games/{}", card.id);
         card.canary = self.canary.clone();
+        // Where one of two wins is withheld, the length of the shortest would tell which of the two was published.
+        for (level, second) in card.levels.iter_mut().zip(&seconds) {
+            level.optimal_ticks = level.optimal_ticks.filter(|_| second.is_none());
+        }
         let text = marked(&syntax::parse(&text).0, &self.canary);
         self.file(format!("{folder}/game.vgdl"), text.as_bytes())?;
         self.file(format!("{folder}/card.json"), &json(&card)?)?;

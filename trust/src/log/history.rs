@@ -138,6 +138,9 @@ impl History {
         commitment: Option<Digest>,
         beacon: Option<Digest>,
     ) -> Vec<String> {
+        if let Some(before) = self.roots.get(release).filter(|before| before.root == root) {
+            return vec![format!("the root of `{release}` is in the log already: {}", before.root)];
+        }
         if let Some(before) = self.roots.get(release) {
             return vec![format!(
                 "a second root for `{release}`: {} came first; two releases of one name are two histories",

@@ -70,7 +70,9 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     log.push(recipe.as_ref());
     match parent {
         Some(parent) => log.extend([OsStr::new("--parent"), parent.as_os_str()]),
-        None => log.push(OsStr::new("--first")),
+        None if Path::new("log").exists() => log.push(OsStr::new("--first")),
+        // A new log takes a name.
+        None => log.extend(["--origin", "example.org/arcade"].map(OsStr::new)),
     }
     console.say(format_args!("if you keep a log, enter it before:  {}", shell::command(log)));
     console.say(format_args!("mint it with:  {}", shell::command(mint)));
