@@ -53,6 +53,7 @@ phrases! {
     MovesAnyWay: "moves straight in a random direction, {pace}",
     MovesAhead: "moves straight ahead, {pace}",
     Falls: "falls",
+    SetOff: "stands until a rule gives it speed",
     Wanders: "wanders at random, {pace}",
     WandersAnew: "wanders, {pace}, each time up, left, down or right at random",
     Chases: "chases {target}{near}, {pace}",
