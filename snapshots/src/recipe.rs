@@ -686,10 +686,7 @@ pub(crate) mod tests {
             "`commitment` stands in the table [generated] here, and belongs to the recipe as a whole: move it above the first [table]",
         );
         check(&format!("{GOOD}authors = ['Ada']"), "move it above the first [table]");
-        check(
-            &format!("{GOOD}[generated.criteria]\nauthors = ['Ada']"),
-            "in the table [generated.criteria] here",
-        );
+        check(&format!("{GOOD}[corpus.criteria]\nauthors = ['Ada']"), "in the table [corpus.criteria] here");
         check(
             &format!("{GOOD}[generated.board]\nrows = [9, 9]"),
             "write [board] instead of [generated.board]",
