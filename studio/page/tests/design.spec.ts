@@ -148,7 +148,7 @@ test('a level with a fault says what is wrong and offers the repair', async ({ p
   await open(page, await studio('games'), VIEW);
   await page.getByRole('button', { name: 'Text', exact: true }).click();
   const text = page.getByLabel('Level as text');
-  await text.fill((await text.inputValue()).replace('..l.w', '..lXw'));
+  await text.fill((await text.inputValue()).replace('..l.w', '..l?w'));
   const problem = page.getByRole('list', { name: 'Problems of the level' }).getByRole('listitem').filter({ hasText: 'not in the LevelMapping' });
   await expect(problem).toBeVisible();
   await problem.locator('.fix').first().click();
