@@ -170,13 +170,11 @@ impl Linter<'_> {
 
     /// Returns `true` if a sprite can gain more of a resource.
     fn gained(&self, resource: SpriteType) -> bool {
+        let gains = |effect: &EffectSummary| matches!(effect, EffectSummary::Change { resource: other, by, .. } if *other == resource && *by > 0);
         self.analysis.encounters().iter().any(|encounter| {
             let collects = encounter.effects.contains(&EffectSummary::Collect);
-            let gains = |effect: &EffectSummary| {
-                matches!(effect, EffectSummary::Change { resource: other, by, .. } if *other == resource && *by > 0)
-            };
-            collects && self.analysis.applies(encounter.first, resource) || encounter.does(gains)
-        })
+            collects && self.analysis.applies(encounter.first, resource)
+        }) || self.analysis.any_effect(gains)
     }
 
     /// Reports sprites that take part in rules but are drawn under scenery that takes part in none.

@@ -223,6 +223,7 @@ impl Model<'_> {
                 new.goes_back = true;
                 new.moved = new.moved.with(Directions::DOWN).with(Directions::UP);
                 new.placed |= !traits.stationary;
+                new.boundless |= !traits.stationary && self.is_out_of_range(self.of_type(one).top);
             }
             Displacement::OppositeEdge { offset } => put(new, offset != 0.0),
             Displacement::OntoPartner | Displacement::InLine => put(new, partner.off_grid),

@@ -241,3 +241,27 @@ fn a_type_declared_twice_belongs_to_both_groups() {
     let game = Game::from_source_as_reference(source).unwrap();
     assert_eq!(Guide::of(&game).groups, ["Any flue means the slow or quick."]);
 }
+
+/// An effect by the clock gives a resource, too.
+#[test]
+fn resources_may_come_by_the_clock() {
+    let of = |rule: &str| {
+        let sprites = "key > Resource limit=9; jar > Immovable; hero > MovingAvatar";
+        let rules = format!("jar hero > killIfOtherHasMore resource=key limit=1; {rule}");
+        warns(&game(sprites, "j > jar; A > hero", &rules, CLOCK), "never-fires")
+    };
+    assert!(of("hero wall > stepBack"));
+    assert!(!of("hero TIME > spawnIfHasMore resource=key stype=jar limit=0 spend=-1 timer=3"));
+}
+
+/// Steps of infinite length come back by the overflow of a coordinate.
+#[test]
+fn steps_without_limit_lead_anywhere() {
+    let sprites = "vase > Immovable; hero > MovingAvatar";
+    let rules = "hero wall > setSpeedForAll stype=vase value=1e999; vase wall > turnAround";
+    let game = game(sprites, "v > vase wall; A > hero; w > wall", rules, CLOCK);
+    let level = game.level("A    \nw    \n    v\n").unwrap();
+    let reach = Analysis::of(&game).reach(&level);
+    let vase = game.sprite_type("vase").unwrap();
+    assert!(reach.can_be(vase, 4 + 5), "above the place in which it starts");
+}
