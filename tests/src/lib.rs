@@ -57,7 +57,7 @@ fn files_below(root: &Path) -> Vec<PathBuf> {
 
 /// Returns every `.rs` file of the workspace's crates with its text, relative to [`workspace_root`], sorted by path.
 ///
-/// A crate is a folder at the root that holds a `Cargo.toml`; build output is left out.
+/// A crate is a folder below the root that holds a `Cargo.toml`; build output is left out.
 ///
 /// # Panics
 ///
@@ -65,7 +65,8 @@ fn files_below(root: &Path) -> Vec<PathBuf> {
 pub fn rust_files() -> Vec<(PathBuf, String)> {
     let root = workspace_root();
     let in_crate = |file: &Path| {
-        file.components().next().is_some_and(|folder| root.join(folder).join("Cargo.toml").is_file())
+        file.ancestors()
+            .any(|folder| folder != Path::new("") && root.join(folder).join("Cargo.toml").is_file())
     };
     workspace_files()
         .into_iter()

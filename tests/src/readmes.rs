@@ -9,10 +9,10 @@ struct Library;
 #[doc = include_str!("../../engine/README.md")]
 struct Engine;
 
-#[doc = include_str!("../../editor/README.md")]
+#[doc = include_str!("../../crates/editor/README.md")]
 struct Editor;
 
-#[doc = include_str!("../../agents/README.md")]
+#[doc = include_str!("../../crates/agents/README.md")]
 struct Agents;
 
 #[doc = include_str!("../../generators/README.md")]
@@ -21,23 +21,23 @@ struct Generators;
 #[doc = include_str!("../../validators/README.md")]
 struct Validators;
 
-#[doc = include_str!("../../statistics/README.md")]
+#[doc = include_str!("../../crates/statistics/README.md")]
 struct Statistics;
 
-#[doc = include_str!("../../render/README.md")]
+#[doc = include_str!("../../crates/render/README.md")]
 struct Render;
 
-#[doc = include_str!("../../report/README.md")]
+#[doc = include_str!("../../crates/report/README.md")]
 struct Report;
 
-#[doc = include_str!("../../forge/README.md")]
+#[doc = include_str!("../../crates/forge/README.md")]
 struct Forge;
 
-#[doc = include_str!("../../snapshots/README.md")]
+#[doc = include_str!("../../crates/snapshots/README.md")]
 struct Snapshots;
 
-#[doc = include_str!("../../trust/README.md")]
+#[doc = include_str!("../../crates/trust/README.md")]
 struct Trust;
 
-#[doc = include_str!("../../evaluation/README.md")]
+#[doc = include_str!("../../crates/evaluation/README.md")]
 struct Evaluation;

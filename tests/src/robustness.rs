@@ -1,4 +1,4 @@
-//! Properties that must hold for any input. Each check takes bytes from any source: the fuzz targets in `fuzz/` and
+//! Properties that must hold for any input. Each check takes bytes from any source: the fuzz targets in `tools/fuzz/` and
 //! the short runs in `tests/tests/it/robustness.rs` are one call each.
 //!
 //! - [`text`]: any text parses, compiles or gets diagnostics, and prints canonically.

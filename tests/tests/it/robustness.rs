@@ -24,7 +24,7 @@ fn files_below(folder: &str) -> Vec<Vec<u8>> {
 fn any_text_parses_compiles_and_prints() {
     let mut sampler = sampler("text");
     let games = files_below("corpora").into_iter().chain(files_below("tests/suite/hostile"));
-    let seeds = games.chain(files_below("fuzz/seeds/text"));
+    let seeds = games.chain(files_below("tools/fuzz/seeds/text"));
     for bytes in seeds.filter(|bytes| bytes.len() < 1 << 14) {
         robustness::text(&bytes);
         for _ in 0..6 {
@@ -54,7 +54,7 @@ fn any_bytes_are_a_level_or_are_refused() {
             seen = seen.and(robustness::level(if which < 8 { &bytes } else { &damaged }));
         }
     }
-    for bytes in files_below("fuzz/seeds/level") {
+    for bytes in files_below("tools/fuzz/seeds/level") {
         seen = seen.and(robustness::level(&bytes));
     }
     assert!(seen.ticks > 1000, "{seen:?}");
@@ -65,7 +65,7 @@ fn any_bytes_are_a_level_or_are_refused() {
 fn any_actions_leave_a_sound_state() {
     let mut sampler = sampler("play");
     let mut seen = Seen::default();
-    for bytes in files_below("fuzz/seeds/play") {
+    for bytes in files_below("tools/fuzz/seeds/play") {
         seen = seen.and(robustness::play(&bytes));
         seen = seen.and(robustness::play(&mutated(&bytes, &mut sampler)));
     }
@@ -118,10 +118,10 @@ fn the_dictionary_has_every_word() {
         lines.concat()
     );
     if std::env::var_os("BLESS").is_some() {
-        std::fs::write(workspace_root().join("fuzz/vgdl.dict"), &expected)
+        std::fs::write(workspace_root().join("tools/fuzz/vgdl.dict"), &expected)
             .expect("the dictionary can be written");
     }
-    assert_eq!(read("fuzz/vgdl.dict"), expected, "BLESS=1 writes the dictionary anew");
+    assert_eq!(read("tools/fuzz/vgdl.dict"), expected, "BLESS=1 writes the dictionary anew");
 }
 
 proptest! {

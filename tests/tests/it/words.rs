@@ -99,7 +99,7 @@ fn no_coinage_is_left() {
 
 /// Returns whether a file holds minted or recorded bytes, which keep their words.
 fn is_data(name: &str) -> bool {
-    name.starts_with("tests/suite/snapshots") || name.starts_with("evaluation/tests/golden")
+    name.starts_with("tests/suite/snapshots") || name.starts_with("crates/evaluation/tests/golden")
 }
 
 /// The text of a doc comment's line.

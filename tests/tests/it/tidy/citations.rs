@@ -91,13 +91,20 @@ fn citations_are_read_from_comments_only() {
 
 #[test]
 fn paths_that_lead_nowhere_are_found() {
-    let paths =
-        ["engine", "engine/Cargo.toml", "engine/src", "engine/src/step.rs", "cli/Cargo.toml", "cli/cli/a.rs"];
+    let paths = [
+        "engine",
+        "engine/Cargo.toml",
+        "engine/src",
+        "engine/src/step.rs",
+        "crates/cli/Cargo.toml",
+        "cli/cli/a.rs",
+    ];
     let tree =
         Tree { pages: BTreeMap::new(), paths: paths.map(str::to_owned).into(), decisions: BTreeSet::new() };
     let source = "/// `engine/src/step.rs`, `engine/src/`, `cli/a.rs`, `a/b`, `engine::step/x`;\n/// not `engine/src/leap.rs`.\n";
     let found = blocks(source, CitationKind::Slashes);
-    let found = found.iter().flat_map(|block| block.missing_files(&tree, Path::new("cli/src/main.rs")));
+    let found =
+        found.iter().flat_map(|block| block.missing_files(&tree, Path::new("crates/cli/src/main.rs")));
     let found: Vec<(usize, String)> = found.collect();
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].0 == 2 && found[0].1.contains("`engine/src/leap.rs`"), "{found:?}");
@@ -209,7 +216,7 @@ impl CitationKind {
     /// The kind of a file that people write, by its name; scripts have no ending.
     fn of(file: &Path) -> Option<CitationKind> {
         let Some(extension) = file.extension() else {
-            let script = file.starts_with("scripts") || file.starts_with(".ci");
+            let script = file.starts_with("tools/scripts") || file.starts_with(".ci");
             return script.then_some(CitationKind::Hash);
         };
         match extension.to_str()? {
@@ -318,7 +325,7 @@ impl Block {
         for (number, piece) in self.text.split('`').enumerate() {
             let is_path = number % 2 == 1 && piece.contains('/') && piece.chars().all(path_character);
             let top = piece.split('/').next().unwrap_or_default();
-            if is_path && tree.crates().any(|name| name == top) && !tree.finds(piece, cited_in) {
+            if is_path && tree.has(top) && !tree.finds(piece, cited_in) {
                 problems.push((self.line(at), format!("there is no file `{piece}`; name one that exists")));
             }
             at += piece.len() + 1;

@@ -6,16 +6,16 @@ use super::report;
 
 /// The files that read a clock, each with what the time is for.
 const READERS: &[(&str, &str)] = &[
-    ("agents/benches/batch.rs", "a benchmark"),
-    ("cli/src/console.rs", "seconds in remarks"),
-    ("cli/src/verbs/clean/leftover.rs", "the age of leftover files"),
-    ("cli/src/verbs/release/probe.rs", "the estimate of a dry run"),
-    ("evaluation/src/client/clock.rs", "waits between requests, and their latency"),
-    ("evaluation/src/run/clock.rs", "times in logs, and the time limits of programs that play"),
-    ("xtask/src/bench.rs", "benchmarks"),
-    ("xtask/src/episode_run.rs", "benchmarks"),
-    ("xtask/src/survey/levels.rs", "the time that a generator takes"),
-    ("xtask/src/sweep.rs", "fresh seeds of tests"),
+    ("crates/agents/benches/batch.rs", "a benchmark"),
+    ("crates/cli/src/console.rs", "seconds in remarks"),
+    ("crates/cli/src/verbs/clean/leftover.rs", "the age of leftover files"),
+    ("crates/cli/src/verbs/release/probe.rs", "the estimate of a dry run"),
+    ("crates/evaluation/src/client/clock.rs", "waits between requests, and their latency"),
+    ("crates/evaluation/src/run/clock.rs", "times in logs, and the time limits of programs that play"),
+    ("tools/xtask/src/bench.rs", "benchmarks"),
+    ("tools/xtask/src/episode_run.rs", "benchmarks"),
+    ("tools/xtask/src/survey/levels.rs", "the time that a generator takes"),
+    ("tools/xtask/src/sweep.rs", "fresh seeds of tests"),
 ];
 
 /// The calls that read a clock; in two halves, so that this file is not found to read one.

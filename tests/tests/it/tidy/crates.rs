@@ -1,10 +1,10 @@
 //! The places of our crates among each other, and of other people's crates among ours.
 
-use super::{folder_of, manifests, report};
+use super::{manifests, name_of, report};
 use std::collections::{BTreeMap, BTreeSet};
 use tests::{read, rust_files};
 
-/// Our crates by folder, each with its allowed dependencies. Imports point one way only.
+/// Our crates by name, each with its allowed dependencies. Imports point one way only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("engine", &[]),
     ("editor", &["engine"]),
@@ -107,21 +107,21 @@ fn imports_point_one_way() {
     let manifests = manifests();
     let mut problems = Vec::new();
     for manifest in &manifests {
-        let folder = manifest.folder.as_str();
-        let allowed = ALLOWED.iter().find(|(name, _)| *name == folder).map(|(_, allowed)| *allowed);
-        if allowed.is_none() && folder != ABOVE_ALL {
+        let name = manifest.name();
+        let allowed = ALLOWED.iter().find(|(row, _)| *row == name).map(|(_, allowed)| *allowed);
+        if allowed.is_none() && name != ABOVE_ALL {
             problems.push(format!(
-                "{}:1: the place of `{folder}` among the crates is not decided; give it a row in \
+                "{}:1: the place of `{name}` among the crates is not decided; give it a row in \
                  ALLOWED in {}",
                 manifest.path(),
                 file!()
             ));
         }
         for dependency in manifest.dependencies.iter().filter(|dependency| !dependency.development) {
-            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
+            let Some(target) = name_of(&manifests, &dependency.package) else { continue };
             if allowed.is_some_and(|allowed| !allowed.contains(&target)) {
                 problems.push(format!(
-                    "{}:{}: `{folder}` must not depend on `{target}`; move what both need into a \
+                    "{}:{}: `{name}` must not depend on `{target}`; move what both need into a \
                      crate that both may use",
                     manifest.path(),
                     dependency.line
@@ -137,20 +137,20 @@ fn dev_dependencies_close_no_cycle() {
     let manifests = manifests();
     let mut edges: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for manifest in &manifests {
-        let targets = manifest.dependencies.iter().filter_map(|d| folder_of(&manifests, &d.package));
-        edges.insert(&manifest.folder, targets.collect());
+        let targets = manifest.dependencies.iter().filter_map(|d| name_of(&manifests, &d.package));
+        edges.insert(manifest.name(), targets.collect());
     }
     let mut problems = Vec::new();
     for manifest in &manifests {
         for dependency in manifest.dependencies.iter().filter(|dependency| dependency.development) {
-            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
-            if reaches(&edges, target, &manifest.folder) {
+            let Some(target) = name_of(&manifests, &dependency.package) else { continue };
+            if reaches(&edges, target, manifest.name()) {
                 problems.push(format!(
                     "{}:{}: `{target}` depends on `{}` in turn; move the test that needs it into \
                      `{ABOVE_ALL}`",
                     manifest.path(),
                     dependency.line,
-                    manifest.folder
+                    manifest.name()
                 ));
             }
         }
@@ -168,7 +168,7 @@ fn confined_crates_stay_where_they_belong() {
                 rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '-']))
             });
             let Some((name, homes)) = family else { continue };
-            if !homes.contains(&manifest.folder.as_str()) {
+            if !homes.contains(&manifest.name()) {
                 problems.push(format!(
                     "{}:{}: `{name}` belongs in {} only; hand over plain data and use `{}` there",
                     manifest.path(),
@@ -203,11 +203,11 @@ fn doctests_are_looked_for_where_there_are_some() {
     for (file, text) in rust_files() {
         let is_fence =
             |line: &str| ["//! ```", "/// ```"].iter().any(|fence| line.trim_start().starts_with(fence));
-        let mut parts = file.components().map(|part| part.as_os_str().to_string_lossy().into_owned());
-        if let (Some(folder), true) = (parts.next(), parts.next().is_some_and(|part| part == "src"))
+        let path = file.to_string_lossy();
+        if let Some((folder, _)) = path.split_once("/src/")
             && let Some(number) = text.lines().position(is_fence)
         {
-            fenced.entry(folder).or_insert_with(|| format!("{}:{}", file.display(), number + 1));
+            fenced.entry(folder.to_owned()).or_insert_with(|| format!("{}:{}", file.display(), number + 1));
         }
     }
     let mut problems = Vec::new();

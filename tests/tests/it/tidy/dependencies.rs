@@ -6,12 +6,12 @@ use std::path::Path;
 use tests::read;
 use toml::de::{DeTable, DeValue};
 
-use super::{folder_of, get, manifest, manifests, report};
+use super::{get, manifest, manifests, name_of, report};
 
 const TABLE: &str = "docs/decisions/0002-dependencies.md";
 
 /// The folder with a workspace of its own.
-const APART: &str = "fuzz";
+const APART: &str = "tools/fuzz";
 
 #[test]
 fn every_dependency_has_its_reason() {
@@ -86,7 +86,7 @@ fn declared() -> BTreeMap<String, String> {
     let apart = is_there.then(|| manifest(APART, None));
     for member in members.iter().chain(&apart) {
         for dependency in &member.dependencies {
-            if folder_of(&members, &dependency.package).is_none() {
+            if name_of(&members, &dependency.package).is_none() {
                 let place = format!("{}:{}", member.path(), dependency.line);
                 declared.entry(dependency.package.clone()).or_insert(place);
             }

@@ -68,8 +68,7 @@ fn lib_files_hold_docs_and_declarations_only() {
 fn crates_open_with_their_docs() {
     let mut problems = Vec::new();
     for (file, text) in rust_files() {
-        let crate_root = file.components().count() == 3
-            && (file.ends_with("src/lib.rs") || file.ends_with("src/main.rs"))
+        let crate_root = (file.ends_with("src/lib.rs") || file.ends_with("src/main.rs"))
             && !text.trim_start().starts_with("//!");
         if crate_root {
             problems.push(format!(
@@ -278,6 +277,11 @@ impl Manifest {
     fn path(&self) -> String {
         format!("{}/Cargo.toml", self.folder)
     }
+
+    /// The last part of the folder, which is the name of the crate.
+    fn name(&self) -> &str {
+        self.folder.rsplit('/').next().expect("a folder has a name")
+    }
 }
 
 /// One line of a dependency section.
@@ -349,9 +353,9 @@ fn get<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<&'a DeValue<'i>> {
     table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.get_ref())
 }
 
-/// Returns the folder of the member whose package is called `package`; `None` for external crates.
-fn folder_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
-    manifests.iter().find(|manifest| manifest.package == package).map(|manifest| manifest.folder.as_str())
+/// Returns the name of the member whose package is called `package`; `None` for external crates.
+fn name_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
+    manifests.iter().find(|manifest| manifest.package == package).map(Manifest::name)
 }
 
 /// Returns `true` if a line of a formatted `lib.rs` is part of docs, of an attribute or of an allowed declaration.

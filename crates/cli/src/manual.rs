@@ -1,0 +1,454 @@
+//! The pages of `docs/`, embedded in the binary, formatted for a terminal.
+
+use crate::failure::Failure;
+use include_dir::{Dir, include_dir};
+use itertools::Itertools;
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use std::ops::Range;
+
+static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs");
+
+pub(crate) struct Page {
+    /// The name that `arcade docs` takes: that of the file, or that of the folder for its README.
+    pub(crate) name: String,
+    /// The path below `docs/`, without the extension.
+    path: String,
+    /// Markdown.
+    pub(crate) text: &'static str,
+}
+
+/// The sections of the manual, in the order of the list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Section {
+    /// The pages for beginners.
+    Start,
+    /// Tasks of users, and the pages that they read for them.
+    Guides,
+    /// The words of VGDL and the codes of diagnostics.
+    Reference,
+    /// The inner workings of the suite, measurements and decisions.
+    Internals,
+}
+
+/// The pages for beginners, in their order.
+const START: [&str; 2] = ["first-game", "first-month"];
+
+/// The pages of the top level that are about the inside of the suite.
+const INTERNALS: [&str; 11] = [
+    "blind-review",
+    "compatibility",
+    "constructive-levels",
+    "examinees",
+    "gallery",
+    "kernels",
+    "library",
+    "novelty",
+    "real-model",
+    "searched-levels",
+    "side-by-side",
+];
+
+/// Returns all pages, sorted by path; the page of a folder comes before those in it.
+pub(crate) fn pages() -> Vec<Page> {
+    let mut pages = Vec::new();
+    let mut folders: Vec<&'static Dir<'_>> = vec![&DOCS];
+    while let Some(folder) = folders.pop() {
+        folders.extend(folder.dirs());
+        pages.extend(folder.files().filter_map(Page::of));
+    }
+    pages.sort_by(|a, b| a.path.cmp(&b.path));
+    pages
+}
+
+/// Returns the page with this name or path.
+pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
+    let mut pages = pages();
+    match find(&pages, wanted) {
+        Some(found) => Ok(pages.swap_remove(found)),
+        None => Err(absent(&pages, wanted)),
+    }
+}
+
+/// The failure of a word that is not a page, nor in one.
+pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
+    let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
+    let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+    malformed!("there is no page `{wanted}`; {near}`arcade docs` lists all pages")
+}
+
+/// A page that has the words that are looked for.
+pub(crate) struct Hit<'a> {
+    pub(crate) page: &'a Page,
+    /// The line that has them first, a title or heading if there is one.
+    pub(crate) line: String,
+}
+
+/// The points of a page for each line with a wanted word: its title; a heading, or a line of the first paragraph; any other line.
+/// So many of the others count.
+const POINTS: [usize; 3] = [30, 8, 1];
+const COUNTED: usize = 10;
+
+/// Returns the pages that have all of some words, the best first.
+pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
+    let wanted: Vec<String> = words(wanted).collect();
+    let mut hits: Vec<(usize, Hit<'a>)> = Vec::new();
+    for page in pages {
+        let mut points = 0;
+        let mut best: Option<(usize, usize, &str)> = None;
+        let mut others = 0;
+        let mut is_first_paragraph = true;
+        let mut is_fenced = false;
+        let mut is_missing = vec![true; wanted.len()];
+        for (number, line) in page.text.lines().enumerate() {
+            is_first_paragraph &= number < 2 || !line.trim().is_empty();
+            is_fenced ^= line.starts_with("```");
+            let has: Vec<bool> =
+                wanted.iter().map(|word| words(line).any(|own| is_form(&own, word))).collect();
+            let count = has.iter().filter(|&&has| has).count();
+            if count == 0 || line.starts_with("```") {
+                continue;
+            }
+            is_missing.iter_mut().zip(&has).for_each(|(missing, has)| *missing &= !has);
+            let kind = match number {
+                0 => 0,
+                _ if !is_fenced && (is_first_paragraph || line.starts_with('#')) => 1,
+                _ => 2,
+            };
+            others += usize::from(kind == 2);
+            if kind < 2 || others <= COUNTED {
+                points += POINTS[kind] * count;
+            }
+            let rank = (count, POINTS[kind], line);
+            if best.is_none_or(|(c, p, _)| (c, p) < (count, POINTS[kind])) {
+                best = Some(rank);
+            }
+        }
+        let Some((_, _, line)) = best.filter(|_| !wanted.is_empty() && !is_missing.contains(&true)) else {
+            continue;
+        };
+        let weight = match page.section() {
+            Section::Start => 4,
+            Section::Guides | Section::Reference if page.folder() != "diagnostics" => 2,
+            _ => 1,
+        };
+        hits.push((points * weight, Hit { page, line: shown(line) }));
+    }
+    // Stable: pages with equal points stay in the order of the manual.
+    hits.sort_by_key(|(points, _)| std::cmp::Reverse(*points));
+    hits.into_iter().map(|(_, hit)| hit).collect()
+}
+
+/// The words of a text, in small letters; `killSprite` is two words.
+fn words(text: &str) -> impl Iterator<Item = String> + '_ {
+    let is_inner = |c: char| c.is_alphanumeric();
+    text.split(move |c| !is_inner(c))
+        .flat_map(|name| {
+            let starts = name
+                .char_indices()
+                .filter(|&(at, c)| at > 0 && c.is_uppercase() && name[..at].ends_with(char::is_lowercase));
+            let cuts = [0].into_iter().chain(starts.map(|(at, _)| at)).chain([name.len()]);
+            cuts.tuple_windows().map(|(from, to)| name[from..to].to_lowercase()).collect_vec()
+        })
+        .filter(|word| !word.is_empty())
+}
+
+/// The endings of forms of a word.
+const ENDINGS: [&str; 7] = ["", "s", "es", "ed", "ing", "er", "ers"];
+
+/// Tests whether a word is a form of a wanted one: `pushes` and `pushing` of `push`, `boat` of `boats`.
+fn is_form(own: &str, wanted: &str) -> bool {
+    let stem = wanted.strip_suffix('s').unwrap_or(wanted);
+    own == wanted || own.strip_prefix(stem).is_some_and(|end| ENDINGS.contains(&end))
+}
+
+/// The characters of a line that the results of a search show.
+const LINE: usize = 80;
+
+/// Returns a line of Markdown as the results of a search show it: without marks of headings, lists and tables.
+fn shown(line: &str) -> String {
+    let mut words = line.to_owned();
+    for (link, inner, _) in links(line).into_iter().rev() {
+        words.replace_range(link, &line[inner]);
+    }
+    let words = words.replace("**", "");
+    let plain = words.trim_matches(['#', '|', '-', '*', '>', ' ']);
+    match plain.char_indices().nth(LINE) {
+        Some((end, _)) => format!("{}…", plain[..end].trim_end()),
+        None => plain.to_owned(),
+    }
+}
+
+fn find(pages: &[Page], wanted: &str) -> Option<usize> {
+    let wanted = wanted.split('#').next().unwrap_or_default();
+    let wanted = wanted.strip_prefix("docs/").unwrap_or(wanted).trim_end_matches('/');
+    let wanted = wanted.strip_suffix(".md").unwrap_or(wanted);
+    let wanted = wanted.strip_suffix("/README").unwrap_or(wanted);
+    let is_it = |page: &Page| page.name == wanted || page.path == wanted;
+    let nearly =
+        |page: &Page| page.name.eq_ignore_ascii_case(wanted) || page.path.eq_ignore_ascii_case(wanted);
+    pages.iter().position(is_it).or_else(|| pages.iter().position(nearly))
+}
+
+impl Page {
+    fn of(file: &'static include_dir::File<'static>) -> Option<Page> {
+        let path = file.path().to_str()?.replace('\\', "/");
+        let path = path.strip_suffix(".md")?;
+        let path = path.strip_suffix("/README").unwrap_or(path).to_owned();
+        let name = path.rsplit('/').next()?.to_owned();
+        Some(Page { name, path, text: file.contents_utf8()? })
+    }
+
+    /// Returns the folder of the page below `docs/`; empty for a top-level page. A folder's own page lies in the
+    /// folder.
+    pub(crate) fn folder(&self) -> &str {
+        // A folder of pictures beside a page is not its own.
+        match DOCS.get_file(format!("{}/README.md", self.path)) {
+            Some(_) => &self.path,
+            None => self.path.rsplit_once('/').map_or("", |(folder, _)| folder),
+        }
+    }
+
+    pub(crate) fn section(&self) -> Section {
+        match self.folder() {
+            "" if START.contains(&self.name.as_str()) => Section::Start,
+            "" if INTERNALS.contains(&self.name.as_str()) => Section::Internals,
+            "" => Section::Guides,
+            folder if folder == "diagnostics" || folder.starts_with("ontology") => Section::Reference,
+            _ => Section::Internals,
+        }
+    }
+
+    pub(crate) fn title(&self) -> &str {
+        self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
+    }
+
+    /// Returns the page with its links as text: the names of other pages in brackets, addresses and source files in
+    /// parentheses.
+    pub(crate) fn plain(&self, pages: &[Page]) -> String {
+        let mut plain = String::with_capacity(self.text.len());
+        let mut done = 0;
+        for (range, inner, target) in links(self.text) {
+            plain.push_str(&self.text[done..range.start]);
+            plain.push_str(&self.link(pages, &self.text[inner], &target));
+            done = range.end;
+        }
+        plain.push_str(&self.text[done..]);
+        plain
+    }
+
+    fn link(&self, pages: &[Page], text: &str, target: &str) -> String {
+        let (file, _) = target.split_once('#').unwrap_or((target, ""));
+        if file.is_empty() || text == target {
+            return text.to_owned();
+        }
+        if target.contains("://") {
+            return format!("{text} ({target})");
+        }
+        let path = resolved(self.folder(), file);
+        let page = path.strip_prefix("docs/").and_then(|path| find(pages, path)).map(|found| &pages[found]);
+        match page {
+            Some(page) if page.name == self.name => text.to_owned(),
+            Some(page) if page.name == text.trim_matches('`') => format!("[{}]", page.name),
+            Some(page) => format!("{text} [{}]", page.name),
+            None => format!("{text} ({path} in the source)"),
+        }
+    }
+}
+
+/// Returns the links and pictures of a page: their ranges, the ranges of their texts, and their targets.
+fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
+    let mut links = Vec::new();
+    let mut open: Option<(Range<usize>, Option<Range<usize>>, String)> = None;
+    for (event, range) in Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter() {
+        match (event, &mut open) {
+            (Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }), None) => {
+                open = Some((range, None, dest_url.into_string()));
+            }
+            (Event::End(TagEnd::Link | TagEnd::Image), Some((whole, inner, target))) if *whole == range => {
+                let inner = inner.take().unwrap_or(range.start..range.start);
+                links.push((range, inner, std::mem::take(target)));
+                open = None;
+            }
+            (_, Some((_, Some(inner), _))) => *inner = inner.start.min(range.start)..inner.end.max(range.end),
+            (_, Some((_, inner, _))) => *inner = Some(range),
+            (_, None) => {}
+        }
+    }
+    links
+}
+
+/// Returns the path of a link's target in the source, relative to the folder of its page.
+fn resolved(folder: &str, file: &str) -> String {
+    let mut parts = vec!["docs"];
+    for part in folder.split('/').chain(file.split('/')) {
+        match part {
+            "" | "." => {}
+            ".." => drop(parts.pop()),
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::{Path, PathBuf};
+
+    #[test]
+    fn every_page_has_a_name_and_a_title_of_its_own() {
+        let pages = pages();
+        assert!(pages.len() > 150, "{}", pages.len());
+        for (number, page) in pages.iter().enumerate() {
+            assert!(!page.title().is_empty(), "{}", page.path);
+            assert_eq!(pages.iter().position(|other| other.name == page.name), Some(number), "{}", page.name);
+        }
+        for name in
+            ["prompts", "docs/prompts.md", "no-avatar", "diagnostics/no-avatar", "ontology", "killall"]
+        {
+            assert!(page(name).is_ok(), "{name}");
+        }
+        // Each page of the lists is there.
+        for name in START.iter().chain(&INTERNALS) {
+            assert!(page(name).is_ok(), "{name}");
+        }
+        let error = page("promts").err().expect("there is no such page").to_string();
+        assert!(error.contains("did you mean `prompts`?"), "{error}");
+    }
+
+    #[test]
+    fn words_lead_to_the_pages_about_them() {
+        let pages = pages();
+        let first = |wanted: &str, count: usize| -> Vec<String> {
+            search(&pages, wanted).into_iter().take(count).map(|hit| hit.page.name.clone()).collect()
+        };
+        for (wanted, page) in [
+            ("push", "bounceForward"),
+            ("water", "waterPhysics"),
+            ("wrap", "wrapAround"),
+            ("avatar", "MovingAvatar"),
+            ("boat", "first-game"),
+            ("boats", "first-game"),
+            ("tutorial", "first-game"),
+            ("getting-started", "first-game"),
+            ("quickstart", "first-game"),
+            ("vgdl", "first-game"),
+            ("language", "first-game"),
+            ("seal", "first-month"),
+            ("commitment", "first-month"),
+        ] {
+            let found = first(wanted, 8);
+            assert!(found.contains(&page.to_owned()), "{wanted}: {found:?}");
+        }
+        // All words have to be in a page; marks and codes are not shown.
+        assert!(search(&pages, "boat qwertzuiop").is_empty() && search(&pages, "promts").is_empty());
+        assert!(search(&pages, "").is_empty() && search(&pages, "-").is_empty());
+        let hits = search(&pages, "snapshots");
+        assert_eq!(
+            (hits[0].page.name.as_str(), hits[0].line.as_str()),
+            ("snapshots", pages_title(&pages, "snapshots"))
+        );
+        for (own, wanted, expect) in [
+            ("pushes", "push", true),
+            ("boat", "boats", true),
+            ("keys", "key", true),
+            ("keyboard", "key", false),
+            ("logic", "log", false),
+            ("signals", "sign", false),
+        ] {
+            assert_eq!(is_form(own, wanted), expect, "{own} {wanted}");
+        }
+    }
+
+    fn pages_title<'a>(pages: &'a [Page], name: &str) -> &'a str {
+        pages.iter().find(|page| page.name == name).map_or("", Page::title)
+    }
+
+    #[track_caller]
+    fn check(markdown: &'static str, expect: &str) {
+        let pages = pages();
+        let page = Page { name: "here".to_owned(), path: "ontology/effects/here".to_owned(), text: markdown };
+        assert_eq!(page.plain(&pages), expect);
+    }
+
+    #[test]
+    fn links_name_pages() {
+        check(
+            "see [killAll](killAll.md) and\n[the others](README.md#all)",
+            "see [killAll] and\nthe others [effects]",
+        );
+        check("[codes](../../diagnostics/README.md)", "codes [diagnostics]");
+        check("[above](#top), [a `b` c](../../prompts.md#x)", "above, a `b` c [prompts]");
+        check("[paper](https://example.org/x)", "paper (https://example.org/x)");
+        check("[file](../../../seeds/tiny.toml)", "file (seeds/tiny.toml in the source)");
+        check(
+            "`[code](x.md)`\n\n```text\n[code](x.md)\n```\n",
+            "`[code](x.md)`\n\n```text\n[code](x.md)\n```\n",
+        );
+    }
+
+    #[test]
+    fn links_between_pages_resolve() {
+        let pages = pages();
+        for page in &pages {
+            let plain = page.plain(&pages);
+            let lost =
+                plain.lines().find(|line| line.contains("(docs/") && line.contains(".md in the source"));
+            assert_eq!(lost, None, "{}", page.path);
+        }
+    }
+
+    /// Sources of the workspace that may print messages for users, without tests.
+    fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).expect("readable") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                sources(&path, found);
+            } else if path
+                .extension()
+                .is_some_and(|ending| ["rs", "html", "j2", "md"].iter().any(|e| ending == *e))
+            {
+                found.push(path);
+            }
+        }
+    }
+
+    /// An installed binary has no folder `docs/`: messages for users name a page of `arcade docs`.
+    #[test]
+    fn messages_and_templates_name_pages_that_the_binary_has() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let mut files = Vec::new();
+        for folder in
+            ["cli", "evaluation", "snapshots", "engine", "agents", "validators", "generators", "render"]
+        {
+            sources(&root.join(folder).join("src"), &mut files);
+        }
+        let mut named = 0;
+        for file in files {
+            let text = std::fs::read_to_string(&file).expect("readable");
+            let place = file.strip_prefix(&root).expect("below").display();
+            let product = text.split("#[cfg(test)]").next().unwrap_or_default();
+            for (number, line) in product.lines().enumerate() {
+                // Comments are for readers of the source; those that become help have a test of their own.
+                if line.trim_start().starts_with("//") || file.ends_with("manual.rs") {
+                    continue;
+                }
+                let is_path =
+                    ["include_str!", "include_dir!", "reason = "].iter().any(|word| line.contains(word));
+                assert!(is_path || !line.contains("docs/"), "{place}:{}: {line}", number + 1);
+                for rest in line.split("arcade docs ").skip(1) {
+                    let name: String =
+                        rest.chars().take_while(|c| c.is_alphanumeric() || *c == '-').collect();
+                    // `arcade docs PAGE` and placeholders of templates stand for any.
+                    assert!(
+                        name == "PAGE" || rest.starts_with("{{") || page(&name).is_ok(),
+                        "{place}:{}: {line}",
+                        number + 1
+                    );
+                    named += 1;
+                }
+            }
+        }
+        assert!(named > 5, "{named}");
+    }
+}

@@ -1,0 +1,229 @@
+//! The first steps of new users: `arcade new`, `arcade recipes new`, the manual's two pages for beginners, and its search.
+
+use crate::arcade::{files, run, text};
+use serde_json::{Value, json};
+use snapshots::{Recipe, Secret, follow};
+use std::fs;
+use std::path::Path;
+
+#[track_caller]
+fn says(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
+    let output = run(folder, args, status);
+    let said = text(&output.stdout) + &text(&output.stderr);
+    for word in words {
+        assert!(said.contains(word), "no `{word}` in: {said}");
+    }
+}
+
+#[track_caller]
+fn answer(folder: &Path, args: &[&str]) -> Value {
+    serde_json::from_slice(&run(folder, &[&["--json"], args].concat(), 0).stdout).unwrap()
+}
+
+/// Returns the commands that an output proposes, each as its arguments.
+fn proposed(output: &str) -> Vec<Vec<String>> {
+    let commands = output.lines().filter_map(|line| line.split_once(" arcade ")).map(|(_, command)| command);
+    commands.map(|command| command.split_whitespace().map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn every_new_game_is_sound_and_can_be_won() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    for genre in ["collect", "crossing", "maze", "puzzle", "shooter"] {
+        let name = format!("my-{genre}");
+        let said = text(&run(folder, &["new", &name, "--like", genre], 0).stdout);
+        let next = proposed(&said);
+        assert_eq!(
+            next,
+            ["play", "validate", "studio"].map(|verb| [verb.to_owned(), name.clone()]),
+            "{said}"
+        );
+        let verdict = answer(folder, &["validate", &name]);
+        assert_eq!(verdict["problems"], json!([]), "{name}");
+        let levels = verdict["levels"].as_array().unwrap();
+        assert!(levels.len() == 2 && levels.iter().all(|level| level["problems"] == json!([])), "{name}");
+        run(folder, &["fmt", "--check", &format!("{name}/game.vgdl")], 0);
+        run(folder, &["render", &name, "0", "-o", "board.svg"], 0);
+        let game = fs::read_to_string(folder.join(&name).join("game.vgdl")).unwrap();
+        let rules =
+            game.lines().filter(|line| !line.trim().is_empty() && !line.trim().starts_with('#')).count();
+        assert!((18..=36).contains(&rules) && game.matches('#').count() >= 10, "{rules}: {game}");
+    }
+    assert_eq!(answer(folder, &["new", "usual"])["genre"], "collect");
+    assert_eq!(files(&folder.join("usual")), files(&folder.join("my-collect")));
+}
+
+#[test]
+fn new_games_overwrite_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::create_dir_all(folder.join("empty")).unwrap();
+    fs::create_dir_all(folder.join("full")).unwrap();
+    fs::write(folder.join("full/notes.md"), "mine").unwrap();
+    fs::write(folder.join("file"), "mine").unwrap();
+    run(folder, &["-q", "new", "empty"], 0);
+    run(folder, &["new", "full/inside"], 0);
+    says(folder, &["new", "empty"], 2, &["`empty` exists and is not empty", "arcade studio empty"]);
+    says(folder, &["new", "full"], 2, &["choose another name"]);
+    says(folder, &["new", "file"], 2, &["`file` is a file"]);
+    says(folder, &["new", "nowhere/game"], 2, &["the folder above `nowhere/game` does not exist"]);
+    says(folder, &["new", "river.vgdl"], 2, &["a game is a folder: arcade new river"]);
+    says(folder, &["new", "my game"], 0, &["arcade play 'my game'"]);
+    for bad in [".", "..", "/", "...", "a\nb"] {
+        says(folder, &["new", bad], 2, &["arcade new river-post"]);
+    }
+    says(folder, &["new", "x", "--like", "puzle"], 2, &["puzzle", "shooter", "crossing"]);
+    says(
+        folder,
+        &["new", "--help"],
+        0,
+        &["arcade new river-post --like crossing", "cross the river on boats"],
+    );
+    assert_eq!(fs::read_to_string(folder.join("file")).unwrap(), "mine");
+    assert_eq!(files(&folder.join("full")).len(), 4);
+    let failed = run(folder, &["--json", "new", "file"], 2);
+    let failure: Value = serde_json::from_slice(&failed.stdout).unwrap();
+    assert_eq!(failure["error"]["status"], 2);
+}
+
+#[test]
+fn new_recipes_are_accepted_as_they_are() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let said = text(&run(folder, &["recipes", "new", "2027-01"], 0).stdout);
+    let next = proposed(&said);
+    assert_eq!(next.len(), 3, "{said}");
+    let dry: Vec<&str> = next[0].iter().map(String::as_str).collect();
+    assert_eq!(dry, ["release", "2027-01.toml", "--dry-run"]);
+    says(folder, &dry, 0, &["8 new games of 4 levels"]);
+    let recipe = Recipe::from_toml(&fs::read_to_string(folder.join("2027-01.toml")).unwrap()).unwrap();
+    let asked = serde_json::to_value(&recipe).unwrap()["criteria"]["ask"].to_string();
+    assert!(asked.contains("skill") && asked.contains("necessity"), "{asked}");
+    // The line of `--commit`, where the comment says it belongs.
+    let said = text(&run(folder, &["release", "2027-01.toml", "--commit"], 0).stdout);
+    let line = said.lines().map(str::trim).find(|line| line.starts_with("commitment = ")).unwrap();
+    let text_of = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
+    let seed = text_of.lines().find(|line| line.starts_with("seed = ")).unwrap();
+    fs::write(folder.join("2027-01.toml"), text_of.replace(seed, line)).unwrap();
+    let secret = ["--secret", "2027-01.secret.json", "--dry-run"];
+    says(folder, &[&["release", "2027-01.toml"], &secret[..]].concat(), 0, &["8 new games"]);
+
+    says(folder, &["recipes", "new", "2027-01"], 2, &["`2027-01.toml` exists"]);
+    assert_eq!(answer(folder, &["recipes", "new", "b.toml"])["file"], "b.toml");
+    for bad in ["My Month", "a\"\nseed='x", "..", "é", &"a".repeat(41)] {
+        says(folder, &["recipes", "new", bad], 2, &["is not a name for a release"]);
+    }
+    says(folder, &["recipes", "new", "nowhere/month"], 2, &["its folder does not exist"]);
+}
+
+#[test]
+fn words_that_are_not_pages_are_looked_for() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    for (word, page) in [
+        ("push", "bounceForward"),
+        ("boat", "first-game"),
+        ("tutorial", "first-game"),
+        ("getting-started", "first-game"),
+        ("release", "first-month"),
+        ("sign", "trust"),
+        ("log", "trust"),
+        ("play", "first-game"),
+        ("generate", "generate-levels"),
+        ("contamination", "memory"),
+    ] {
+        let said = text(&run(folder, &["docs", word], 0).stdout);
+        assert!(said.lines().any(|line| line.starts_with(page)), "{word}: {said}");
+        assert!(said.lines().count() < 16, "{word}: {said}");
+    }
+    assert_eq!(answer(folder, &["docs", "release"])["found"][0]["page"], "first-month");
+    says(folder, &["docs", "gallery"], 0, &["arcade docs studio", "# Ten generated games"]);
+    says(folder, &["docs", "qwertzuiop"], 2, &["there is no page `qwertzuiop`"]);
+    let list = text(&run(folder, &["docs"], 0).stdout);
+    let first: Vec<&str> = list.lines().take(3).filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(first, ["Begin", "first-game", "first-month"], "{list}");
+}
+
+/// Returns the blocks of a page in this language.
+fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
+    let begin = format!("```{language}\n");
+    page.split(begin.as_str()).skip(1).filter_map(|rest| rest.split("```").next()).collect()
+}
+
+/// Returns the commands of a page, each as its arguments.
+fn commands(page: &str) -> Vec<Vec<&str>> {
+    let lines = blocks(page, "sh").into_iter().flat_map(str::lines);
+    lines.filter_map(|line| Some(line.strip_prefix("arcade ")?.split_whitespace().collect())).collect()
+}
+
+#[test]
+fn the_first_game_works_as_printed() {
+    let page = include_str!("../../../../docs/first-game.md");
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let mut validated = 0;
+    for command in commands(page) {
+        match command[..] {
+            // These wait for a person.
+            ["play", game, ..] | ["studio", game, ..] => {
+                run(folder, &["describe", game], 0);
+                continue;
+            }
+            ["validate", _, "0"] => {
+                // By here the page has asked for a game of one's own.
+                let [game] = blocks(page, "vgdl")[..] else { panic!("one game") };
+                let [level] = blocks(page, "level")[..] else { panic!("one level") };
+                fs::write(folder.join("shell-beach/game.vgdl"), game).unwrap();
+                fs::write(folder.join("shell-beach/lvl0.txt"), level).unwrap();
+            }
+            _ => {}
+        }
+        let output = run(folder, &command, 0);
+        validated += usize::from(command[0] == "validate" && text(&output.stdout).contains("passes: won in"));
+    }
+    assert_eq!(validated, 2);
+    says(folder, &["validate", "shell-beach"], 1, &["won in its first tick"]);
+}
+
+/// A month that is minted in seconds. Takes the line that replaces the seed.
+fn small(name: &str, seed: &str) -> String {
+    format!(
+        "name = '{name}'\ndescription = 'x'\n{seed}\n[generated]\ngames = 1\nlevels = 1\ncandidates = 3.0\n[corpus]\n\
+         games = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 100\nbudget = 80000\ndepths = [10, 25]\n\
+         random_plays = 10\n"
+    )
+}
+
+/// Runs every command of the page. The recipes are replaced by small ones before they are committed to, and the secrets by ones
+/// that are the same in every run: whether such a small recipe finds enough levels depends on the seed.
+#[test]
+fn the_first_month_works_as_printed() {
+    let page = include_str!("../../../../docs/first-month.md");
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let mut run_commands = 0;
+    for command in commands(page) {
+        if let ["release", file, "--commit", parent @ ..] = &command[..] {
+            let name = file.strip_suffix(".toml").unwrap();
+            let recipe = small(name, "seed = 'x'");
+            fs::write(folder.join(file), &recipe).unwrap();
+            let said = text(&run(folder, &command, 0).stdout);
+            assert!(said.contains("    commitment = \""), "{said}");
+            let mut open = Recipe::to_commit(&recipe).unwrap();
+            if let [_, parent] = parent {
+                follow(&mut open, &folder.join(parent)).unwrap();
+            }
+            let secret = Secret::draw(name, open.committed(), [u8::try_from(run_commands).unwrap() + 40; 64]);
+            let line = format!("commitment = \"{}\"", secret.commitment());
+            fs::write(folder.join(file), small(name, &line)).unwrap();
+            let json = serde_json::to_vec(&secret).unwrap();
+            fs::write(folder.join(format!("{name}.secret.json")), json).unwrap();
+        } else {
+            run(folder, &command, 0);
+        }
+        run_commands += 1;
+    }
+    assert!(run_commands >= 20, "{run_commands}");
+    says(folder, &["log", "check", "log", "--key", "log.pub", "--month", "2027-02"], 0, &["2027-02"]);
+}

@@ -1,0 +1,187 @@
+//! Snapshots as datasets: the exports of `tiny`.
+
+use crate::arcade::{TINY, files, run, text};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// Returns the files of an export.
+fn export(out: &str, flags: &[&str]) -> BTreeMap<String, Vec<u8>> {
+    let folder = TINY.path();
+    run(folder, &[&["export", "tiny", "--out", out], flags].concat(), 0);
+    files(&folder.join(out))
+}
+
+fn rows(files: &BTreeMap<String, Vec<u8>>) -> Vec<Value> {
+    let lines = text(&files["data/test.jsonl"]);
+    lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn rows_match_the_release() {
+    let release = TINY.path().join("tiny");
+    let exported = export("rows", &["--format", "jsonl"]);
+    assert_eq!(exported.keys().collect::<Vec<_>>(), ["README.md", "data/test.jsonl"]);
+    let rows = rows(&exported);
+    assert_eq!(rows.len(), 6);
+    for row in &rows {
+        let game = release.join("games").join(row["game_id"].as_str().unwrap());
+        let read = |file: &str| fs::read_to_string(game.join(file)).unwrap();
+        let card: Value = serde_json::from_str(&read("card.json")).unwrap();
+        let number = row["level"].as_u64().unwrap();
+        let level = &card["levels"][number as usize];
+        assert_eq!(row["vgdl"], read("game.vgdl"));
+        assert_eq!(row["level_text"], read(&format!("lvl{number}.txt")));
+        for column in ["title", "goal", "rules", "kind", "canary"] {
+            assert_eq!(row[column], card[column], "{column}");
+        }
+        assert_eq!((&row["game_digest"], &row["level_digest"]), (&card["digest"], &level["digest"]));
+        assert_eq!(row["witness_ticks"], level["witness_ticks"]);
+        // The legend has every character of the board except blanks.
+        let legend = row["legend"].as_array().unwrap();
+        let known = |symbol: char| legend.iter().any(|line| line["symbol"] == symbol.to_string());
+        let board = row["level_text"].as_str().unwrap();
+        assert!(board.chars().filter(|symbol| !symbol.is_whitespace()).all(known), "{board}");
+    }
+    let card = text(&exported["README.md"]);
+    assert!(card.starts_with("---\n") && card.contains(rows[0]["canary"].as_str().unwrap()), "{card}");
+    assert!(card.contains(rows[0]["release_root"].as_str().unwrap()), "{card}");
+}
+
+/// The page documents all columns, in their order, with their types.
+#[test]
+fn the_page_describes_every_column() {
+    let page = include_str!("../../../../docs/export.md");
+    let (_, page) = page.split_once("## Columns").unwrap();
+    let told: Vec<(&str, &str)> = page
+        .lines()
+        .filter_map(|line| {
+            let mut cells = line.strip_prefix("| `")?.split(" | ");
+            Some((cells.next()?.strip_suffix('`')?, cells.next()?))
+        })
+        .collect();
+    let columns = snapshots::export::columns(true);
+    let kinds: Vec<(&str, String)> = columns.iter().map(|column| (column.name, column.kind.name())).collect();
+    let kinds: Vec<(&str, &str)> = kinds.iter().map(|(name, kind)| (*name, kind.as_str())).collect();
+    assert_eq!(told, kinds);
+    let rows = rows(&export("columns", &["--format", "jsonl", "--solutions"]));
+    // Objects of serde_json are sorted by key.
+    let mut names: Vec<&str> = told.iter().map(|(name, _)| *name).collect();
+    names.sort_unstable();
+    assert_eq!(rows[0].as_object().unwrap().keys().collect::<Vec<_>>(), names);
+}
+
+#[test]
+fn solutions_are_exported_on_request_only() {
+    let rows = rows(&export("solved", &["--format", "jsonl", "--solutions"]));
+    for row in &rows {
+        let actions = row["solution"].as_array().unwrap();
+        assert_eq!(actions.len() as u64, row["witness_ticks"].as_u64().unwrap());
+        assert!(row["solution_seed"].is_string());
+    }
+    // A plain export holds nothing of any witness file: neither seed nor hashes, nor the actions under any name.
+    for (out, format) in [
+        ("plain", "jsonl"),
+        #[cfg(feature = "parquet")]
+        ("plain-p", "parquet"),
+    ] {
+        let plain: String = export(out, &["--format", format]).values().map(|bytes| text(bytes)).collect();
+        for row in &rows {
+            assert!(!plain.contains(row["solution_seed"].as_str().unwrap()));
+        }
+        assert!(!plain.contains("\"solution") && !plain.contains("hashes"));
+    }
+}
+
+#[test]
+fn the_same_snapshot_gives_the_same_bytes() {
+    for format in [
+        "jsonl",
+        #[cfg(feature = "parquet")]
+        "parquet",
+    ] {
+        let one = export(&format!("{format}-one"), &["--format", format, "--jobs", "1"]);
+        assert_eq!(one, export(&format!("{format}-two"), &["--format", format, "--jobs", "3"]));
+    }
+}
+
+#[test]
+fn twins_are_rows_and_games() {
+    let own = rows(&export("own", &["--format", "jsonl"]));
+    let masked = rows(&export("masked", &["--format", "jsonl", "--twin", "masked", "--solutions"]));
+    assert_eq!(own.len(), masked.len());
+    for (own, twin) in own.iter().zip(&masked) {
+        for same in
+            ["game_id", "level", "rules_digest", "difficulty", "goal_kind", "columns", "rows", "canary"]
+        {
+            assert_eq!(own[same], twin[same], "{same}");
+        }
+        for other in ["item_id", "title", "vgdl", "level_text", "game_digest"] {
+            assert_ne!(own[other], twin[other], "{other}");
+        }
+        assert_eq!(twin["twin"], "masked");
+        assert!(!twin["solution"].as_array().unwrap().is_empty());
+    }
+    let games = export("games", &["--format", "games", "--twin", "masked"]);
+    for row in &masked {
+        let (id, number) = (row["game_id"].as_str().unwrap(), &row["level"]);
+        assert_eq!(row["vgdl"], text(&games[&format!("{id}/game.vgdl")]));
+        assert_eq!(row["level_text"], text(&games[&format!("{id}/lvl{number}.txt")]));
+    }
+    let output = run(TINY.path(), &["--json", "run", "games", "--planner", "random", "--runs", "1"], 0);
+    assert!(text(&output.stdout).contains(masked[0]["game_id"].as_str().unwrap()));
+}
+
+#[test]
+fn archives_hold_the_whole_release() {
+    let folder = TINY.path();
+    let output = run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0);
+    let said = text(&output.stdout);
+    assert!(
+        said.ends_with("papers/ (4 files) is not in the archive: publish that folder beside it\n"),
+        "{said}"
+    );
+    let root = |place: &str| {
+        let output = run(folder, &["--json", "verify", place], 0);
+        serde_json::from_slice::<Value>(&output.stdout).unwrap()["root"].clone()
+    };
+    assert_eq!(root("tiny.tar.zst"), root("tiny"));
+    run(folder, &["export", "tiny.tar.zst", "--format", "jsonl", "--out", "from-archive"], 0);
+    assert_eq!(files(&folder.join("from-archive")), export("from-folder", &["--format", "jsonl"]));
+    let said = |arguments: &[&str]| text(&run(folder, arguments, 2).stderr);
+    let again = said(&["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"]);
+    assert!(again.contains("tiny.tar.zst"), "{again}");
+    let twin = said(&["export", "tiny", "--format", "archive", "--twin", "masked", "--out", "x"]);
+    assert!(twin.contains("--twin"), "{twin}");
+    let file = said(&["regenerate", "tiny.tar.zst"]);
+    assert!(file.contains("this is a file") && file.contains("is unpacked first"), "{file}");
+}
+
+#[test]
+fn unverified_releases_are_not_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let tampered = folder.path().join("tampered");
+    for (path, content) in files(&TINY.path().join("tiny")) {
+        let content = if path == "README.md" { b"mine".to_vec() } else { content };
+        fs::create_dir_all(tampered.join(&path).parent().unwrap()).unwrap();
+        fs::write(tampered.join(path), content).unwrap();
+    }
+    let exports = ["export", "tampered", "--format", "jsonl", "--out", "out"];
+    let output = run(folder.path(), &exports, 1);
+    assert!(text(&output.stdout).contains("README.md"), "{}", text(&output.stdout));
+    let left = |folder: &Path| fs::read_dir(folder).unwrap().count();
+    assert_eq!(left(folder.path()), 1, "nothing is left of the export");
+    let output = run(folder.path(), &["export", "absent", "--format", "jsonl", "--out", "out"], 2);
+    assert!(text(&output.stderr).contains("MANIFEST.json"), "{}", text(&output.stderr));
+    let output = run(folder.path(), &["export", "tampered", "--format", "xlsx", "--out", "out"], 2);
+    assert!(text(&output.stderr).contains("jsonl"), "{}", text(&output.stderr));
+    let output = run(folder.path(), &["export", "tampered", "--format", "jsonl", "--out", "-"], 2);
+    assert!(text(&output.stderr).contains("standard output"), "{}", text(&output.stderr));
+    let output = run(folder.path(), &["export", "tampered", "--format", "jsonl", "--out", "tampered"], 2);
+    assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
+    let output =
+        run(folder.path(), &["export", "tampered", "--format", "jsonl", "--out", "tampered/rows"], 2);
+    assert!(text(&output.stderr).contains("in the release itself"), "{}", text(&output.stderr));
+    assert!(!tampered.join("rows").exists() && !tampered.join("rows.partial").exists());
+}

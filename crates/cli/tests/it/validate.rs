@@ -1,0 +1,669 @@
+//! `arcade validate`, `arcade describe` and `arcade fmt` on good, bad and hostile files.
+
+use crate::arcade::{run, text};
+use serde_json::Value;
+use std::fs;
+use tempfile::TempDir;
+
+const GAME: &str = "\
+BasicGame
+    SpriteSet
+        wall > Immovable color=BROWN
+        floor > Immovable hidden=True
+        nectar > Immovable color=ORANGE
+        thorn > Immovable color=DARKGREEN
+        avatar > MovingAvatar color=YELLOW
+    LevelMapping
+        w > wall
+        . > floor
+        n > floor nectar
+        t > floor thorn
+        A > floor avatar
+    InteractionSet
+        avatar wall > stepBack
+        avatar thorn > killSprite scoreChange=-1
+        nectar avatar > killSprite scoreChange=1
+    TerminationSet
+        SpriteCounter stype=nectar limit=0 win=True
+        SpriteCounter stype=avatar limit=0 win=False
+        Timeout limit=300 win=False
+";
+
+const LEVEL: &str = "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n";
+
+/// Makes a folder with a game and a level.
+fn folder(game: &str, level: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("game.vgdl"), game).unwrap();
+    fs::write(folder.path().join("lvl0.txt"), level).unwrap();
+    folder
+}
+
+/// Expects exit status 2, and a message with the file, the line and these words.
+#[track_caller]
+fn malformed(game: &str, level: &str, place: &str, words: &[&str]) {
+    let folder = folder(game, level);
+    let output = run(folder.path(), &["validate", "."], 2);
+    let message = text(&output.stderr);
+    for part in words.iter().chain([&place]) {
+        assert!(message.contains(part), "`{part}` is not in\n{message}");
+    }
+}
+
+#[test]
+fn a_good_level_passes_and_its_witness_replays() {
+    let folder = folder(GAME, LEVEL);
+    let output = run(folder.path(), &["validate", ".", "--witness", "win.json"], 0);
+    assert!(text(&output.stdout).contains("1 of 1 levels meet every criterion"));
+    let witness: engine::Episode =
+        serde_json::from_slice(&fs::read(folder.path().join("win.json")).unwrap()).unwrap();
+    let game = engine::Game::from_source(GAME).unwrap();
+    let level = game.level(LEVEL).unwrap();
+    assert_eq!(witness.replay(&game, &level).unwrap().outcome(), engine::Outcome::Won);
+    // Also by file, and the same answer twice.
+    let args = ["--json", "validate", "game.vgdl", "lvl0.txt"];
+    let (one, two) = (run(folder.path(), &args, 0), run(folder.path(), &args, 0));
+    assert_eq!(one.stdout, two.stdout);
+    let document: Value = serde_json::from_slice(&one.stdout).unwrap();
+    assert_eq!(document["passes"], true);
+}
+
+/// Returns the judgement of the first level on a criterion.
+fn judgement(document: &Value, criterion: &str) -> Value {
+    let judgements = document["levels"][0]["judgements"].as_array().unwrap();
+    judgements.iter().find(|judgement| judgement["criterion"] == criterion).unwrap().clone()
+}
+
+#[test]
+fn a_goal_walled_in_fails_with_its_line_and_cell() {
+    let walled = "wwwwwwwwww\nwA.t...t.w\nw.....twww\nw.t....wnw\nwn...t.www\nwwwwwwwwww\n";
+    let folder = folder(GAME, walled);
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "200000"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let winnable = judgement(&document, "winnable");
+    assert_eq!(winnable["verdict"], "fail");
+    let seen = &winnable["evidence"][0];
+    assert_eq!(seen["cell"], serde_json::json!([9, 4]));
+    assert_eq!(seen["rule"]["line"], 19);
+    let output = run(folder.path(), &["validate", "."], 1);
+    let said = text(&output.stdout);
+    let first = said.lines().next().unwrap();
+    assert!(
+        first.contains("lvl0.txt") && first.contains("FAILS winnable: the level cannot be won"),
+        "{said}"
+    );
+    assert!(said.contains("column 9, row 4; ./game.vgdl:19 `SpriteCounter stype=nectar"), "{said}");
+}
+
+#[test]
+fn unfound_wins_are_unknown() {
+    // Thorns all around the nectar, and a bee that makes the game stochastic.
+    let game = GAME
+        .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
+        .replace("        A > floor", "        b > floor bee\n        A > floor")
+        .replace("        avatar thorn", "        bee wall > stepBack\n        avatar thorn");
+    let folder = folder(&game, "wwwwwwwwww\nwA......bw\nw....ttttw\nw....tn..w\nw....ttttw\nwwwwwwwwww\n");
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "200000"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let winnable = judgement(&document, "winnable");
+    assert_eq!(winnable["verdict"], "unknown", "{winnable}");
+    assert!(winnable["spent"].as_u64().unwrap() >= 200_000, "{winnable}");
+}
+
+#[test]
+fn game_criteria_cover_all_levels() {
+    // Each level alone lacks something; together they have everything.
+    let folder = folder(GAME, "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n");
+    fs::write(folder.path().join("lvl1.txt"), "wwwwwwwww\nwA..n...w\nw.n...n.w\nwwwwwwwww\n").unwrap();
+    let judgements = |args: &[&str], status| {
+        let output = run(folder.path(), args, status);
+        let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+        document["judgements"].as_array().unwrap().iter().map(|judged| judged["verdict"].clone()).collect()
+    };
+    let together: Vec<Value> = judgements(&["--json", "validate", "."], 1);
+    assert_eq!(together, ["pass", "pass"]);
+    // The second level alone is won by random keys, and does not judge the game.
+    let alone: Vec<Value> = judgements(&["--json", "validate", ".", "1"], 1);
+    assert!(alone.is_empty());
+}
+
+#[test]
+fn gates_are_asked_of_a_game_with_all_its_levels() {
+    let folder = folder(GAME, "wwwwwwww\nwA...n.w\nwwwwwwww\n");
+    fs::write(folder.path().join("lvl1.txt"), LEVEL).unwrap();
+    let output = run(folder.path(), &["--json", "validate", ".", "--gates", "--budget", "20000"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let judged = document["judgements"].as_array().unwrap();
+    let asked: Vec<&str> = judged.iter().filter_map(|judgement| judgement["criterion"].as_str()).collect();
+    assert!(validators::GATES.iter().all(|gate| asked.contains(gate)), "{asked:?}");
+    let refused = run(folder.path(), &["validate", ".", "1", "--gates"], 2);
+    let refused = text(&refused.stderr);
+    assert!(refused.contains("names 1 of 2: `arcade validate . --gates`"), "{refused}");
+    let refused = text(&run(folder.path(), &["play", ".", "--text"], 2).stderr);
+    assert!(refused.contains("`arcade play . --ascii`"), "{refused}");
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte_of_a_verdict() {
+    let folder = folder(GAME, LEVEL);
+    let args = ["--json", "validate", ".", "--budget", "100000"];
+    let [one, two] = ["1", "2"].map(|threads| {
+        let mut command = crate::arcade::arcade(folder.path());
+        command.env("RAYON_NUM_THREADS", threads).args(args).output().unwrap().stdout
+    });
+    assert!(!one.is_empty());
+    assert_eq!(text(&one), text(&two));
+}
+
+#[test]
+fn unreachable_goals_are_reported_with_their_cell() {
+    let walled = "wwwwwwwwww\nwA.t...t.w\nw.....twww\nw.t....wnw\nwn...t.www\nwwwwwwwwww\n";
+    let told = "but here nothing can ever end the nectar in column 9, row 4";
+    let folder = folder(GAME, walled);
+    let output = run(folder.path(), &["validate", ".", "--budget", "2000"], 1);
+    assert!(text(&output.stdout).contains(told), "{}", text(&output.stdout));
+    let output = run(folder.path(), &["describe", ".", "0"], 0);
+    assert!(text(&output.stdout).contains(told), "{}", text(&output.stdout));
+    let output = run(folder.path(), &["--json", "describe", ".", "lvl0.txt"], 0);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["level"]["can_win"], false);
+    assert_eq!((&document["can_win"], &document["level"]["can_lose"]), (&true.into(), &true.into()));
+}
+
+#[test]
+fn wins_by_doing_nothing_do_not_pass() {
+    let folder = folder(&GAME.replace("limit=300 win=False", "limit=30 win=True"), LEVEL);
+    let output = run(folder.path(), &["validate", "."], 1);
+    assert!(text(&output.stdout).contains("doing nothing wins"), "{}", text(&output.stdout));
+}
+
+#[test]
+fn malformed_games_are_named_with_line_and_help() {
+    malformed(
+        &GAME.replace("stepBack", "stepBakc"),
+        LEVEL,
+        "game.vgdl:15:",
+        &["unknown-effect", "`stepBack`?"],
+    );
+    malformed(&GAME.replace("avatar thorn >", "avatar thron >"), LEVEL, "game.vgdl:16:", &["`thorn`?"]);
+    let (head, _) = GAME.split_once("    TerminationSet").unwrap();
+    malformed(head, LEVEL, "game.vgdl:1:", &["missing-section", "TerminationSet"]);
+    malformed(&GAME.replace("MovingAvatar", "MovnigAvatar"), LEVEL, "game.vgdl:7:", &["`MovingAvatar`?"]);
+    malformed(&GAME.replace("limit=300", "limt=300"), LEVEL, "game.vgdl:21:", &["`limit`?"]);
+    malformed("", LEVEL, "game.vgdl", &["contains no game"]);
+    malformed("\u{1}\u{2}ELF", LEVEL, "game.vgdl", &["control character"]);
+}
+
+#[test]
+fn malformed_levels_are_named_with_line_and_help() {
+    malformed(GAME, &LEVEL.replace("..w\nww", "Q.w\nww"), "lvl0.txt:5:8", &["undefined-character", "`Q`"]);
+    malformed(GAME, &LEVEL.replace("wn", "wA"), "lvl0.txt:5:2", &["extra-avatars", "2 avatars"]);
+    malformed(GAME, &LEVEL.replace('A', "."), "lvl0.txt:1:1", &["no-avatar", "put `A`"]);
+    malformed(GAME, "", "lvl0.txt", &["empty"]);
+}
+
+#[test]
+fn all_problems_of_a_file_come_in_one_run() {
+    let broken =
+        GAME.replace("stepBack", "stepBakc").replace("stype=nectar", "stype=necta").replace("BROWN", "BRWN");
+    let folder = folder(&broken, LEVEL);
+    let output = run(folder.path(), &["--json", "validate", "."], 2);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let lines: Vec<u64> = document["problems"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|problem| problem["line"].as_u64().unwrap())
+        .collect();
+    assert_eq!(lines, [3, 15, 19]);
+}
+
+#[test]
+fn hostile_files_get_a_limit_message_promptly() {
+    let folder = folder(GAME, LEVEL);
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("binary.vgdl"), [0x7f, 0x45, 0x4c, 0x46, 0xff, 0xfe, 0x00]).unwrap();
+    let output = run(folder.path(), &["validate", "binary.vgdl", "lvl0.txt"], 2);
+    assert!(text(&output.stderr).contains("not a text file"));
+    fs::File::create(path("huge.vgdl")).unwrap().set_len(50 << 20).unwrap();
+    let output = run(folder.path(), &["validate", "huge.vgdl", "lvl0.txt"], 2);
+    assert!(text(&output.stderr).contains("larger than"));
+    fs::write(path("wide.txt"), format!("{}\n", "w".repeat(5000)).repeat(5000)).unwrap();
+    let output = run(folder.path(), &["validate", "game.vgdl", "wide.txt"], 2);
+    assert!(text(&output.stderr).contains("larger than"), "{}", text(&output.stderr));
+    fs::write(path("tall.txt"), "A\n".repeat(5000)).unwrap();
+    let output = run(folder.path(), &["validate", "game.vgdl", "tall.txt"], 2);
+    assert!(text(&output.stderr).contains("5000 rows"), "{}", text(&output.stderr));
+    let deep: String =
+        (0..400).map(|depth| format!("{}a{depth} > Passive\n", " ".repeat(depth + 2))).collect();
+    fs::write(path("deep.vgdl"), format!("BasicGame\n SpriteSet\n{deep}")).unwrap();
+    let output = run(folder.path(), &["validate", "deep.vgdl", "lvl0.txt"], 2);
+    assert!(text(&output.stderr).contains("nested"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn malformed_requests_name_the_next_move() {
+    let folder = folder(GAME, LEVEL);
+    let says = |args: &[&str], status, words: &str| {
+        let output = run(folder.path(), args, status);
+        assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
+    };
+    says(&["validate", "nowhere.vgdl"], 2, "there is no such file");
+    says(&["validate", ".", "7"], 2, ". has level 0 only: no `7`");
+    says(&["validate"], 2, "GAME");
+    says(&["validat", "."], 2, "validate");
+    says(&["release", "stater"], 2, "did you mean `starter`?");
+    says(&["run", ".", "--planner", "mtcs"], 2, "did you mean `mcts`?");
+    says(&["verify", "."], 2, "`.` is the folder of a game");
+    says(&["verify", "nowhere"], 2, "nowhere");
+}
+
+#[test]
+fn fmt_is_idempotent_and_checks() {
+    let folder = folder(GAME, LEVEL);
+    run(folder.path(), &["fmt", "game.vgdl", "--check"], 0);
+    fs::write(
+        folder.path().join("loose.vgdl"),
+        GAME.replace(" > ", "  >  ").replace("    TerminationSet", "  TerminationSet"),
+    )
+    .unwrap();
+    run(folder.path(), &["fmt", "loose.vgdl", "--check"], 1);
+    let output = run(folder.path(), &["fmt", "loose.vgdl"], 0);
+    assert_eq!(text(&output.stdout), GAME);
+    fs::write(folder.path().join("broken.vgdl"), GAME.replace("n > floor", "n floor")).unwrap();
+    let output = run(folder.path(), &["fmt", "broken.vgdl"], 2);
+    assert!(text(&output.stderr).contains("broken.vgdl:11:"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn rules_are_described() {
+    let folder = folder(GAME, LEVEL);
+    let output = run(folder.path(), &["describe", "game.vgdl"], 0);
+    let said = text(&output.stdout);
+    for words in [
+        "You are the avatar",
+        "You win when no nectar is left",
+        "You die on touching the thorn",
+        "\nKind of game:\n  Genre: puzzle and collect.\n  Turn-based:",
+    ] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    let output = run(folder.path(), &["describe", "game.vgdl", "--json"], 0);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let taxonomy = serde_json::json!({
+        "time": "turn-based",
+        "spatiality": "grid",
+        "genres": ["puzzle", "collect"],
+        "chance": false,
+        "hidden": false,
+    });
+    assert_eq!(document["taxonomy"], taxonomy);
+}
+
+#[test]
+fn planners_play_and_report() {
+    let folder = folder(GAME, LEVEL);
+    let common = ["run", ".", "--planner", "random,mcts,olets:50", "--budget", "200", "--runs", "3"];
+    let report = |more: &[&str]| run(folder.path(), &[&common[..], more].concat(), 0);
+    let csv = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+
+    let output = report(&["--csv", "one.csv", "--jobs", "1", "--by-level"]);
+    let table = text(&output.stdout);
+    assert!(table.contains(" lvl0 ") && table.contains("olets"), "{table}");
+    let first = csv("one.csv");
+    assert!(first.starts_with("game,planner,budget,level,run,outcome,score,ticks,calls\n"), "{first}");
+    assert_eq!(first.lines().count(), 1 + 3 * 3, "{first}");
+    // Speeds depend on this machine, so they are not part of the answer.
+    assert!(text(&output.stderr).contains("olets:50: "), "{}", text(&output.stderr));
+
+    let output = report(&["--csv", "two.csv", "--jobs", "2", "--json"]);
+    assert_eq!(csv("two.csv"), first);
+    assert_eq!(output.stdout, report(&["--jobs", "1", "--json"]).stdout);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = document["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 3);
+    assert_eq!((&rows[2]["planner"], &rows[2]["budget"]), (&"olets".into(), &50.into()));
+    assert_eq!((&rows[1]["plays"], &rows[1]["level"]), (&3.into(), &Value::Null));
+
+    // The results do not depend on other planners in the run.
+    let alone = run(folder.path(), &["run", ".", "--planner", "mcts:200", "--runs", "3", "--json"], 0);
+    let alone: Value = serde_json::from_slice(&alone.stdout).unwrap();
+    assert_eq!(alone["rows"][0], rows[1]);
+    run(folder.path(), &["run", ".", "--jobs", "0"], 2);
+}
+
+/// A corridor: the exit opens for two lamps.
+const CORRIDOR: &str = "\
+BasicGame
+    SpriteSet
+        wall > Immovable
+        lamp > Resource limit=3
+        exit > Door
+        avatar > MovingAvatar
+    LevelMapping
+        w > wall
+        L > lamp
+        g > exit
+    InteractionSet
+        avatar wall > stepBack
+        lamp avatar > collectResource
+        exit avatar > killIfOtherHasMore resource=lamp limit=2
+    TerminationSet
+        SpriteCounter stype=exit win=True
+        Timeout limit=100 win=False
+";
+
+#[test]
+fn a_level_that_cannot_be_won_is_explained_as_a_chain() {
+    let folder = folder(CORRIDOR, "wwwwwwwww\nwA  L  gw\nwwwwwwwww\n");
+    let said = text(&run(folder.path(), &["validate", "."], 1).stdout);
+    for words in [
+        "FAILS winnable: the level cannot be won: the exit opens for 2 lamps; 1 lamp exists; no rule creates more\n",
+        "column 8, row 2; ./game.vgdl:16 `SpriteCounter stype=exit win=True`",
+        "- the exit opens for 2 lamps; ./game.vgdl:14 `exit avatar > killIfOtherHasMore resource=lamp limit=2`",
+        "- 1 lamp exists; column 5, row 2; ./game.vgdl:13 `lamp avatar > collectResource`",
+        "try: place 1 lamp more, or require only 1",
+        // Criteria that do not apply to it.
+        "-    length       skipped: the level cannot be won",
+        "-    skill        skipped: the level cannot be won",
+    ] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("open a path") && !said.contains("pass skill"), "{said}");
+    // The fields of the JSON document are unchanged.
+    let output = run(folder.path(), &["--json", "validate", "."], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let skill = judgement(&document, "skill");
+    assert_eq!((&skill["verdict"], &skill["spent"]), (&"unknown".into(), &0.into()));
+    assert_eq!(document["levels"][0]["out_of_reach"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn a_swapped_rule_is_named_with_its_repair() {
+    let swapped = CORRIDOR.replace("lamp avatar >", "avatar lamp >");
+    let folder = folder(&swapped, "wwwwwwwww\nwA L L gw\nwwwwwwwww\n");
+    let said = text(&run(folder.path(), &["validate", "."], 1).stdout);
+    for words in ["game.vgdl:13:9", "swapped-rule", "did you mean `lamp avatar > collectResource`?"] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("never-fires"), "{said}");
+    let headline = "FAILS well-formed: the game cannot be won with `avatar lamp > collectResource` as it stands, \
+                    and may be won with the two sides swapped (./game.vgdl:13)\n";
+    assert!(said.contains(headline), "{said}");
+}
+
+#[test]
+fn no_verdict_contradicts_another() {
+    // Won by the search, and by no player of the ladder: both are reported.
+    let folder = folder(GAME, LEVEL);
+    let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
+    assert!(said.contains("the witness wins in ") && said.contains("fewer ticks win: proved"), "{said}");
+    assert!(said.contains("ticks on average") && !said.contains(", unbeaten"), "{said}");
+}
+
+#[test]
+fn problems_of_the_game_hide_none_of_its_levels() {
+    let broken = GAME.replace("stepBack", "stepBakc");
+    let folder = folder(&broken, &LEVEL.replace('A', "X"));
+    fs::write(folder.path().join("lvl1.txt"), LEVEL).unwrap();
+    let output = run(folder.path(), &["validate", "."], 2);
+    let said = text(&output.stderr);
+    for words in
+        ["unknown-effect", "lvl0.txt:2:2", "`X` is not in the LevelMapping", "the level places no avatar"]
+    {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("lvl1.txt"), "{said}");
+    let output = run(folder.path(), &["--json", "validate", "."], 2);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let codes: Vec<&str> = document["levels"][0]["problems"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|problem| problem["code"].as_str().unwrap())
+        .collect();
+    assert_eq!(codes, ["no-avatar", "undefined-character"]);
+    assert_eq!(document["levels"][1]["problems"].as_array().unwrap().len(), 0);
+    // Also of a sound game.
+    malformed(
+        GAME,
+        &LEVEL.replace('A', "X"),
+        "lvl0.txt:2:2",
+        &["`X` is not", "no avatar", "did you mean `A`?"],
+    );
+}
+
+#[test]
+fn levels_named_as_games_are_reported() {
+    let folder = folder(GAME, LEVEL);
+    let said = text(&run(folder.path(), &["fmt", "lvl0.txt"], 2).stderr);
+    assert!(said.contains("its game is game.vgdl: arcade fmt game.vgdl"), "{said}");
+    fs::remove_file(folder.path().join("game.vgdl")).unwrap();
+    for verb in ["validate", "describe", "fmt", "play"] {
+        let output = run(folder.path(), &[verb, "lvl0.txt"], 2);
+        let said = text(&output.stderr);
+        let meant = "lvl0.txt: this is a level, not a game, and there is no game beside it; name its game first: arcade validate GAME lvl0.txt";
+        assert!(said.contains(meant), "{said}");
+    }
+}
+
+#[test]
+fn swapped_games_and_levels_are_reported() {
+    let says = |game: &str, level: &str, words: &str| {
+        let folder = folder(game, level);
+        let said = text(&run(folder.path(), &["validate", "."], 2).stderr);
+        assert!(said.contains(words), "{said}");
+        assert!(said.lines().count() < 4, "{said}");
+    };
+    says(LEVEL, LEVEL, "game.vgdl: this is a level, not a game");
+    says(GAME, GAME, "lvl0.txt: this is a game, not a level");
+}
+
+#[test]
+fn levels_have_the_numbers_of_their_files() {
+    let folder = folder(GAME, LEVEL);
+    for name in ["lvl1.txt", "lvl3.txt"] {
+        fs::write(folder.path().join(name), LEVEL.replace('A', "X")).unwrap();
+    }
+    fs::remove_file(folder.path().join("lvl0.txt")).unwrap();
+    let said = text(&run(folder.path(), &["validate", ".", "1"], 2).stderr);
+    assert!(said.contains("lvl1.txt:2:2"), "{said}");
+    let said = text(&run(folder.path(), &["validate", ".", "0"], 2).stderr);
+    assert!(said.contains(". has levels 1, 3: no `0`"), "{said}");
+}
+
+#[test]
+fn lines_without_the_avatar_are_reported_with_it() {
+    let hidden = GAME.replace("A > floor avatar", "A > floor").replace("avatar", "bee");
+    let line = "places the avatar `bee`: add it to a line, such as `A >";
+    malformed(&hidden, LEVEL, "lvl0.txt", &[line]);
+}
+
+#[test]
+fn consequences_of_other_faults_are_skipped() {
+    let chased =
+        GAME.replace("        avatar > Mov", "        wasp > PathChaser stype=avatar\n        avatar > Mov");
+    let chased = chased.replace("        A > floor", "        c > floor wasp\n        A > floor");
+    let said = folder(&chased, &LEVEL.replace("n...t", "nc..t"));
+    let said = run(said.path(), &["validate", ".", "--budget", "2000"], 1);
+    let said = text(&said.stdout);
+    for words in ["`wasp > PathChaser stype=avatar`", "`BasicGame obs=wall`", "skipped: the game stops"] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("remove it"), "{said}");
+    // Lost in its first tick, whatever the player does.
+    let over = folder(&GAME.replace("stype=avatar limit=0", "stype=avatar limit=1"), LEVEL);
+    let said = text(&run(over.path(), &["validate", ".", "--budget", "2000"], 1).stdout);
+    assert!(said.contains("FAILS well-formed: the game is lost in its first tick"), "{said}");
+    let criteria = ["not-idle", "not-random", "early-death", "winnable", "length", "skill", "rule-use"];
+    for criterion in criteria.into_iter().chain(["ablation"]) {
+        let line = format!("  -    {criterion:<13}skipped: the game is over in its first tick\n");
+        assert!(said.contains(&line), "`{line}` is not in\n{said}");
+    }
+    // Lost by waiting alone: there is play to judge.
+    let pricked = folder(&GAME.replace("A > floor avatar", "A > floor thorn avatar"), LEVEL);
+    let said = text(&run(pricked.path(), &["validate", ".", "--budget", "2000"], 1).stdout);
+    assert!(said.contains("FAILS well-formed: the game is lost in its first tick"), "{said}");
+    assert!(!said.contains("skipped: the game is over"), "{said}");
+    let short = folder(&GAME.replace("limit=300", "limit=3"), LEVEL);
+    let said = run(short.path(), &["validate", ".", "--budget", "20000"], 1);
+    let said = text(&said.stdout);
+    for words in [
+        "the level cannot be won before `Timeout limit=3 win=False` ends the game",
+        "raise its `limit=` beyond",
+    ] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("add a level that needs it"), "{said}");
+}
+
+#[test]
+fn tabs_are_shown_and_reported() {
+    let tabbed = GAME.replace("        avatar wall > stepBack", "\tavatar wall > stepBack");
+    malformed(&tabbed, LEVEL, "game.vgdl:15:2", &["→avatar wall > stepBack", "a tab counts as one column"]);
+}
+
+#[test]
+fn a_line_of_any_width_gets_a_message() {
+    let folder = folder(GAME, LEVEL);
+    let wide = [
+        GAME.replace("        avatar thorn", &format!("{}avatar thorn", " ".repeat(66_000))),
+        GAME.replace("    TerminationSet", &format!("    TerminationSet{}x", " ".repeat(66_000))),
+        GAME.replace("stepBack", &format!("stepBack {}", "\t".repeat(70_000) + "=")),
+        GAME.replace("stepBack", &"蟻".repeat(30_000)),
+    ];
+    for source in wide {
+        fs::write(folder.path().join("wide.vgdl"), source).unwrap();
+        for verb in ["validate", "describe", "fmt"] {
+            let output = run(folder.path(), &[verb, "wide.vgdl"], 2);
+            let said = text(&output.stderr);
+            assert!(said.contains("wide.vgdl:") && said.len() < 9_000, "{} bytes of {said:.900}", said.len());
+        }
+    }
+}
+
+#[test]
+fn counts_of_nothing_are_refused() {
+    let folder = folder(GAME, LEVEL);
+    for args in [
+        &["validate", ".", "--budget", "0"][..],
+        &["validate", ".", "--budget", "-5"],
+        &["run", ".", "--runs", "0"],
+        &["run", ".", "--max-ticks", "0"],
+        &["run", ".", "--budget", "-5"],
+    ] {
+        let said = text(&run(folder.path(), args, 2).stderr);
+        assert!(said.contains("invalid value") && !said.contains("'-- -5'"), "{said}");
+    }
+}
+
+#[test]
+fn duplicate_parameters_are_reported() {
+    let folder = folder(&GAME.replace("color=YELLOW", "color=YELLOW speed=0.5 speed=1"), LEVEL);
+    let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
+    assert!(said.contains("duplicate-parameter") && said.contains("`0.5`, and `1`, which counts"), "{said}");
+}
+
+#[test]
+fn a_small_budget_is_a_small_piece_of_work() {
+    // No player needs less than 300 ticks, and no player decides on fewer calls than its minimum.
+    let game = GAME
+        .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
+        .replace("        A > floor", "        b > floor bee\n        A > floor")
+        .replace("        avatar thorn", "        bee wall > stepBack\n        avatar thorn");
+    let folder = folder(&game, "wwwwwwwwww\nwA......bw\nw....ttttw\nw....tn..w\nw....ttttw\nwwwwwwwwww\n");
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "1"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let skill = judgement(&document, "skill");
+    assert_eq!(skill["verdict"], "unknown");
+    let rungs = skill["ladder"]["rungs"].as_array().unwrap();
+    let held_out = skill["ladder"]["held_out"].as_array().unwrap();
+    let calls = rungs.iter().chain(held_out).map(|fared| fared["rate"]["calls"].as_u64().unwrap());
+    assert!(calls.sum::<u64>() < 5_000, "{skill}");
+}
+
+#[cfg(unix)]
+#[test]
+fn non_unicode_paths_are_harmless() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder(GAME, LEVEL);
+    let strange = OsStr::from_bytes(b"win-\xff.json");
+    let command = |args: &[&str], more: &[&OsStr]| {
+        crate::arcade::arcade(folder.path()).args(args).args(more).output().unwrap()
+    };
+    let output = command(&["validate", ".", "--witness"], &[strange]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(folder.path().join(strange).exists());
+    let output = command(&["run", ".", "--planner", "random", "--runs", "1", "--csv"], &[strange]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for verb in ["validate", "describe", "fmt", "play", "run"] {
+        let output = command(&[verb], &[strange]);
+        assert_eq!(output.status.code(), Some(2), "{verb}: {}", text(&output.stderr));
+    }
+}
+
+/// A raft that carries a duckling over a pond.
+const FERRY: &str = include_str!("../../../../tests/suite/levels/good/one-ferry/game.vgdl");
+const POND: &str = include_str!("../../../../tests/suite/levels/good/one-ferry/lvl0.txt");
+
+#[test]
+fn a_rule_that_carries_is_not_called_idle() {
+    let folder = folder(FERRY, POND);
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "100000"], 0);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let ablation = &document["judgements"][1];
+    assert_eq!((&ablation["criterion"], &ablation["verdict"]), (&"ablation".into(), &"pass".into()));
+}
+
+#[test]
+fn the_line_that_keeps_a_level_from_being_won_is_named() {
+    let shield = "        duckling raft > shieldFrom stype=pond ftype=killSprite\n";
+    let kill = "        duckling pond > killSprite\n";
+    let late = FERRY.replace(kill, "").replace(shield, &format!("{kill}{shield}"));
+    let late = folder(&late, POND);
+    let said = text(&run(late.path(), &["validate", ".", "--budget", "100000"], 1).stdout);
+    for words in [
+        "; it can be won without `duckling pond > killSprite`: a search wins it in 13 ticks",
+        "(./game.vgdl:20)\n",
+        "where a `raft` is, too; tick ",
+        "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
+        "the closest any play can come: 1 nest left",
+        // The author's own characters.
+        "D duckling, ",
+        "~ pond",
+    ] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("the rules alone do not show why"), "{said}");
+    // Not found, and not proved either.
+    let hedge = POND.replace("nw\n", "nw\nwwwwwwwwwwwwww\n");
+    let hedge = folder(FERRY, &hedge);
+    let said = text(&run(hedge.path(), &["validate", ".", "--budget", "40000"], 1).stdout);
+    let headline = "not shown to pass winnable: no win found with ";
+    assert!(said.contains(headline), "{said}");
+    assert!(said.contains("it can be won without `duckling wall > stepBack`: a search wins it in"), "{said}");
+}
+
+#[test]
+fn warnings_about_files_follow_the_verdict() {
+    let game = GAME.replace("        SpriteCounter stype=avatar limit=0 win=False\n", "");
+    let game = game.replace("        Timeout limit=300 win=False\n", "");
+    let folder = folder(&game, &LEVEL.replace("t..w\n", "t..\n"));
+    for arguments in
+        [&["validate", ".", "--budget", "2000"][..], &["-q", "validate", ".", "--budget", "2000"]]
+    {
+        // Long lines of help are wrapped.
+        let said =
+            text(&run(folder.path(), arguments, 1).stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+        let place = |words: &str| said.find(words).unwrap_or_else(|| panic!("`{words}` is not in\n{said}"));
+        let criteria = place("well-formed");
+        assert!(place("game.vgdl does not pass") < place("no-lose") && place("no-lose") < criteria, "{said}");
+        assert!(place("ragged-level") < criteria, "{said}");
+        place(
+            "removes the player's `avatar`, and nothing is lost by that: add `SpriteCounter stype=avatar win=False`",
+        );
+        // What is asked stands where the answer is not yes.
+        place("asks: ");
+    }
+}

@@ -1,0 +1,160 @@
+//! Players of known strength that see only the prompt: behind chat completions on loopback, or called directly.
+//!
+//! They have no access to the game that is played: everything they know comes from the conversation. They therefore test the
+//! whole path from the state over the prompt and the answer to the action, and also test other people's harnesses
+//! ([docs/serve-player.md](../../../../docs/serve-player.md)). The same conversation always gets the same answer.
+
+mod bounds;
+#[doc(hidden)]
+pub mod loopback;
+mod origin;
+mod prompted;
+mod reflex;
+mod replan;
+mod seats;
+mod server;
+mod shown;
+
+pub use bounds::Bounds;
+pub use prompted::Prompted;
+pub use server::{Running, Server};
+
+use crate::client::{ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Finish, Model, Usage};
+use agents::PlannerSpec;
+use engine::{Action, Seed};
+use shown::Shown;
+use std::fmt;
+use std::str::FromStr;
+
+/// The names of the players that need only a prompt, the weakest first. `planner:NAME` is also accepted.
+pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
+
+/// A player that answers prompts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PromptPlayer {
+    /// A random action other than nil, drawn by the digest of the conversation.
+    Random,
+    /// The shortest way to a good target according to the rules: [its rules](../../../../docs/serve-player.md).
+    Reflex,
+    /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything that matters.
+    Planner(PlannerSpec),
+}
+
+/// The error for a conversation that a player cannot answer. The message names the missing part and the next step.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unanswerable(pub String);
+
+impl PromptPlayer {
+    /// Checks that the player can answer a conversation, at the cost of reading it.
+    ///
+    /// # Errors
+    /// The conversation lacks information that the player needs.
+    pub fn check(&self, messages: &[ChatMessage]) -> Result<(), Unanswerable> {
+        let shown = Shown::of(messages)?;
+        match self {
+            PromptPlayer::Random => Ok(()),
+            PromptPlayer::Reflex => reflex::choose(shown, seed(messages)).map(drop),
+            PromptPlayer::Planner(spec) => replan::check(&shown, spec),
+        }
+    }
+
+    /// Returns the player's answer to a conversation. Cost: O(bytes); for a planner, its budget in forward-model calls.
+    ///
+    /// # Errors
+    /// The conversation lacks information that the player needs.
+    pub fn answer(&self, messages: &[ChatMessage]) -> Result<String, Unanswerable> {
+        let shown = Shown::of(messages)?;
+        let seed = seed(messages);
+        let actions = match self {
+            PromptPlayer::Random => {
+                let (keys, mut draws) = (actions_except_nil(&shown.actions), seed.sampler());
+                (0..shown.due).map(|_| *draws.choose(&keys)).collect()
+            }
+            PromptPlayer::Reflex => reflex::choose(shown.clone(), seed)?,
+            PromptPlayer::Planner(spec) => replan::choose(&shown, spec, seed)?,
+        };
+        Ok(shown.answer(&actions))
+    }
+}
+
+impl FromStr for PromptPlayer {
+    type Err = Unanswerable;
+
+    fn from_str(name: &str) -> Result<PromptPlayer, Unanswerable> {
+        if let Some(planner) = name.strip_prefix("planner:") {
+            let spec = planner.parse::<PlannerSpec>().map_err(|error| Unanswerable(error.to_string()))?;
+            return Ok(PromptPlayer::Planner(spec));
+        }
+        match name {
+            "random" => Ok(PromptPlayer::Random),
+            "reflex" => Ok(PromptPlayer::Reflex),
+            _ => {
+                let near = engine::nearest(name, PROMPT_PLAYERS.iter().copied());
+                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let names = PROMPT_PLAYERS.join(", ");
+                Err(Unanswerable(format!(
+                    "there is no prompt player `{name}`{near}; available: {names}, and `planner:NAME`, such as `planner:mcts:300`"
+                )))
+            }
+        }
+    }
+}
+
+impl fmt::Display for PromptPlayer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PromptPlayer::Random => f.write_str("random"),
+            PromptPlayer::Reflex => f.write_str("reflex"),
+            PromptPlayer::Planner(spec) => write!(f, "planner:{spec}"),
+        }
+    }
+}
+
+impl Model for PromptPlayer {
+    fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError> {
+        let answer = self.answer(&request.messages).map_err(|error| ChatError {
+            kind: ChatErrorKind::Rejected,
+            message: error.to_string(),
+            failures: Vec::new(),
+        })?;
+        Ok(ChatReply {
+            usage: Usage {
+                input_tokens: Some(prompt_tokens(&request.messages)),
+                output_tokens: Some(tokens(&answer)),
+                ..Usage::default()
+            },
+            served_by: Some(self.to_string()),
+            ..ChatReply::new(answer, Finish::Stop)
+        })
+    }
+}
+
+/// Returns the seed of the player's random choices: a digest of the whole conversation, byte for byte.
+fn seed(messages: &[ChatMessage]) -> Seed {
+    let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 served conversation");
+    for message in messages {
+        let role = [message.role as u8];
+        let image = message.image.as_deref().unwrap_or_default();
+        for part in [&role, message.text.as_bytes(), image] {
+            hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
+        }
+    }
+    Seed::from_text(&hasher.finalize().to_hex())
+}
+
+/// Returns the tokens billed for a text here: one for every four bytes.
+fn tokens(text: &str) -> u64 {
+    text.len().div_ceil(4) as u64
+}
+
+fn prompt_tokens(messages: &[ChatMessage]) -> u64 {
+    messages.iter().map(|message| tokens(&message.text)).sum()
+}
+
+/// Returns the actions other than nil, if there are any.
+fn actions_except_nil(actions: &[Action]) -> Vec<Action> {
+    let actions_except_nil: Vec<Action> =
+        actions.iter().copied().filter(|&action| action != Action::Nil).collect();
+    if actions_except_nil.is_empty() { actions.to_vec() } else { actions_except_nil }
+}

@@ -1,0 +1,138 @@
+//! Tracks: named, versioned bundles of prompt settings, whose results are never mixed.
+
+use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
+use std::fmt;
+
+engine::named_enum! {
+    /// A track: what players learn about a game ([docs/tracks.md](../../../docs/tracks.md)).
+    pub enum Track {
+        /// The default prompts: the rules in words under the game's own names.
+        Told = "told",
+        /// The rules in words, under names and characters that mean nothing.
+        Masked = "masked",
+        /// No rules: several levels of a game in one conversation, the visible events of each action, and a last question about
+        /// the rules. The first level is for practice.
+        Discover = "discover",
+        /// The rules in words, and the board as a picture only.
+        Vision = "vision",
+    }
+}
+
+impl Track {
+    /// The version of the bundle, raised when its settings, or the words of its own prompts, change.
+    pub const fn version(self) -> u32 {
+        match self {
+            Track::Told | Track::Masked | Track::Discover | Track::Vision => 1,
+        }
+    }
+
+    /// Returns the settings of its prompts. The mode and the budget of a conversation can be set otherwise, except for the mode of
+    /// [`Track::Discover`].
+    pub fn settings(self) -> PromptSettings {
+        let told = PromptSettings::default();
+        match self {
+            Track::Told => told,
+            Track::Masked => PromptSettings { neutral_names: true, ..told },
+            Track::Discover => PromptSettings {
+                style: PromptStyle::Discover,
+                mode: Mode::Contextual,
+                rules: Rules::None,
+                neutral_names: true,
+                action_meanings: false,
+                history_tokens: 60_000,
+                ..told
+            },
+            Track::Vision => PromptSettings {
+                legend: false,
+                position: false,
+                encodings: Encodings { grid: false, grounding: false, image: true, ..Encodings::default() },
+                ..told
+            },
+        }
+    }
+
+    /// Returns the number of levels of a game that are played in one conversation, at most; 1 where each is played alone.
+    pub const fn series(self) -> u64 {
+        match self {
+            Track::Discover => 3,
+            Track::Told | Track::Masked | Track::Vision => 1,
+        }
+    }
+
+    /// Returns the name and version as results record it, such as `masked@1`.
+    pub fn id(self) -> String {
+        format!("{}@{}", self.name(), self.version())
+    }
+
+    /// Returns the difference from other players as results list it, such as `track=masked@1`.
+    pub fn aid(self) -> String {
+        format!("{AID}{}", self.id())
+    }
+}
+
+/// The start of the aid that names a track.
+pub(crate) const AID: &str = "track=";
+
+impl fmt::Display for Track {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.id())
+    }
+}
+
+/// The place of a level among those that are played in one conversation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SeriesPlace {
+    /// The number of levels before it.
+    pub index: u64,
+    /// The number of levels of the series.
+    pub of: u64,
+}
+
+impl SeriesPlace {
+    /// Returns the places of `levels` levels in series of `most` at most, as even as possible, the longer ones first; `None` for levels
+    /// that are played alone.
+    pub(crate) fn all(levels: usize, most: u64) -> Vec<Option<SeriesPlace>> {
+        let count = (levels as u64).div_ceil(most.max(1)).max(1);
+        let (each, more) = (levels as u64 / count, levels as u64 % count);
+        let lengths = (0..count).map(|number| each + u64::from(number < more));
+        let of_series = |of: u64| (0..of).map(move |index| (of > 1).then_some(SeriesPlace { index, of }));
+        lengths.flat_map(of_series).collect()
+    }
+
+    /// Returns `true` for a level that is played to learn the rules, and does not count.
+    pub fn is_practice(self) -> bool {
+        self.index == 0
+    }
+
+    /// Returns `true` for the last level.
+    pub fn is_last(self) -> bool {
+        self.index + 1 == self.of
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_shared_out_evenly() {
+        for (levels, most, expect) in [
+            (1, 3, "0/1"),
+            (2, 3, "0/2 1/2"),
+            (3, 3, "0/3 1/3 2/3"),
+            (4, 3, "0/2 1/2 0/2 1/2"),
+            (5, 3, "0/3 1/3 2/3 0/2 1/2"),
+            (7, 3, "0/3 1/3 2/3 0/2 1/2 0/2 1/2"),
+            (3, 1, "0/1 0/1 0/1"),
+            (0, 3, ""),
+        ] {
+            let places = SeriesPlace::all(levels, most);
+            let told = places.iter().map(|place| match place {
+                Some(place) => format!("{}/{}", place.index, place.of),
+                None => "0/1".to_owned(),
+            });
+            assert_eq!(told.collect::<Vec<_>>().join(" "), expect, "{levels} levels");
+        }
+    }
+}

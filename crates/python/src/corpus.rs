@@ -1,0 +1,47 @@
+//! The games of the corpus, which the extension carries, and the names of the files of other games.
+
+use include_dir::{Dir, include_dir};
+use pyo3::prelude::*;
+
+static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../corpora");
+
+/// A game: its name, text, levels and card.
+type CorpusGame = (String, String, Vec<String>, String);
+
+/// Returns the games of the corpus by name: each with its name, its text, its levels and the text of its CARD.toml.
+#[pyfunction]
+pub(crate) fn corpus() -> Vec<CorpusGame> {
+    let mut games = Vec::new();
+    for folder in CORPORA.dirs() {
+        let name = folder.path().to_string_lossy().into_owned();
+        let text = |file: &str| folder.get_file(folder.path().join(file))?.contents_utf8();
+        let (Some(source), Some(card)) = (text("game.vgdl"), text("CARD.toml")) else { continue };
+        let levels = (0..).map_while(|number| text(&format!("lvl{number}.txt"))).map(str::to_owned).collect();
+        games.push((name, source.to_owned(), levels, card.to_owned()));
+    }
+    games.sort();
+    games
+}
+
+/// The file of a game, and its levels by number.
+type GameFiles = (String, Vec<(usize, String)>);
+
+/// Returns the games of a folder with these files.
+#[pyfunction]
+pub(crate) fn games_of_files(names: Vec<String>) -> Vec<GameFiles> {
+    let games = engine::layout::games(names.iter().map(String::as_str));
+    games.into_iter().map(|game| (game.source, game.levels)).collect()
+}
+
+/// Returns the levels of a game by number, among the files of its folder.
+#[pyfunction]
+pub(crate) fn levels_of_files(source: &str, names: Vec<String>) -> Vec<(usize, String)> {
+    engine::layout::levels(source, names.iter().map(String::as_str))
+}
+
+/// Returns the file of the game of a level, among the files of its folder; none if the file is not named like a level.
+#[pyfunction]
+pub(crate) fn game_of_level(level: &str, names: Vec<String>) -> Option<String> {
+    engine::layout::level_number(level)?;
+    engine::layout::game_of(level, names.iter().map(String::as_str))
+}

@@ -1,0 +1,54 @@
+"""Games for the tests."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import infinite_arcade as ia
+
+ROOT = Path(__file__).parents[3]
+
+#: A corridor: the squirrel is one or two steps from the nut, and loses after 20 ticks.
+NUT = """BasicGame
+    SpriteSet
+        nut > Immovable
+        squirrel > MovingAvatar
+    LevelMapping
+        n > nut
+        S > squirrel
+    InteractionSet
+        nut squirrel > killSprite scoreChange=1
+        squirrel EOS > stepBack
+    TerminationSet
+        SpriteCounter stype=nut win=True
+        Timeout limit=20 win=False
+"""
+
+
+@pytest.fixture
+def nut() -> ia.Game:
+    return ia.Game(NUT, ["S n", "S  n"], id="nut")
+
+
+@pytest.fixture(scope="session")
+def arcade() -> Path:
+    """The command line, if it has been built."""
+    found = [ROOT / "target" / profile / "arcade" for profile in ("release", "debug")]
+    built = [path for path in found if path.is_file()]
+    if not built:
+        pytest.skip("arcade has not been built: cargo build --release")
+    version = subprocess.run([built[0], "--version"], capture_output=True, text=True, check=True)
+    if ia.__version__ not in version.stdout:
+        pytest.skip(f"{built[0]} is of another version")
+    return built[0]
+
+
+@pytest.fixture(scope="session")
+def tiny(arcade: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A release that the command line has minted; not to be changed."""
+    out = tmp_path_factory.mktemp("releases") / "tiny"
+    subprocess.run([arcade, "release", "tiny", "--out", out, "-q"], check=True, stdout=subprocess.DEVNULL)
+    return out

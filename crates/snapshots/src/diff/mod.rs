@@ -1,0 +1,142 @@
+//! A comparison of two releases: the new, kept, changed and gone games, the differences of their distributions, and
+//! the distances between their games ([the meaning of each figure](../../../../docs/diff.md)).
+
+mod items;
+mod neighbours;
+mod shifts;
+mod verdict;
+
+pub use items::{Change, Changes, Status};
+pub use neighbours::{Neighbours, Pair};
+pub use shifts::{DEALS, NumberShift, Share, Shift, Unmeasured};
+pub use verdict::Order;
+
+use crate::marks::{MarkDifference, mark_differences};
+use crate::released::{Released, ReleasedGame};
+use crate::rungs::{RungDifference, differences};
+use engine::{Analysis, Digest};
+use forge::card::Origin;
+use rayon::prelude::*;
+use serde::Serialize;
+use validators::{GameForm, GameKind};
+
+/// A summary of a release.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Side {
+    /// The name.
+    pub name: String,
+    /// The root digest.
+    pub root: Digest,
+    /// The root digest of the release before it; `None` for the first of its chain.
+    pub parent: Option<Digest>,
+    /// The number of games.
+    pub games: usize,
+    /// The number of games made by a rule generator.
+    pub generated: usize,
+    /// The number of levels.
+    pub levels: usize,
+    /// The semantics of the engine that minted it.
+    pub semantics: u32,
+    /// The generation of the generators that minted it.
+    pub generation: u32,
+}
+
+/// The comparison of two releases, an earlier and a later one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Diff {
+    /// The comparison in one sentence: difficulty, returning levels, nearest games.
+    pub verdict: String,
+    /// The order of the two by the chain that they state.
+    pub order: Order,
+    /// The earlier release.
+    pub before: Side,
+    /// The later release.
+    pub after: Side,
+    /// The changes of the games, compared by their rules.
+    pub games: Changes,
+    /// The changes of the items: levels with the rules of their games.
+    pub items: Changes,
+    /// The distributions of labels: one or more for each game or level.
+    pub shifts: Vec<Shift>,
+    /// The distributions of numbers.
+    pub numbers: Vec<NumberShift>,
+    /// The change in the results of each player of the ladders: later minus earlier.
+    pub rungs: Vec<RungDifference>,
+    /// The change in the results of each mark that both have; none if the recipes ask for none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<MarkDifference>,
+    /// The distances from the later games to the earlier ones.
+    pub neighbours: Neighbours,
+}
+
+/// A game with the data that is compared.
+struct Compared<'a> {
+    released: &'a ReleasedGame,
+    form: GameForm,
+    kind: GameKind,
+    /// A digest for each level, equal for levels that are the same up to names, characters and symmetry.
+    levels: Vec<Digest>,
+}
+
+impl<'a> Compared<'a> {
+    fn of(released: &'a ReleasedGame) -> Compared<'a> {
+        Compared {
+            form: GameForm::of(&released.game),
+            kind: GameKind::of(&Analysis::of(&released.game)),
+            levels: items::level_forms(released),
+            released,
+        }
+    }
+
+    fn is_generated(&self) -> bool {
+        matches!(self.released.card.origin, Origin::Generated { .. })
+    }
+}
+
+impl Diff {
+    /// Compares two releases, and lists the `closest` nearest pairs of games. Cost: an analysis of each game, its
+    /// distance to all others, and about a thousand resamples of the games for each figure; seconds for hundreds of
+    /// games.
+    pub fn of(before: &Released, after: &Released, closest: usize) -> Diff {
+        let [old, new] =
+            [before, after].map(|side| side.games.par_iter().map(Compared::of).collect::<Vec<_>>());
+        let cards = |side: &Released| side.games.iter().map(|game| game.card.clone()).collect::<Vec<_>>();
+        let mut diff = Diff {
+            verdict: String::new(),
+            order: Order::of(&before.manifest, &after.manifest),
+            before: side(before, &old),
+            after: side(after, &new),
+            games: items::games(&old, &new),
+            items: items::items(&old, &new),
+            shifts: shifts::shifts(&old, &new),
+            numbers: shifts::numbers(&old, &new),
+            rungs: differences(&cards(after), &cards(before)),
+            marks: marks(before, after),
+            neighbours: Neighbours::of(&old, &new, closest),
+        };
+        diff.verdict = verdict::verdict(&diff);
+        diff
+    }
+}
+
+fn marks(before: &Released, after: &Released) -> Vec<MarkDifference> {
+    let both = after.marks.as_ref().zip(before.marks.as_ref());
+    both.map_or_else(Vec::new, |(after, before)| mark_differences(after, before))
+}
+
+fn side(released: &Released, games: &[Compared<'_>]) -> Side {
+    let Released { manifest, .. } = released;
+    Side {
+        name: manifest.name.clone(),
+        root: manifest.root,
+        parent: manifest.parent,
+        games: games.len(),
+        generated: games.iter().filter(|game| game.is_generated()).count(),
+        levels: released.levels(),
+        semantics: manifest.semantics,
+        generation: manifest.generation,
+    }
+}
+
+#[cfg(test)]
+mod tests;

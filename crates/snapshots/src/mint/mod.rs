@@ -1,0 +1,530 @@
+//! Minting: candidates are made, judged and selected.
+//!
+//! A recipe is turned into a [`Plan`]: a list of independent jobs, each with its own seed. [`Plan::make`] runs a job,
+//! and its result is put into a [`JobStore`], the job store. After all jobs, games are selected from the results
+//! according to the recipe's quotas and difficulty histogram, and written as files. Both steps depend on the recipe
+//! alone: not on threads, order, machines, time or interruptions.
+
+mod card;
+mod folder;
+mod forecast;
+mod job;
+mod job_store;
+mod plan;
+mod puzzles;
+mod select;
+mod shard;
+mod supply;
+
+use crate::manifest::Manifest;
+use crate::recipe::RecipeError;
+use crate::sealed::Secret;
+use crate::{Digest, SnapshotError};
+pub use card::{Novelty, ReleaseCard, Rung};
+pub(crate) use card::{counted, generator};
+pub use folder::{RELEASE_CARD_FILE, Sink};
+pub use forecast::Forecast;
+use forge::Tally;
+use forge::card::Card;
+pub use job::{FrozenGame, JobResult};
+pub use job_store::{JobFolder, JobStore, Memory};
+pub use plan::{Job, Plan};
+pub use puzzles::PuzzleKind;
+use rayon::prelude::*;
+pub use select::Bin;
+use select::{Contender, Part, select};
+pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
+use validators::CriteriaError;
+
+/// A release whose files have been written to the sink.
+#[derive(Clone, Debug)]
+pub struct Minted {
+    /// The manifest, including the root.
+    pub manifest: Manifest,
+    /// The cards of the games, those of the corpus first.
+    pub cards: Vec<Card>,
+    /// The summary of the release.
+    pub card: ReleaseCard,
+}
+
+/// The reasons why minting fails.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MintError {
+    /// The recipe is not sound, or it is sealed and its secret is missing.
+    #[error(transparent)]
+    Recipe(#[from] RecipeError),
+    /// The recipe asks for more corpus games than there are.
+    #[error("`corpus.games` is {asked}, but the corpus has {known} games")]
+    SmallCorpus {
+        /// The number that the recipe asks for.
+        asked: u32,
+        /// The number of games in the corpus.
+        known: usize,
+    },
+    /// A corpus game does not compile.
+    #[error("the corpus game `{name}` does not compile: {problems}")]
+    BrokenCorpus {
+        /// The game.
+        name: String,
+        /// The diagnostics of the compiler.
+        problems: engine::Diagnostics,
+    },
+    /// The criteria are invalid.
+    #[error("`criteria.{}` {}", .0.key, .0.message)]
+    Criteria(#[from] CriteriaError),
+    /// A job's result is not in the store.
+    #[error("the job `{0}` is missing: mint it again")]
+    Missing(String),
+    /// A job's result holds something that is no game, or not the one that its card describes.
+    #[error("the job `{0}` holds a game that is not one: mint it again")]
+    Unsound(String),
+    /// Too few candidates passed.
+    #[error("`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); {advice}")]
+    TooFew {
+        /// The part of the recipe.
+        part: &'static str,
+        /// The number that the recipe asks for.
+        asked: usize,
+        /// The number of candidates that passed and are no copies.
+        there: usize,
+        /// The reasons why the others failed, or the games that they copy.
+        why: String,
+        /// The next move.
+        advice: String,
+    },
+    /// The recipe asks for more games than can be made, as is known before anything is minted.
+    #[error("`{part}.games` is {asked}, but at most {most} can be made: {why}; {advice}")]
+    Unfillable {
+        /// The part of the recipe.
+        part: &'static str,
+        /// The number that the recipe asks for.
+        asked: usize,
+        /// The maximum number.
+        most: usize,
+        /// The limit.
+        why: String,
+        /// The next move.
+        advice: String,
+    },
+    /// No selection of candidates meets the quotas.
+    #[error("no selection of {candidates} candidates meets the recipe: {missed}; {advice}")]
+    Uneven {
+        /// The number of candidates.
+        candidates: usize,
+        /// The requirements that the nearest selection misses.
+        missed: String,
+        /// The next move.
+        advice: String,
+    },
+    /// The marks of a game cannot be played.
+    #[error("marks: {0}")]
+    Marks(String),
+    /// The files or the manifest cannot be made.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// Receives the progress of minting, from several threads.
+pub trait Progress: Sync {
+    /// Called at the start with the number of jobs, and the number of those that are already done.
+    fn begin(&self, _jobs: usize, _made: usize) {}
+    /// Called when a job is done.
+    fn made(&self, _name: &str, _games: &[FrozenGame]) {}
+}
+
+impl Progress for () {}
+
+/// Runs the jobs whose results are not in the store yet. Cost: minutes for tens of games, on all threads of the
+/// current rayon pool.
+///
+/// # Errors
+/// The criteria are invalid, or a result cannot be stored.
+pub fn make_jobs(
+    plan: &Plan<'_>,
+    jobs: &[Job],
+    store: &dyn JobStore,
+    progress: &dyn Progress,
+) -> Result<(), MintError> {
+    let mut open = Vec::new();
+    for &job in jobs {
+        if store.get(&plan.name(job))?.is_none() {
+            open.push(job);
+        }
+    }
+    progress.begin(jobs.len(), jobs.len() - open.len());
+    let make = |&job: &Job| {
+        let result = plan.make(job)?;
+        let name = plan.name(job);
+        store.put(&name, &result)?;
+        progress.made(&name, &result.games);
+        Ok(())
+    };
+    // Long jobs first, one by one: a thread takes the next when it is free.
+    open.par_iter().with_max_len(1).try_for_each(make)
+}
+
+/// Selects the games of a release from the results of all jobs, and passes its files to the sink. Memory: the metadata
+/// of the games, not the games.
+///
+/// # Errors
+/// A job's result is missing or unsound, the candidates do not meet the recipe's demands, or the sink fails.
+pub fn lay_out(
+    plan: &Plan<'_>,
+    secret: Option<&Secret>,
+    store: &dyn JobStore,
+    lockfile: Digest,
+    sink: &mut Sink<'_>,
+) -> Result<Minted, MintError> {
+    let job = |at: usize| {
+        let name = plan.name(plan.jobs()[at]);
+        store.get(&name)?.ok_or(MintError::Missing(name))
+    };
+    let mut contenders = Vec::new();
+    let (mut tally, mut of_corpus) = (Tally::default(), Tally::default());
+    for at in plan.in_order() {
+        let JobResult { games, tally: spent } = job(at)?;
+        for (number, game) in games.iter().enumerate() {
+            let unsound = || MintError::Unsound(plan.name(plan.jobs()[at]));
+            let part = Part::of(plan.jobs()[at]);
+            contenders.push(Contender::of(part, (at, number), game).ok_or_else(unsound)?);
+        }
+        match plan.jobs()[at] {
+            Job::Corpus(_) => of_corpus.add(&spent),
+            _ => tally.add(&spent),
+        }
+    }
+    let taken = select(plan, &contenders, [&of_corpus, &tally])?;
+    tally.add(&of_corpus);
+    let mut folder = folder::Folder::new(plan, sink);
+    for &taken in &taken {
+        let Contender { job: of, at, .. } = contenders[taken];
+        // Without the steps from the secret to its seed, no witness could be checked after the reveal.
+        let is_traced = |game: &FrozenGame| {
+            let of_seconds = game.seconds.iter().flatten().map(|second| &second.path);
+            !(plan.is_sealed() && game.paths.iter().chain(of_seconds).any(Vec::is_empty))
+        };
+        let game = job(of)?.games.into_iter().nth(at).filter(is_traced);
+        folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.jobs()[of])))?)?;
+    }
+    let card = ReleaseCard::of(plan, &contenders, &taken, &folder.cards, tally);
+    let (manifest, cards) = folder.finish(plan.recipe, secret, lockfile, &card)?;
+    Ok(Minted { manifest, cards, card })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::corpus::{Corpus, CorpusCard, CorpusGame};
+    use crate::recipe::Recipe;
+    use forge::card::Origin;
+    use forge::games::{GameEffort, GameOrder, make_games};
+    use forge::levels::Method;
+    use generators::games::Kind;
+
+    /// A game of fetching the gem and leaving before time is up.
+    pub(super) const FETCH: &str = "BasicGame
+    SpriteSet
+        floor > Immovable
+        wall > Immovable
+        gem > Immovable color=YELLOW
+        exit > Door color=GREEN
+        avatar > MovingAvatar
+    LevelMapping
+        . > floor
+        w > floor wall
+        g > floor gem
+        e > floor exit
+        A > floor avatar
+    InteractionSet
+        avatar wall > stepBack
+        gem avatar > killSprite scoreChange=1
+        exit avatar > killSprite
+    TerminationSet
+        MultiSpriteCounter stype1=gem stype2=exit limit=0 win=True
+        Timeout limit=50 win=False
+";
+
+    pub(super) fn corpus(sources: &[(&str, &str)]) -> Corpus {
+        let game = |&(name, source): &(&str, &str)| {
+            let words = || name.to_owned();
+            let card = CorpusCard {
+                title: words(),
+                description: words(),
+                goal: words(),
+                kind: words(),
+                real_time: false,
+                skill: words(),
+                levels: Vec::new(),
+            };
+            CorpusGame { name: words(), source: source.to_owned(), levels: Vec::new(), card }
+        };
+        Corpus { games: sources.iter().map(game).collect() }
+    }
+
+    /// A recipe for one corpus game with one level.
+    pub(super) fn recipe(seed: &str) -> Recipe {
+        let text = format!(
+            "name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[corpus]\ngames = 1\nlevels = 1\n\
+             [criteria]\nask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\n"
+        );
+        Recipe::from_toml(&text).unwrap()
+    }
+
+    fn minted(recipe: &Recipe, corpus: &Corpus) -> Result<Minted, MintError> {
+        let plan = Plan::new(recipe, None, corpus)?;
+        let store = Memory::default();
+        make_jobs(&plan, plan.jobs(), &store, &())?;
+        lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(()))
+    }
+
+    /// Puzzles are of the tiers that the recipe asks for, told in the cards; witnesses have a traced seed.
+    #[test]
+    fn puzzles_are_minted_to_tiers() {
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'tiers'\n[puzzles]\ngames = 1\nlevels = 2\n\
+                    level_tries = 12\ncandidates = 1.0\ncolumns = [8, 9]\nrows = [8, 8]\n[locks]\ngames = 1\nlevels = 1\n\
+                    level_tries = 12\ncandidates = 1.0\ncolumns = [9, 9]\nrows = [8, 9]\n[yards]\ngames = 1\nlevels = 1\n\
+                    level_tries = 12\ncandidates = 1.0\ncolumns = [9, 9]\nrows = [9, 9]\n[strays]\ngames = 1\nlevels = 1\n\
+                    level_tries = 12\ncandidates = 1.0\ncolumns = [9, 9]\nrows = [9, 9]\n[tiers]\n2 = 1.0\n[criteria]\n\
+                    ask = ['not-idle', 'not-random', 'winnable']\nbudget = 1000000\nshortest = 1.0\nmcts_plays = 1\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let store = Memory::default();
+        make_jobs(&plan, plan.jobs(), &store, &()).unwrap();
+        for &job in plan.jobs() {
+            let game = &store.get(&plan.name(job)).unwrap().unwrap().games[0];
+            assert!(game.paths.iter().all(|path| !path.is_empty()), "{job:?}");
+        }
+        let Minted { cards, card, .. } = minted(&recipe, &corpus).unwrap();
+        assert_eq!((cards.len(), card.tiers.get("2")), (4, Some(&5)));
+        assert!(cards[0].origin.mechanics().iter().all(|name| name.starts_with("puzzle/")));
+        for (card, level) in cards.iter().flat_map(|card| card.levels.iter().map(move |level| (card, level)))
+        {
+            let demand = level.demand.as_ref().unwrap();
+            assert_eq!((level.tier, demand.ticks), (Some(demand.tier()), level.witness_ticks));
+            assert!((20..50).contains(&demand.decisions), "{demand:?}");
+            assert_eq!(demand.shortest, card.deterministic, "{demand:?}");
+        }
+    }
+
+    #[test]
+    fn a_corpus_game_without_new_levels_makes_room_for_the_next_of_the_draw() {
+        let hopeless = FETCH
+            .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
+            .replace("exit avatar > killSprite", "avatar exit > stepBack");
+        let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
+        // Either may be drawn first: both orders occur.
+        let mut first = Vec::new();
+        for seed in ["a", "b", "c", "d", "e", "f"] {
+            let recipe = recipe(seed);
+            first.push(Plan::new(&recipe, None, &corpus).unwrap().jobs()[0]);
+            let minted = minted(&recipe, &corpus).unwrap();
+            let origins: Vec<&Origin> = minted.cards.iter().map(|card| &card.origin).collect();
+            assert_eq!(origins, [&Origin::Corpus { name: "fetch".to_owned() }]);
+        }
+        assert!(first.contains(&Job::Corpus(0)) && first.contains(&Job::Corpus(1)), "{first:?}");
+    }
+
+    /// Otherwise a sealed release could not show that its witnesses were played under its secret.
+    #[test]
+    fn every_way_of_making_games_leaves_a_way_from_the_seed_to_the_witness() {
+        let check = |root: engine::Seed, game: &FrozenGame| {
+            let step =
+                |seed: engine::Seed, (purpose, index): &forge::games::Step| seed.child(purpose, *index);
+            assert_eq!(game.paths.len(), game.witnesses.len());
+            for (path, witness) in game.paths.iter().zip(&game.witnesses) {
+                assert_eq!(path.iter().fold(root, step), witness.seed, "{path:?}");
+            }
+        };
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\nkinds = ['key-and-door']\nleast_interactions = 3\n\
+            least_mechanics = 1\ncandidates = 1.0\n[corpus]\ngames = 1\nlevels = 2\n[criteria]\n\
+            ask = ['not-idle', 'not-random', 'winnable']\nbudget = 100000\ndecision = 50\nmcts_plays = 1\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[("fetch", FETCH)]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        for &job in plan.jobs() {
+            let games = plan.make(job).unwrap().games;
+            assert_eq!(games.len(), 1, "{job:?}");
+            check(plan.seed, &games[0]);
+        }
+        // Where tiers are measured, shorter wins of stochastic levels take the place of witnesses.
+        let moths = FETCH
+            .replace("avatar > MovingAvatar", "moth > RandomNPC color=GRAY\n        avatar > MovingAvatar")
+            .replace("A > floor avatar", "m > floor moth\n        A > floor avatar")
+            .replace(
+                "avatar wall > stepBack",
+                "avatar wall > stepBack\n        moth wall > stepBack\n        avatar moth > killSprite",
+            )
+            .replace("Timeout", "SpriteCounter stype=avatar win=False\n        Timeout")
+            .replace("limit=50", "limit=200");
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'm'\n[corpus]\ngames = 1\nlevels = 4\n[tiers]\n1 = 1.0\n[criteria]\n\
+            ask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\ndecision = 20\nmcts_plays = 1\n";
+        let tiers = Recipe::from_toml(text).unwrap();
+        let corpus = self::corpus(&[("moths", &moths)]);
+        let plan = Plan::new(&tiers, None, &corpus).unwrap();
+        let games = plan.make(plan.jobs()[0]).unwrap().games;
+        check(plan.seed, &games[0]);
+        let is_shorter =
+            |path: &Vec<forge::games::Step>| path.iter().any(|(purpose, _)| purpose == "shorter win");
+        assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
+        for method in [Method::Search, Method::Evolutionary] {
+            let order = GameOrder::new(method, 1);
+            let order = GameOrder {
+                kinds: vec![Kind::KeyAndDoor],
+                levels: 1,
+                least_interactions: 3,
+                least_mechanics: 1,
+                criteria: recipe.criteria.clone(),
+                effort: GameEffort { looks: 6, ..order.effort },
+                ..order
+            };
+            let made = make_games(&order, &[], "", plan.seed, &()).unwrap().games;
+            made.into_iter().for_each(|made| {
+                check(plan.seed, &FrozenGame::of(made, plan.seed, &[], &recipe.criteria, false))
+            });
+        }
+    }
+
+    /// The estimate of a dry run is within a quarter of the measurement on the page.
+    #[test]
+    fn estimates_are_near_to_what_was_measured() {
+        let page = include_str!("../../../../docs/recipes.md");
+        let (_, rows) = page.split_once("| recipe | measured, in seconds of one core |").unwrap();
+        let measured = |name: &str| -> f64 {
+            let row = rows.lines().find_map(|row| row.strip_prefix(&format!("| `{name}` | "))).unwrap();
+            row.split(' ').next().unwrap().parse().unwrap()
+        };
+        let names: Vec<String> = (0..28).map(|number| format!("game-{number}")).collect();
+        let games: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), FETCH)).collect();
+        let corpus = corpus(&games);
+        for (name, text) in [
+            ("tiny", include_str!("../../../../seeds/tiny.toml")),
+            ("starter", include_str!("../../../../seeds/starter.toml")),
+            ("medium", include_str!("../../../../seeds/medium.toml")),
+            ("2026-12", include_str!("../../../../seeds/2026-12.toml")),
+        ] {
+            let recipe = Recipe::from_toml(text).unwrap();
+            let plan = Plan::new(&recipe, None, &corpus).unwrap();
+            let Forecast { median, tail } = plan.forecast(plan.jobs());
+            let ratio = median / measured(name);
+            assert!((0.75..=1.25).contains(&ratio), "{name}: {ratio} of what was measured");
+            assert!(tail > measured(name), "{name}: {tail}");
+        }
+    }
+
+    /// Five mints of a recipe without a `[criteria]` took 19 to 99 seconds of one core: the median is among them, and the tail beyond.
+    #[test]
+    fn a_forecast_covers_what_other_seeds_cost() {
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 6\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let Forecast { median, tail } = plan.forecast(plan.jobs());
+        assert!((26.0..=52.0).contains(&median) && (80.0..=200.0).contains(&tail), "{median} {tail}");
+        // What is left of a mint is a part of it, and less of a sum is less certain.
+        let left = plan.forecast(&plan.jobs()[..2]);
+        assert!(left.median < median / 3.0 && left.tail / left.median > tail / median, "{left:?}");
+        assert_eq!(plan.forecast(&[]), Forecast { median: 0.0, tail: 0.0 });
+    }
+
+    /// A committed recipe cannot be changed any more, so a recipe that cannot be filled is refused before.
+    #[test]
+    fn recipes_that_cannot_be_filled_are_refused() {
+        let check = |generated: &str, expect: Option<&str>| {
+            let text = format!("name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\n{generated}\n");
+            let recipe = Recipe::from_toml(&text).unwrap();
+            let corpus = corpus(&[]);
+            let supply = Plan::new(&recipe, None, &corpus).unwrap().supply();
+            match expect {
+                None => assert!(supply.is_ok(), "{generated}: {supply:?}"),
+                Some(words) => {
+                    let error = supply.unwrap_err().to_string();
+                    assert!(error.contains(words), "{error}");
+                }
+            }
+        };
+        check("games = 6", None);
+        check("games = 3\nkinds = ['rescue']", None);
+        check(
+            "games = 40\nkinds = ['rescue']",
+            Some("sets of rules of the kinds rescue; lower `generated.games`"),
+        );
+        check("games = 600", Some("`generated.games` is 600, but at most "));
+    }
+
+    #[test]
+    fn a_broken_game_of_the_corpus_is_told() {
+        let corpus = corpus(&[("fetch", FETCH), ("torn", "BasicGame\n    SpriteSet\n")]);
+        let error = minted(&recipe("a"), &corpus).unwrap_err();
+        assert!(matches!(&error, MintError::BrokenCorpus { name, .. } if name == "torn"), "{error}");
+    }
+
+    #[test]
+    fn too_few_candidates_are_told_with_what_stood_in_their_way() {
+        let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
+        let error = minted(&recipe("a"), &corpus(&[("hopeless", &hopeless)])).unwrap_err().to_string();
+        assert!(
+            error.contains(
+                "`corpus.games` is 1, but only 0 candidates can be taken (96 failed `winnable`, 8 without level 0)"
+            ),
+            "{error}"
+        );
+    }
+
+    /// A commitment covers the recipe, so nobody can raise a number in it and go on.
+    #[test]
+    fn a_sealed_recipe_that_falls_short_is_committed_to_again() {
+        let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
+        let mut recipe = Recipe { seed: None, ..recipe("a") };
+        let secret = Secret::draw(&recipe.name, recipe.committed(), [7; 64]);
+        recipe.commitment = Some(secret.commitment());
+        let corpus = corpus(&[("hopeless", &hopeless)]);
+        let plan = Plan::new(&recipe, Some(&secret), &corpus).unwrap();
+        let store = Memory::default();
+        make_jobs(&plan, plan.jobs(), &store, &()).unwrap();
+        let laid = lay_out(&plan, Some(&secret), &store, Digest::of(b""), &mut |_, _| Ok(()));
+        let error = laid.unwrap_err().to_string();
+        assert!(error.contains("--commit") && !error.contains("--resume"), "{error}");
+    }
+
+    /// More jobs would make nothing, either.
+    #[test]
+    fn no_rules_left_is_told_with_another_advice_than_more_candidates() {
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let store = Memory::default();
+        let mut tally = Tally::default();
+        tally.rejections.insert(forge::games::NO_RULES.to_owned(), 1);
+        for &job in plan.jobs() {
+            let result = JobResult { games: Vec::new(), tally: tally.clone() };
+            store.put(&plan.name(job), &result).unwrap();
+        }
+        let error =
+            lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(())).unwrap_err().to_string();
+        assert!(error.contains("lower `generated.games`") && !error.contains("raise"), "{error}");
+    }
+
+    /// Stored results are not computed again, and the bytes are the same.
+    #[test]
+    fn a_mint_goes_on_from_what_is_on_the_shelf() {
+        struct Count(std::sync::Mutex<Vec<String>>);
+        impl Progress for Count {
+            fn made(&self, name: &str, _: &[FrozenGame]) {
+                self.0.lock().unwrap().push(name.to_owned());
+            }
+        }
+        let corpus = corpus(&[("fetch", FETCH), ("gather", &FETCH.replace("limit=50", "limit=60"))]);
+        let recipe = recipe("a");
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let store = Memory::default();
+        make_jobs(&plan, &plan.jobs()[..1], &store, &()).unwrap();
+        let count = Count(std::sync::Mutex::default());
+        make_jobs(&plan, plan.jobs(), &store, &count).unwrap();
+        assert_eq!(count.0.into_inner().unwrap(), [plan.name(plan.jobs()[1])]);
+        let resumed = lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(())).unwrap();
+        assert_eq!(resumed.manifest.root, minted(&recipe, &corpus).unwrap().manifest.root);
+    }
+}

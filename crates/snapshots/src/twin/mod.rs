@@ -1,0 +1,252 @@
+//! Twins of games: the same mechanics under another theme, to test whether a model remembers or understands ([the
+//! properties of each](../../../../docs/twins.md)).
+
+mod mirrored;
+mod released;
+
+pub use released::of_released;
+
+use engine::describe::Guide;
+
+use engine::{Action, Analysis, Description, Diagnostics, Episode, Game, Level, Outcome, Seed, syntax};
+use generators::GenerateError;
+use generators::games::{Masked, Rethemed};
+use std::fmt;
+use std::str::FromStr;
+
+engine::named_enum! {
+    /// The kind of a twin: the change of the surface.
+    pub enum Twin {
+        /// Names and level characters no longer carry meaning.
+        Masked = "masked",
+        /// The board is reflected left to right, together with every direction in the rules.
+        Mirrored = "mirrored",
+        /// The game has another theme.
+        Renamed = "renamed",
+        /// The renaming that a coin withheld until the reveal ([`crate::memory`]).
+        Sibling = "sibling",
+    }
+}
+
+impl fmt::Display for Twin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Twin {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Twin, String> {
+        let found = Twin::ALL.into_iter().find(|kind| kind.name() == text);
+        found.ok_or_else(|| format!("there is no twin `{text}`: choose masked, mirrored, renamed or sibling"))
+    }
+}
+
+/// A game under another surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TwinGame {
+    /// The rules, headed by title and canary.
+    pub text: String,
+    /// The levels, in the order of the original.
+    pub levels: Vec<String>,
+    /// For each level an episode that wins it; `None` if there was none, or if the original's actions do not win here
+    /// and no other win was found.
+    pub witnesses: Vec<Option<Episode>>,
+    /// The title.
+    pub title: String,
+    /// A description of the player and more, as far as the surface reveals it.
+    pub description: String,
+    /// The goal, in one sentence.
+    pub goal: String,
+}
+
+/// The reasons why a game has no twin.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TwinError {
+    /// The text is no game.
+    #[error("not a game: {0}")]
+    Game(Diagnostics),
+    /// A level does not belong to the game.
+    #[error("lvl{number}.txt is not a level of this game: {problems}")]
+    Level {
+        /// The number of the level, from 0.
+        number: usize,
+        /// The diagnostics.
+        problems: Diagnostics,
+    },
+    /// The rules cannot be mirrored faithfully.
+    #[error("the game cannot be mirrored: {0}")]
+    Unmirrorable(String),
+    /// No coin withheld one, or it was not revealed.
+    #[error("it has no sibling, or none that was revealed")]
+    NoSibling,
+    /// There is no other theme.
+    #[error(transparent)]
+    NoTheme(#[from] GenerateError),
+}
+
+/// Makes the twin of a game: the same mechanics, level by level. `witnesses` are episodes that win the levels, in the
+/// order of the levels; they may be fewer. The same arguments give the same twin. Cost: well under a second, unless a
+/// witness must be searched for.
+///
+/// # Errors
+/// The rules or the levels do not load, or the game has no twin of this kind.
+pub fn of_game(
+    kind: Twin,
+    source: &str,
+    levels: &[String],
+    witnesses: &[Episode],
+) -> Result<TwinGame, TwinError> {
+    let known = (0..levels.len()).map(|number| witnesses.get(number)).collect();
+    of_levels(kind, source, levels, known)
+}
+
+/// Makes the twin like [`of_game`], but any level may lack a witness.
+fn of_levels(
+    kind: Twin,
+    source: &str,
+    levels: &[String],
+    witnesses: Vec<Option<&Episode>>,
+) -> Result<TwinGame, TwinError> {
+    let original = Original::load(source, levels, witnesses)?;
+    match kind {
+        Twin::Masked => original.masked(),
+        Twin::Mirrored => mirrored::twin(&original),
+        Twin::Renamed => original.renamed(original.seed(Twin::Renamed)).map(|(twin, _)| twin),
+        Twin::Sibling => Err(TwinError::NoSibling),
+    }
+}
+
+/// Makes a renamed twin by a seed of the caller's, instead of one that everybody knows. Returns the name of its theme, too.
+pub(crate) fn renamed(
+    source: &str,
+    levels: &[String],
+    witnesses: &[Episode],
+    seed: Seed,
+) -> Result<(TwinGame, &'static str), TwinError> {
+    let known = (0..levels.len()).map(|number| witnesses.get(number)).collect();
+    Original::load(source, levels, known)?.renamed(seed)
+}
+
+/// The original of a twin.
+struct Original<'a> {
+    game: Game,
+    /// The canonical texts.
+    levels: Vec<String>,
+    /// One entry per level.
+    witnesses: Vec<Option<&'a Episode>>,
+}
+
+impl<'a> Original<'a> {
+    /// Loads a game with one witness, or none, for each level.
+    fn load(
+        source: &str,
+        levels: &[String],
+        witnesses: Vec<Option<&'a Episode>>,
+    ) -> Result<Original<'a>, TwinError> {
+        let game = Game::from_source(source).map_err(TwinError::Game)?;
+        let canonical = |(number, level): (usize, &String)| {
+            let level = game.level(level).map_err(|problems| TwinError::Level { number, problems })?;
+            Ok(level.to_string())
+        };
+        let levels = levels.iter().enumerate().map(canonical).collect::<Result<_, TwinError>>()?;
+        Ok(Original { game, levels, witnesses })
+    }
+
+    /// The seed for the draws of a twin, which depends on nothing but the game.
+    fn seed(&self, kind: Twin) -> Seed {
+        Seed::from_text(&format!("twin {} of {}", kind.name(), self.game.digest()))
+    }
+
+    /// The title that releases write above the rules.
+    fn title(&self) -> Option<String> {
+        let comments = self.game.description().header.trivia.above.iter().map(|line| line.trim());
+        comments.filter(|line| !line.is_empty() && !line.starts_with(CANARY)).map(str::to_owned).next()
+    }
+
+    fn masked(&self) -> Result<TwinGame, TwinError> {
+        let masked = Masked::of(self.game.description(), self.seed(Twin::Masked));
+        let levels = self.levels.iter().map(|level| masked.level(level)).collect();
+        let mut made = Made::of(self, masked.description(), levels, |action| action)?;
+        made.twin.title = made.plain_title();
+        Ok(made.headed(self))
+    }
+
+    fn renamed(&self, seed: Seed) -> Result<(TwinGame, &'static str), TwinError> {
+        let rethemed = Rethemed::of(&self.game, seed)?;
+        let levels = self.levels.iter().map(|level| rethemed.level(level)).collect();
+        let mut made = Made::of(self, &rethemed.description, levels, |action| action)?;
+        made.twin.title = rethemed.title;
+        made.twin.description = rethemed.summary;
+        made.twin.goal = rethemed.goal;
+        Ok((made.headed(self), rethemed.theme))
+    }
+}
+
+/// The beginning of comments that mark a text as excluded from training.
+const CANARY: &str = "canary ";
+
+/// A twin without its title and text, and its compiled game.
+struct Made {
+    twin: TwinGame,
+    game: Game,
+}
+
+impl Made {
+    /// Makes a twin from rules in which the image of an action has the effect of the action.
+    fn of(
+        original: &Original<'_>,
+        rules: &Description,
+        levels: Vec<String>,
+        image: fn(Action) -> Action,
+    ) -> Result<Made, TwinError> {
+        // Compiled from the printed text, so that the played game is the frozen one.
+        let game = Game::from_source(&syntax::print_bare(rules)).map_err(TwinError::Game)?;
+        let mut witnesses = Vec::new();
+        for (number, text) in levels.iter().enumerate() {
+            let level = game.level(text).map_err(|problems| TwinError::Level { number, problems })?;
+            let known = original.witnesses[number];
+            let again = |known: &Episode| replayed(&game, &level, known.seed, &known.actions, image);
+            witnesses.push(known.and_then(again));
+        }
+        let guide = Guide::from_analysis(&Analysis::of(&game));
+        let (description, goal) = (guide.controls.join(" "), guide.goal());
+        let twin =
+            TwinGame { text: String::new(), levels, witnesses, title: String::new(), description, goal };
+        Ok(Made { twin, game })
+    }
+
+    /// A title without meaning.
+    fn plain_title(&self) -> String {
+        format!("Game {}", self.game.digest().short())
+    }
+
+    /// Adds the text: headed by the title, and by the canary of the original if it has one.
+    fn headed(self, original: &Original<'_>) -> TwinGame {
+        let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
+        let canaries = comments.filter(|line| line.starts_with(CANARY));
+        let mut tree = self.game.description().clone();
+        let above = [self.twin.title.as_str()].into_iter().chain(canaries);
+        tree.header.trivia.above = above.map(str::to_owned).collect();
+        TwinGame { text: syntax::print(&tree), ..self.twin }
+    }
+}
+
+/// The episode of the images of some actions; `None` if it does not win.
+fn replayed(
+    game: &Game,
+    level: &Level,
+    seed: Seed,
+    actions: &[Action],
+    image: fn(Action) -> Action,
+) -> Option<Episode> {
+    let (mut episode, mut state) = Episode::begin(game, level, seed);
+    for &action in actions {
+        if episode.play(game, &mut state, image(action)) != Outcome::Ongoing {
+            break;
+        }
+    }
+    (episode.outcome == Outcome::Won).then_some(episode)
+}

@@ -1,0 +1,114 @@
+//! `cargo xtask instructions`: tests whether a step has become slower. It counts instructions instead of time: the
+//! counts are the same on a busy machine, so a change of a few per cent is visible.
+
+use crate::episode_run::{Subject, subjects};
+use anyhow::{Context, bail};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+/// Counts the instructions per tick for the games of a folder, and compares them with a file.
+///
+/// Needs valgrind; without it, or if the expected counts are for another compiler, reports that and passes: another
+/// compiler emits other instructions. The recorded counts are those of the development profile, as CI tests it: build with
+/// CARGO_INCREMENTAL=0, and after an update of the toolchain rewrite the file with --bless.
+///
+/// Example: CARGO_INCREMENTAL=0 cargo run --locked --package xtask -- instructions
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folder of game folders
+    #[arg(long, value_name = "DIR", default_value = "corpora")]
+    games: PathBuf,
+    /// The expected counts: a CSV with the columns game and instructions_per_tick
+    #[arg(long, value_name = "FILE", default_value = "tools/xtask/instructions.csv")]
+    expected: PathBuf,
+    /// Tolerated increase of the cost of a tick, in per cent
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
+    tolerance: f64,
+    /// Write the file instead
+    #[arg(long)]
+    bless: bool,
+    /// Count every one in so many games only
+    #[arg(long, value_name = "NUMBER", default_value = "1", conflicts_with = "bless")]
+    every: NonZeroUsize,
+}
+
+/// The number of ticks that are counted.
+const TICKS: u64 = 1000;
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let count =
+        |subject: Subject| Ok(per_tick(&args.games, &subject.name)?.map(|count| (subject.name, count)));
+    let counts: anyhow::Result<Option<BTreeMap<String, u64>>> =
+        subjects(&args.games, &[])?.into_par_iter().step_by(args.every.get()).map(count).collect();
+    let Some(counts) = counts? else {
+        println!("SKIPPED: valgrind is not installed, no instructions are counted");
+        return Ok(());
+    };
+    let path = args.expected.display();
+    let compiler = compiler()?;
+    if args.bless {
+        let mut csv = format!("# {compiler}\ngame,instructions_per_tick\n");
+        for (name, count) in &counts {
+            writeln!(csv, "{name},{count}")?;
+        }
+        return fs::write(&args.expected, csv).with_context(|| path.to_string());
+    }
+    let text = fs::read_to_string(&args.expected).with_context(|| path.to_string())?;
+    let known = text.lines().next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default();
+    if known != compiler {
+        println!("SKIPPED: {path} was recorded with {known}; this is {compiler}");
+        return Ok(());
+    }
+    let mut slower = false;
+    for line in text.lines().skip(2).step_by(args.every.get()) {
+        let (name, expected) =
+            line.split_once(',').with_context(|| format!("{path}: `{line}` is not a row"))?;
+        let expected: u64 =
+            expected.parse().with_context(|| format!("{path}: `{line}` contains no number"))?;
+        let count = *counts.get(name).with_context(|| format!("{path}: there is no game `{name}`"))?;
+        let change = 100.0 * (count as f64 / expected as f64 - 1.0);
+        println!("{name}: {count} instructions a tick, expected {expected} ({change:+.1} %)");
+        slower |= change > args.tolerance;
+    }
+    if slower {
+        bail!(
+            "a tick costs over {} % more than {path} says; if that is intended, run this with --bless",
+            args.tolerance
+        );
+    }
+    Ok(())
+}
+
+fn compiler() -> anyhow::Result<String> {
+    let output = Command::new("rustc").arg("--version").output().context("rustc --version")?;
+    Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+/// The instructions of a warm tick of a game's level 0, including the hash; `None` without valgrind.
+pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"])
+        .arg("--toggle-collect=*play_measured*")
+        .arg(env::current_exe()?)
+        .arg("bench")
+        .arg("--games")
+        .arg(games)
+        .args(["--game", name, "--ticks", &TICKS.to_string()])
+        .output();
+    let output = match output {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        output => output.context("valgrind")?,
+    };
+    let text = String::from_utf8_lossy(&output.stderr);
+    let collected =
+        text.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse::<u64>().ok());
+    // An interrupted run ends in a count of 0, which is less than any expected one.
+    let collected = collected.filter(|&count| count > 0 && output.status.success());
+    let collected = collected.with_context(|| format!("{name}: valgrind reported no count:\n{text}"))?;
+    Ok(Some(collected / TICKS))
+}
