@@ -3,9 +3,9 @@
 //! The interaction still takes place and draws the same random numbers as before, but has no consequences. An episode of
 //! the two games is therefore the same up to the first consequence: the random stream does not shift.
 
-use crate::Digest;
 use crate::game::Game;
 use crate::rules::{EffectInfo, Rules};
+use base::Digest;
 use std::sync::OnceLock;
 
 impl Game {

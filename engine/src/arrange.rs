@@ -4,8 +4,8 @@ use crate::game::Game;
 use crate::geometry::Direction;
 use crate::level::Level;
 use crate::rules::SpriteType;
-use crate::seed::Seed;
 use crate::state::State;
+use base::Seed;
 
 impl Game {
     /// [`Game::start`] with the avatar facing `facing` and holding some resources: for players that reconstruct a

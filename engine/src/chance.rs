@@ -2,6 +2,8 @@
 //! (`spec/01` §7.1; the algorithm is the published one of `java.util.Random`).
 
 use crate::flat::bytes_of_wrapper;
+use base::Seed;
+
 const MULTIPLIER: u64 = 0x5_DEEC_E66D;
 const MASK: u64 = (1 << 48) - 1;
 /// Bits of a draw of [`Chance::float`].
@@ -14,6 +16,11 @@ pub struct Chance(pub(crate) u64);
 bytes_of_wrapper! { Chance }
 
 impl Chance {
+    /// The generator for an episode with this seed (`spec/01` §7).
+    pub fn from_seed(seed: Seed) -> Chance {
+        Chance::from_java(seed.number("infinite-arcade 1 chance"))
+    }
+
     /// The generator that the reference makes from a seed, as traces record it.
     pub fn from_java(seed: i64) -> Chance {
         Chance((seed as u64 ^ MULTIPLIER) & MASK)
@@ -63,6 +70,13 @@ impl Chance {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A golden vector: if it changes, the games of all releases are played with other randomness.
+    #[test]
+    fn the_randomness_of_a_seed_is_frozen() {
+        let seed = Seed::from_text("starter").child("game", 7);
+        assert_eq!(Chance::from_seed(seed).state(), 149_835_684_101_585);
+    }
 
     /// The vector of `spec/01` §7.1.
     #[test]

@@ -3,7 +3,8 @@
 use crate::game::Game;
 use crate::level::Level;
 use crate::rules::{Action, Outcome};
-use crate::{Digest, Seed, State, StateHash};
+use crate::{State, StateHash};
+use base::{Digest, Seed};
 use serde::{Deserialize, Serialize};
 
 /// The actions of an episode and their results. It serves as a validator's witness, an evaluation's log and a golden

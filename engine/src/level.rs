@@ -1,12 +1,12 @@
 //! A level: a grid of characters, checked against one game's LevelMapping (`spec/01` §2).
 
-use crate::Digest;
 use crate::compile::{Outline, missing_image, outline};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span};
 use crate::game::Game;
 use crate::limits::{MAX_ATTEMPTS, MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
 use crate::rules::{Aliases, SpriteType};
 use crate::syntax::BYTE_ORDER_MARK;
+use base::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 

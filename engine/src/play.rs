@@ -5,15 +5,15 @@ use crate::game::{Compiled, Game};
 use crate::level::Level;
 use crate::rules::{Action, Outcome};
 use crate::schedule::{Foresight, Schedule};
-use crate::seed::Seed;
 use crate::state::State;
 use crate::tick::{Step, Unscheduled, Watch};
 use crate::world::{Timer, World};
+use base::Seed;
 
 impl Game {
     /// The state before the first tick. The seed affects only the game's random numbers.
     pub fn start(&self, level: &Level, seed: Seed) -> State {
-        self.start_with(level, seed.chance())
+        self.start_with(level, Chance::from_seed(seed))
     }
 
     /// [`Game::start`] with a given random number generator, such as a trace's.

@@ -58,9 +58,9 @@ impl State {
     }
 
     /// Copies the state with another random future: for planners, which must not foresee random events.
-    pub fn fork(&self, seed: crate::Seed) -> State {
+    pub fn fork(&self, seed: base::Seed) -> State {
         let mut state = self.clone();
-        state.world.reseed(seed.chance(), seed.child("jumps", 0).chance());
+        state.world.reseed(Chance::from_seed(seed), Chance::from_seed(seed.child("jumps", 0)));
         state
     }
 

@@ -1,7 +1,8 @@
 //! Writes the game of a kernel file, in a scene or under the names of its types, and levels of its course:
 //! `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants] [--form=NAME] [--scene=NAME]`.
 
-use engine::{Game, Seed};
+use base::Seed;
+use engine::Game;
 use infinite_arcade_generators::kernels::{Slot, preview};
 use std::error::Error;
 use std::fs;

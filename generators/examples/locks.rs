@@ -5,7 +5,8 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "a program")]
 
-use engine::{Seed, syntax};
+use base::Seed;
+use engine::syntax;
 use infinite_arcade_generators::games::LockRules;
 use infinite_arcade_generators::levels::LockConfig;
 use std::fs;

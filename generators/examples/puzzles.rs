@@ -6,7 +6,8 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "a program")]
 
-use engine::{Seed, syntax};
+use base::Seed;
+use engine::syntax;
 use infinite_arcade_generators::games::PushRules;
 use infinite_arcade_generators::levels::{
     LevelConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation, StrayConfig, StrayLevels,

@@ -7,7 +7,8 @@
 //! `LEAST` and `MOST` are the keys of a fastest win, at least and fewer than.
 #![allow(clippy::print_stdout, reason = "a program")]
 
-use engine::{Seed, syntax};
+use base::Seed;
+use engine::syntax;
 use infinite_arcade_generators::games::YardRules;
 use infinite_arcade_generators::levels::YardConfig;
 use std::fs;

@@ -1,7 +1,7 @@
 //! Simulated annealing: a few chains of candidates that accept fewer and fewer worsenings as the search proceeds.
 
 use crate::{Evaluation, Search, Variation};
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 

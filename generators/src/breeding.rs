@@ -1,7 +1,7 @@
 //! Creation and breeding of candidates for populations and archives, without proposing any candidate twice.
 
 use crate::Variation;
-use engine::{Digest, Sampler, Seed};
+use base::{Digest, Sampler, Seed};
 use std::collections::BTreeSet;
 
 /// The number of attempts to get an unseen candidate before the proposal is given up.

@@ -2,9 +2,9 @@
 
 use crate::breeding::Breeding;
 use crate::{Evaluated, Evaluation, Search, Variation};
-use engine::{Digest, Sampler, Seed};
+use base::{Digest, Sampler, Seed};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters of [`FeasibleInfeasible`].
     #[derive(Clone, Debug, PartialEq)]
     pub struct FeasibleInfeasibleConfig {
@@ -34,8 +34,8 @@ engine::with_defaults! {
 /// asked for twice.
 ///
 /// ```
-/// # use engine as infinite_arcade_engine;
-/// use infinite_arcade_engine::{Digest, Sampler, Seed};
+/// # use base as infinite_arcade_base;
+/// use infinite_arcade_base::{Digest, Sampler, Seed};
 /// use infinite_arcade_generators::{Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, Search, Variation};
 ///
 /// /// Numbers below 1000, one decimal digit changed at a time.

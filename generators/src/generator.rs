@@ -1,7 +1,7 @@
 //! The interface of generators.
 
 use crate::GenerateError;
-use engine::Seed;
+use base::Seed;
 
 /// Makes an object from a seed: the same seed gives the same object on every machine.
 pub trait Generator: Sync {

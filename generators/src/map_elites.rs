@@ -2,7 +2,7 @@
 
 use crate::breeding::Breeding;
 use crate::{Archive, Axis, Evaluated, Evaluation, Search, Variation};
-use engine::{Digest, Sampler, Seed};
+use base::{Digest, Sampler, Seed};
 
 /// The minimum size of the tournament among infeasible parents: pockets keep many dead ends, and more of them the more
 /// pockets there are.
@@ -10,7 +10,7 @@ const TOURNAMENT: usize = 3;
 /// The number of pockets for which the tournament of infeasible parents grows by one.
 const SHARE: usize = 8;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters of [`MapElites`].
     #[derive(Clone, Debug, PartialEq)]
     pub struct MapElitesConfig {
@@ -35,8 +35,8 @@ engine::with_defaults! {
 /// from the pockets of empty cells next to filled ones: there the frontier can advance. No candidate is asked for twice.
 ///
 /// ```
-/// # use engine as infinite_arcade_engine;
-/// use infinite_arcade_engine::{Digest, Sampler, Seed};
+/// # use base as infinite_arcade_base;
+/// use infinite_arcade_base::{Digest, Sampler, Seed};
 /// use infinite_arcade_generators::{Axis, Evaluation, MapElites, MapElitesConfig, Search, Variation};
 ///
 /// /// Rectangles of up to 20 × 20.

@@ -4,7 +4,7 @@
 //! anything else that has a [`Variation`]. The interface follows Fontaine et al., "pyribs: A Bare-Bones Python Library
 //! for Quality Diversity Optimization" (2023).
 
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 
 /// Proposes candidates and learns from their evaluations.
 pub trait Search {

@@ -1,9 +1,11 @@
 //! Prints the tables of `docs/novelty.md`: `cargo run -p infinite-arcade-tests --example novelty`.
 
+extern crate infinite_arcade_base as base;
 extern crate infinite_arcade_engine as engine;
 extern crate infinite_arcade_validators as validators;
 
-use engine::{Game, Seed};
+use base::Seed;
+use engine::Game;
 use std::io::Write;
 use std::path::Path;
 use tests::{games, isomorphic, public_games, workspace_root};

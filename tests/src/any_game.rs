@@ -462,7 +462,8 @@ fn line(name: String, class: Option<SpriteClass>, children: Vec<SpriteLine>) -> 
 mod tests {
     use super::*;
     use crate::choices::random_bytes;
-    use engine::{Game, Seed};
+    use base::Seed;
+    use engine::Game;
 
     #[test]
     fn no_decisions_make_the_simplest_game() {

@@ -1,6 +1,6 @@
 //! Bytes as decisions: the conversion of a fuzzer's input into a game.
 
-use engine::Sampler;
+use base::Sampler;
 
 /// Decisions read from bytes. Small ones come from the front; [`Choices::from_end`] gives bytes from the back, so that a
 /// change of one kind of decision does not shift the other. Past the end every decision is the first option, which is

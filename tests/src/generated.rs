@@ -1,6 +1,7 @@
 //! Randomly generated games: any classes, effects and parameters that compile.
 
-use engine::{Sampler, SpriteClass};
+use base::Sampler;
+use engine::SpriteClass;
 
 /// Returns a game with a level, as texts. It need not compile.
 pub fn game(sampler: &mut Sampler) -> (String, String) {

@@ -13,7 +13,8 @@
 //! the outcome and the number of ticks played.
 
 use crate::{workspace_files, workspace_root};
-use engine::{Action, Diagnostics, Game, MAX_TICKS, Seed};
+use base::Seed;
+use engine::{Action, Diagnostics, Game, MAX_TICKS};
 use std::fs;
 use std::path::PathBuf;
 

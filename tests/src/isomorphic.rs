@@ -1,7 +1,8 @@
 //! Isomorphic games under another theme, and games that are nearly the same.
 
+use base::Sampler;
+use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
-use engine::{Description, Sampler};
 use std::collections::BTreeMap;
 
 /// Returns an isomorphic game: other names, characters, colours and order; parameters that are inherited or have

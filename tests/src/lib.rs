@@ -3,6 +3,7 @@
 //!
 //! The tests themselves are in `tests/tests/it/`; `tidy/` there holds the rules that can be checked automatically.
 
+extern crate infinite_arcade_base as base;
 extern crate infinite_arcade_engine as engine;
 
 pub mod any_game;

@@ -1,6 +1,7 @@
 //! Small damages to a file, as careless editing, broken disks and fuzzers cause them.
 
-use engine::{EFFECTS, SPRITE_PARAMETERS, Sampler, SpriteClass, TERMINATIONS};
+use base::Sampler;
+use engine::{EFFECTS, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS};
 
 /// Returns `bytes` with a few damages.
 pub fn mutated(bytes: &[u8], sampler: &mut Sampler) -> Vec<u8> {

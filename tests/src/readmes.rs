@@ -6,6 +6,9 @@ struct Workspace;
 #[doc = include_str!("../../docs/library.md")]
 struct Library;
 
+#[doc = include_str!("../../crates/base/README.md")]
+struct Base;
+
 #[doc = include_str!("../../engine/README.md")]
 struct Engine;
 

@@ -8,11 +8,12 @@
 use crate::any_game::any_game;
 use crate::choices::{Choices, random_bytes};
 use crate::{read, workspace_root};
+use base::{Sampler, Seed};
 use engine::analysis::{Analysis, StateAbstraction};
 use engine::syntax::{self, Description, InteractionLine, Param, Section, SpriteLine, Word};
 use engine::{
     Action, Description as Tree, Diagnostic, Diagnostics, EFFECTS, Episode, Game, Level, Limit, MAX_TICKS,
-    Outcome, Sampler, SearchKey, Seed, Severity, Span, SpriteClass, State, Watch,
+    Outcome, SearchKey, Severity, Span, SpriteClass, State, Watch,
 };
 use std::collections::BTreeMap;
 use std::sync::LazyLock;

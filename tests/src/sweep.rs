@@ -3,7 +3,7 @@
 //! An ordinary run takes a tenth of the cases, from fixed seeds; `cargo xtask sweep` takes all of them, from a fresh seed, which it
 //! puts into [`VARIABLE`] and prints. Those tests that ask for [`many_cases`] take as many times more as it says.
 
-use engine::Seed;
+use base::Seed;
 
 /// The environment variable that asks for a sweep; its value is the seed.
 pub const VARIABLE: &str = "ARCADE_SWEEP";

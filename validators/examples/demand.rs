@@ -6,7 +6,8 @@
 #![allow(clippy::print_stdout, reason = "a program")]
 
 use agents::{PortfolioConfig, Solution, solve};
-use engine::{Analysis, Game, Seed};
+use base::Seed;
+use engine::{Analysis, Game};
 use infinite_arcade_validators::{Demand, shorter_win};
 use rayon::prelude::*;
 use std::fs;

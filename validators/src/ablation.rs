@@ -7,8 +7,9 @@ use crate::recording::{Recorded, Use};
 use crate::rule_use::with_count;
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
+use base::Seed;
 use engine::analysis::{Motion, Role};
-use engine::{Action, Analysis, Chance, Episode, Game, Outcome, Seed, SpriteRecord, SpriteType, State};
+use engine::{Action, Analysis, Chance, Episode, Game, Outcome, SpriteRecord, SpriteType, State};
 use itertools::Itertools;
 use rayon::prelude::*;
 
@@ -321,7 +322,8 @@ fn result(state: &State) -> (Outcome, f64) {
 #[cfg(test)]
 mod tests {
     use crate::{Criteria, Finding, Panel, Verdict};
-    use engine::{Game, Seed};
+    use base::Seed;
+    use engine::Game;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    fern > Immovable\n    mud > Immovable\n    dew > Resource limit=2\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    f > fern\n    m > mud\n  InteractionSet\n    avatar wall > stepBack\n    plum avatar > killSprite scoreChange=1\n    avatar fern > killIfHasMore resource=dew limit=2\n    mud avatar > transformTo stype=fern\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=40 win=False\n";
 

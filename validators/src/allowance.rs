@@ -4,7 +4,8 @@
 //! answer after about as much work, whatever the game.
 
 use crate::Criteria;
-use engine::{Action, Game, Level, Meeting, Seed, Watch};
+use base::Seed;
+use engine::{Action, Game, Level, Meeting, Watch};
 
 /// The work of a tick, as `engine` counts it, up to which a call counts as one.
 const USUAL_WORK: u64 = 4096;

@@ -98,7 +98,7 @@ pub(crate) fn drawn(game: &Game, stype: SpriteType) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
 
     #[test]
     fn sprites_on_top_are_shown_each_by_its_own_character() {

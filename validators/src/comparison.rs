@@ -1,6 +1,7 @@
 //! Plays a game with and without one of its rules side by side, in every state that play can reach.
 
-use engine::{Analysis, Level, Seed, State};
+use base::Seed;
+use engine::{Analysis, Level, State};
 use std::collections::{BTreeSet, VecDeque};
 
 /// The answer of a comparison.

@@ -5,7 +5,7 @@ use crate::ladder::{LadderConfig, Rung};
 use agents::PortfolioConfig;
 use serde::{Deserialize, Serialize};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/validate.md` explains each.
     /// The defaults are for minting: criteria that are cheap enough for many candidates.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,7 +3,8 @@
 use crate::ending::Ending;
 use crate::evidence::Evidence;
 use crate::verdict::{Case, Finding, Validator, Verdict};
-use engine::{Action, Episode, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Episode, Outcome, State};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 

@@ -6,7 +6,8 @@ use crate::level_report::{Judgement, Report};
 use crate::recording::{Recorded, Usage};
 use crate::verdict::Finding;
 use agents::Stopped;
-use engine::{Analysis, Game, Seed};
+use base::Seed;
+use engine::{Analysis, Game};
 use serde::Serialize;
 
 /// A game with its levels and their recorded episodes.

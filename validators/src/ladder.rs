@@ -76,7 +76,7 @@ pub struct Ladder {
     pub difficulty: Difficulty,
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The difficulty of a level (`spec/06` §2.6).
     pub enum Difficulty {
         /// Ease of 0.8 or more.

@@ -3,7 +3,8 @@
 use crate::Criteria;
 use crate::verdict::Rate;
 use agents::{Budget, Limits, Mcts, MctsConfig, Play, play};
-use engine::{Episode, Game, Level, Seed};
+use base::Seed;
+use engine::{Episode, Game, Level};
 use rayon::prelude::*;
 
 /// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. A play is broken

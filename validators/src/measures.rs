@@ -2,8 +2,9 @@
 
 use crate::ladder::{Ladder, PlayerResult};
 use crate::level_report::Report;
+use base::Seed;
 use engine::analysis::EffectSummary;
-use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteType, State, Watch};
+use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType, State, Watch};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 

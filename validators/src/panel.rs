@@ -17,7 +17,8 @@ use crate::{
     Reachable, Readable, RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
 };
 use agents::{PortfolioConfig, Stopped};
-use engine::{Analysis, Episode, Game, Level, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Game, Level};
 use rayon::prelude::*;
 
 /// The validators of a set of criteria, cheapest first.

@@ -117,7 +117,7 @@ fn shown_elsewhere(game: &Game, stype: SpriteType, over: impl Fn(u8) -> Option<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    nest > SpawnPoint stype=bug hidden=True\n    bug > RandomNPC\n    gem > Immovable\n    rock > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    n > nest\n    g > floor gem\n    r > floor rock\n    x > gem rock\n    A > floor avatar\n  InteractionSet\n    gem avatar > killSprite\n    rock avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=gem win=True\n";
 

@@ -1,6 +1,7 @@
 //! The interactions executed and the types present in the recorded episodes of a game.
 
-use engine::{Action, Episode, Game, Level, Meeting, Outcome, Seed, Watch};
+use base::Seed;
+use engine::{Action, Episode, Game, Level, Meeting, Outcome, Watch};
 use rayon::prelude::*;
 
 /// A level with the episodes that its validators played, the most informative ones first.

@@ -193,7 +193,8 @@ fn meetings_of(analysis: &Analysis, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::{Action, Game, Seed};
+    use base::Seed;
+    use engine::{Action, Game};
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    load > Passive\n      crate >\n      barrel >\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    b > barrel\n  InteractionSet\n    avatar wall pit > stepBack\n    load avatar > bounceForward\n    load wall > undoAll\n    crate pit > killSprite scoreChange=1\n    crate pit > addHealthPoints value=1\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n";
 

@@ -7,8 +7,9 @@ use crate::level_report::Report;
 use crate::panel::{record, recorded};
 use crate::recording::{Recorded, Usage};
 use crate::verdict::{Finding, Verdict};
+use base::Seed;
 use engine::analysis::{Analysis, Reach};
-use engine::{Game, Level, Seed, SpriteType};
+use engine::{Game, Level, SpriteType};
 
 /// Every interaction is executed, and a sprite of every type is present, in some recorded episode of the game.
 ///

@@ -231,7 +231,8 @@ fn is_won(play: &Play) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::{Criteria, Panel};
-    use engine::{Game, Seed};
+    use base::Seed;
+    use engine::Game;
 
     /// A walk past something that wanders and kills; whoever stands still is safe, and never wins.
     const GAME: &str = "\

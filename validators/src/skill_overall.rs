@@ -152,7 +152,8 @@ fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
 #[cfg(test)]
 mod tests {
     use crate::{Criteria, Panel};
-    use engine::{Game, Seed};
+    use base::Seed;
+    use engine::Game;
 
     /// Fetch the gem; in the stochastic variant, a player that stands still is caught sooner or later.
     const GAME: &str = "BasicGame

@@ -64,7 +64,8 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
 #[cfg(test)]
 mod tests {
     use crate::{Criteria, Panel, Verdict};
-    use engine::{Game, Seed};
+    use base::Seed;
+    use engine::Game;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n  InteractionSet\n    avatar wall > stepBack\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    Timeout limit=4 win=False\n    Timeout limit=90 win=False\n    SpriteCounter stype=goal win=True\n";
 

@@ -3,7 +3,8 @@
 use crate::evidence::Evidence;
 use crate::ladder::Ladder;
 use agents::Stopped;
-use engine::{Analysis, Episode, Game, Level, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Game, Level};
 use serde::{Deserialize, Serialize};
 
 /// The subject of a validator, with the seed to use.

@@ -3,7 +3,8 @@
 use crate::ending::Ending;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
-use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, Seed, SpriteClass};
+use base::Seed;
+use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteClass};
 
 /// The game can be won in principle, is not over in its first tick, and does nothing that makes the engine stop.
 ///

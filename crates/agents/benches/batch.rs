@@ -8,7 +8,8 @@
 #![allow(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measured")]
 
-use engine::{Action, Game, Level, Sampler, Seed, State, StateHash};
+use base::{Sampler, Seed};
+use engine::{Action, Game, Level, State, StateHash};
 use infinite_arcade_agents::Batch;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::fs;

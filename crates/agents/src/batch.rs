@@ -6,24 +6,14 @@
 //! The caller decides what to do next: nothing is reset automatically, and the last state of an episode can be
 //! inspected.
 
-use engine::{Action, Game, Level, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Chance, Game, Level, Outcome, State};
 use rayon::prelude::*;
 
 /// Steps in a task of a thread: enough to be worth waking it, few enough that no thread waits long for the last one
 /// to finish.
 const STEPS_OF_A_TASK: usize = 64;
 
-/// States of one game, each with its current episode. The states and values of one index are called a lane.
-///
-/// Work is spread over the current rayon pool; fewer than a few hundred steps run on the calling thread.
-///
-/// # Examples
-/// Episodes, one after the other in each lane:
-///
-/// ```
-/// use infinite_arcade_agents::Batch;
-/// # use engine as infinite_arcade_engine;
-/// use infinite_arcade_engine::{Action, Game, Outcome, Seed};
 ///
 /// let game = Game::from_source("
 /// BasicGame
@@ -55,8 +45,23 @@ const STEPS_OF_A_TASK: usize = 64;
 ///
 /// ```
 /// # use infinite_arcade_agents::Batch;
+/// # use base as infinite_arcade_base;
 /// # use engine as infinite_arcade_engine;
-/// # use infinite_arcade_engine::{Action, Game, Seed};
+/// # use infinite_arcade_base::Seed;
+/// # use infinite_arcade_engine::{Action, Game};
+/// States of one game, each with its current episode. The states and values of one index are called a lane.
+///
+/// Work is spread over the current rayon pool; fewer than a few hundred steps run on the calling thread.
+///
+/// # Examples
+/// Episodes, one after the other in each lane:
+///
+/// ```
+/// use infinite_arcade_agents::Batch;
+/// # use base as infinite_arcade_base;
+/// # use engine as infinite_arcade_engine;
+/// use infinite_arcade_base::Seed;
+/// use infinite_arcade_engine::{Action, Game, Outcome};
 /// # let game = Game::from_source("
 /// # BasicGame
 /// #     SpriteSet
@@ -246,7 +251,7 @@ impl Batch {
     pub fn reset(&mut self, lane: usize) -> Result<(), BatchError> {
         let lanes = self.len();
         *self.episodes.get_mut(lane).ok_or(BatchError::NoLane { lane, lanes })? += 1;
-        let chance = self.seed(lane)?.chance();
+        let chance = Chance::from_seed(self.seed(lane)?);
         let root = &self.roots[lane % self.roots.len()];
         self.states[lane].fork_from(root, chance);
         (self.outcomes[lane], self.scores[lane]) = (root.outcome(), root.score());
@@ -276,7 +281,7 @@ impl Batch {
             .filter(|(_, (_, _, outcome, _))| whose(outcome))
             .for_each(|(lane, (state, episode, outcome, score))| {
                 let root = &roots[lane % roots.len()];
-                state.fork_from(root, seed_of(seed, lane, *episode).chance());
+                state.fork_from(root, Chance::from_seed(seed_of(seed, lane, *episode)));
                 (*outcome, *score) = (root.outcome(), root.score());
             });
     }

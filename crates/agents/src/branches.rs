@@ -1,6 +1,7 @@
 //! Tree operations that the tree searches share: the branches of a node, one for each action.
 
-use engine::{Action, Sampler};
+use base::Sampler;
+use engine::Action;
 
 /// The greatest number of actions.
 pub(crate) const WIDTH: usize = Action::ALL.len();

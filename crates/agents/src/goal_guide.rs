@@ -4,8 +4,9 @@
 //! and keys that are held. *Closeness* is the nearness of the next useful target, around obstacles; it is below 1, so
 //! that taking something is worth more than standing before the next target.
 
+use base::Digest;
 use engine::analysis::{Attainable, Fate, Goal, Harm, Key, Removal, Touch};
-use engine::{Analysis, Digest, Game, SpriteType, State};
+use engine::{Analysis, Game, SpriteType, State};
 use std::collections::VecDeque;
 
 /// The distance in cells at which closeness is one half.
@@ -227,7 +228,8 @@ fn targets_of(game: &Game, analysis: &Analysis, avatar: SpriteType) -> Targets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::{Action, Seed};
+    use base::Seed;
+    use engine::Action;
 
     /// A key turns the bear into another avatar, and only that one opens the hive.
     const GAME: &str = "BasicGame\n  SpriteSet\n    hive > Door\n    key > Immovable\n    trap > Immovable\n    avatar >\n      bear > MovingAvatar\n      smith > MovingAvatar\n  LevelMapping\n    h > hive\n    k > key\n    t > trap\n    b > bear\n  InteractionSet\n    avatar wall > stepBack\n    bear hive > stepBack\n    bear trap > killSprite\n    smith trap > killSprite\n    hive smith > killSprite scoreChange=1\n    bear key > transformTo stype=smith\n    key smith > killSprite\n  TerminationSet\n    SpriteCounter stype=hive win=True\n    SpriteCounter stype=avatar win=False\n";

@@ -7,13 +7,14 @@
 
 use crate::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
 use crate::planner::{Budget, Planner, Streams};
-use engine::{Action, Game, Outcome, Sampler, Seed, State};
+use base::{Sampler, Seed};
+use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
 /// Breaks ties and guards divisions; the reference's value.
 const EPSILON: f64 = 1e-6;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters of the search. The default is the reference's.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -9,14 +9,15 @@
 use crate::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::goal_guide::{Distances, GoalGuide};
 use crate::planner::{Budget, Decision, Planner, Streams};
-use engine::{Action, Game, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, VecDeque};
 
 /// Breaks ties and guards divisions.
 const EPSILON: f64 = 1e-6;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters of the search.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -2,7 +2,8 @@
 
 use crate::goal_guide::{Distances, GoalGuide};
 use crate::planner::{Budget, Planner, Streams};
-use engine::{Action, Game, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
 /// A greedy player: takes the action after which most is done towards a win, and the nearest thing that a win needs is

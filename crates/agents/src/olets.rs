@@ -7,14 +7,15 @@
 
 use crate::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
-use engine::{Action, Game, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// Guards divisions and breaks ties between sums; the reference's value.
 const EPSILON: f64 = 1e-4;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters of the search. The default is the reference's.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -3,13 +3,14 @@
 use crate::branches::blurred;
 use crate::heuristics::Heuristic;
 use crate::planner::{Budget, Planner, Streams};
-use engine::{Action, Game, Seed, State};
+use base::Seed;
+use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 /// Tie-breaking noise; the reference's value.
 const EPSILON: f64 = 1e-6;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters. The default is the reference's.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -1,7 +1,8 @@
 //! Planning several actions in advance.
 
 use crate::{Budget, Planner};
-use engine::{Action, Game, Seed, State};
+use base::Seed;
+use engine::{Action, Game, State};
 
 /// A planner that commits to several actions at once: it plans each in the state that it imagines after those before. In a
 /// game without chance that state is the one that follows; otherwise it is one of many, imagined by a random stream that is

@@ -1,6 +1,7 @@
 //! The planner interface.
 
-use engine::{Action, Chance, Game, Sampler, Seed, State};
+use base::{Sampler, Seed};
+use engine::{Action, Chance, Game, State};
 use serde::{Deserialize, Serialize};
 
 /// The number of forward-model calls that a decision may cost.

@@ -1,7 +1,8 @@
 //! Playing an episode with a planner.
 
 use crate::planner::{Budget, Planner};
-use engine::{Episode, Game, Level, Seed};
+use base::Seed;
+use engine::{Episode, Game, Level};
 
 /// A played episode and what it cost.
 #[derive(Clone, Debug)]
@@ -12,7 +13,7 @@ pub struct Play {
     pub calls: u64,
 }
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The limits at which a play is broken off; by default none beyond the engine's own tick limit.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Limits {

@@ -7,11 +7,12 @@ use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, Stopped, play_until};
 use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star_until, best_first_until};
 use crate::width::{Width, WidthConfig};
-use engine::{Action, Analysis, Episode, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Action, Analysis, Episode, Level, Outcome};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The division of a budget.
     ///
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After

@@ -1,7 +1,8 @@
 //! Random players: the baseline of every comparison (`spec/04` §7).
 
 use crate::planner::{Budget, Planner};
-use engine::{Action, Game, Sampler, Seed, State};
+use base::{Sampler, Seed};
+use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 /// Uniform over the avatar's actions: the reference's `simpleRandom`, with or without doing nothing.

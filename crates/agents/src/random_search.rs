@@ -3,10 +3,11 @@
 use crate::heuristics::Heuristic;
 use crate::planner::{Budget, Planner, Streams};
 use crate::sequences::Sequences;
-use engine::{Action, Game, Seed, State};
+use base::Seed;
+use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters. The default is the reference's.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -5,7 +5,8 @@ use crate::{
     OletsConfig, OneStep, OneStepConfig, Planner, Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig,
     Systematic, Width, WidthConfig,
 };
-use engine::{Action, Game, Seed, State};
+use base::Seed;
+use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -102,7 +103,7 @@ impl FromStr for PlannerSpec {
     }
 }
 
-engine::serde_as_text!(PlannerSpec);
+base::serde_as_text!(PlannerSpec);
 
 impl fmt::Display for PlannerSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -6,10 +6,11 @@
 use crate::heuristics::Heuristic;
 use crate::planner::{Budget, Decision, Planner, Streams};
 use crate::sequences::{Gene, Sequences};
-use engine::{Action, Game, Seed, State};
+use base::Seed;
+use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters of the search. The default is the reference's.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -2,8 +2,9 @@
 
 use crate::planner::{Budget, Planner, Streams};
 use crate::search::{Answer, Pushes, SearchLimits, best_first};
+use base::Seed;
 use engine::analysis::Analysis;
-use engine::{Action, Game, Seed, State};
+use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 /// The length of a plan in a stochastic game, and of the first one without a win elsewhere, in ticks.

@@ -10,12 +10,13 @@
 use crate::features::{Atoms, Features};
 use crate::planner::{Budget, Decision, Planner, Streams};
 use crate::progress::Progress;
+use base::Seed;
 use engine::analysis::Analysis;
-use engine::{Action, Game, Outcome, Seed, State};
+use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The parameters of the planner.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -1,7 +1,7 @@
 //! The corpus and the recipes that the binary carries, so that an installed `arcade` works in an empty directory.
 
 use crate::failure::Failure;
-use engine::Digest;
+use base::Digest;
 use include_dir::{Dir, include_dir};
 use itertools::Itertools;
 use snapshots::{Corpus, CorpusGame};

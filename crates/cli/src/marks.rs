@@ -1,6 +1,6 @@
 //! The marks of releases: their players are those of evaluations.
 
-use engine::Seed;
+use base::Seed;
 use evaluation::marks::{MarkPlayer, MarkPlays};
 use evaluation::{Commitment, LevelMark, Subject, SubjectFacts, SubjectLevel};
 use itertools::iproduct;

@@ -4,7 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
 use crate::shell;
-use engine::Digest;
+use base::Digest;
 use serde::Serialize;
 use serde_json::json;
 use snapshots::{MANIFEST_FILE, Verification};

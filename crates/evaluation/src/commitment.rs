@@ -65,7 +65,7 @@ impl FromStr for Commitment {
     }
 }
 
-engine::serde_as_text!(Commitment);
+base::serde_as_text!(Commitment);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,9 @@
 //! The meaning of the characters of a board: one table for each game, the same in all levels, states and episodes.
 
 use crate::encoding::direction_name;
+use base::Seed;
 use engine::analysis::{EffectSummary, Encounter, Motion, Role};
-use engine::{Analysis, Seed, SpriteType};
+use engine::{Analysis, SpriteType};
 use render::{EMPTY, Glyph, Looks, Symbols};
 use std::collections::BTreeMap;
 

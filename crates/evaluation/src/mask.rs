@@ -1,8 +1,9 @@
 //! Games without their theme: the rules are unchanged, but all names are meaningless.
 
 use crate::error::EvaluationError;
+use base::{Digest, Seed};
 use engine::syntax::{SpriteLine, Trivia};
-use engine::{Description, Digest, Game, Observation, Seed};
+use engine::{Description, Game, Observation};
 use itertools::Itertools;
 use std::collections::BTreeMap;
 

@@ -8,7 +8,7 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
-engine::named_enum! {
+base::named_enum! {
     /// A fact about touching a kind of sprite that a player can predict.
     pub enum TouchFact {
         /// It kills the avatar, at least while that holds nothing.

@@ -1,7 +1,8 @@
 //! A game with its levels, ready to be played.
 
 use crate::commitment::Commitment;
-use engine::{Analysis, Diagnostics, Game, Level, Seed, StateHash, describe};
+use base::Seed;
+use engine::{Analysis, Diagnostics, Game, Level, StateHash, describe};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;

@@ -3,7 +3,7 @@
 use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 use std::fmt;
 
-engine::named_enum! {
+base::named_enum! {
     /// A track: what players learn about a game ([docs/tracks.md](../../../docs/tracks.md)).
     pub enum Track {
         /// The default prompts: the rules in words under the game's own names.

@@ -1,6 +1,6 @@
 //! `card.json`: the description of a game of a release, its origin, and the results of its judges.
 
-use engine::Digest;
+use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use validators::{Demand, Ladder, Rate, Tier};

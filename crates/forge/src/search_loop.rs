@@ -1,7 +1,7 @@
 //! The common parts of the searches for levels and for games: evaluating candidates on all threads, keeping the best,
 //! and picking candidates that lie far apart in an archive.
 
-use engine::Digest;
+use base::Digest;
 use generators::{Archive, Evaluated, Evaluation, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;

@@ -5,7 +5,8 @@
 
 use crate::errors::{bad_log, failed, invalid};
 use crate::game::{Game, outcome_name};
-use engine::{Outcome, Seed};
+use base::Seed;
+use engine::Outcome;
 use evaluation::client::{
     ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model, Role, Usage,
 };

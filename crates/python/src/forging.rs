@@ -3,7 +3,8 @@
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
 use crate::game::{Game, Level};
-use engine::{Digest, Seed, SpriteType};
+use base::{Digest, Seed};
+use engine::SpriteType;
 use forge::games::{GameOrder, MadeGame, make_games};
 use forge::levels::{LevelOrder, Method, make_levels};
 use generators::levels::{Examples, LevelConfig};

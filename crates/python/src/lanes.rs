@@ -6,7 +6,8 @@ use crate::errors::{failed, invalid};
 use crate::game::{Game, Level, Rules, outcome_name, seed_of};
 use crate::picture;
 use crate::state::State;
-use engine::{Action, Drawn, Outcome, Planes, Seed};
+use base::Seed;
+use engine::{Action, Chance, Drawn, Outcome, Planes};
 use numpy::{PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -141,7 +142,7 @@ impl Setting {
 
     /// Starts the episode of a lane's current seed.
     fn start(&self, lane: &mut Lane, out: &mut [u8]) {
-        lane.state.fork_from(&self.roots[lane.root], lane.current.chance());
+        lane.state.fork_from(&self.roots[lane.root], Chance::from_seed(lane.current));
         (lane.steps, lane.is_over) = (0, false);
         self.draw(lane, out);
     }
@@ -467,7 +468,7 @@ impl Lanes {
                     if game.step(&mut lane.state, named[chosen[at] as usize]) != Outcome::Ongoing {
                         lane.current = lane.seed.child("episode", lane.episodes);
                         lane.episodes += 1;
-                        lane.state.fork_from(&setting.roots[lane.root], lane.current.chance());
+                        lane.state.fork_from(&setting.roots[lane.root], Chance::from_seed(lane.current));
                         ended += 1;
                     }
                     at = if at + 1 == chosen.len() { 0 } else { at + 1 };

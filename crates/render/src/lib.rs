@@ -5,8 +5,10 @@
 //! back-ends, [`svg`] and [`png`], draw the same shapes. The same state gives the same bytes on every machine.
 //!
 //! ```
+//! # use base as infinite_arcade_base;
 //! # use engine as infinite_arcade_engine;
-//! use infinite_arcade_engine::{Analysis, Game, Seed};
+//! use infinite_arcade_base::Seed;
+//! use infinite_arcade_engine::{Analysis, Game};
 //! use infinite_arcade_render::{Looks, Style};
 //!
 //! let game = Game::from_source("

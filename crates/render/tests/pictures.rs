@@ -1,6 +1,7 @@
 //! Pictures of a small board: pinned, and read back by independent readers.
 
-use engine::{Action, Analysis, Digest, Game, Level, Seed, State};
+use base::{Digest, Seed};
+use engine::{Action, Analysis, Game, Level, State};
 use infinite_arcade_render::{self as render, Animation, Glyph, Looks, Painter, RenderError, Style, Symbols};
 
 /// A sample of all forms that must not be confused.

@@ -1,7 +1,7 @@
 //! Public randomness in the seed of a sealed release, so that its publisher cannot choose among secrets.
 
 use crate::recipe::{RecipeError, wrong};
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! The canary: a GUID that every file of a release carries if its format allows. A corpus can be searched for it, to
 //! tell whether the release is in it.
 
-use engine::Digest;
+use base::Digest;
 
 /// The key derivation context. Changing it changes every canary: it belongs to format 1.
 const CONTEXT: &str = "infinite-arcade 1 canary";

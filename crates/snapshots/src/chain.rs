@@ -17,7 +17,8 @@ use crate::integrity::Integrity;
 use crate::known::Known;
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::verify::CARD_AND_CANARY_SINCE;
-use engine::{Digest, SEMANTICS};
+use base::Digest;
+use engine::SEMANTICS;
 use generators::GENERATION;
 
 /// The most releases that a folder searched for them may hold, and the most other entries.

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use crate::error::SnapshotError;
 use crate::path::{PathProblem, check_path};
 use crate::problem::{Flaw, Problem};
-use engine::Digest;
+use base::Digest;
 
 /// The limits of a release folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -186,7 +186,7 @@ mod tests {
     use crate::draft::Draft;
     use crate::manifest::tests::example;
     use crate::path::PathProblem;
-    use engine::Digest;
+    use base::Digest;
 
     const FILES: [(&str, &[u8]); 4] = [
         ("README.md", b"about this release"),

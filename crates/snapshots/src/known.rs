@@ -1,7 +1,8 @@
 //! The record of earlier content in a recipe: what a release may not repeat.
 
 use crate::recipe::RecipeError;
-use engine::{Digest, Game};
+use base::Digest;
+use engine::Game;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use validators::GameForm;

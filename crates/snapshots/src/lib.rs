@@ -10,8 +10,8 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let home = tempfile::tempdir()?;
 //! # let out = home.path().join("example");
-//! # use engine as infinite_arcade_engine;
-//! use infinite_arcade_engine::Digest;
+//! # use base as infinite_arcade_base;
+//! use infinite_arcade_base::Digest;
 //! use infinite_arcade_snapshots::{Draft, Item, ReleaseKind, MANIFEST_FILE, Manifest, canary, check_integrity};
 //!
 //! let text: &[u8] = b"BasicGame\n";
@@ -108,4 +108,4 @@ pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
 pub use withheld::{Withheld, withhold};
 pub use witness::Witness;
 
-use engine::Digest;
+use base::Digest;

@@ -9,7 +9,7 @@ use crate::error::SnapshotError;
 use crate::folder;
 use crate::integrity::Integrity;
 use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
-use engine::Digest;
+use base::Digest;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -17,7 +17,7 @@
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
-use engine::Digest;
+use base::Digest;
 
 /// A file in the tree.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The problems that reading an untrusted release folder can find. They are data, so that all are reported at once.
 
 use crate::path::PathProblem;
-use engine::Digest;
+use base::Digest;
 
 /// A problem of a release folder. Ordered by the bytes of the path, then by flaw.
 ///

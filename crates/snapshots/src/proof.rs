@@ -12,7 +12,7 @@ use crate::manifest::{HEADER_LEAF, MANIFEST_FILE, Manifest};
 use crate::merkle::{self, Leaf, Proof};
 use crate::path::check_path;
 use crate::withheld::HeldPart;
-use engine::Digest;
+use base::Digest;
 use report::canonical::to_canonical_json;
 
 /// The maximum size of a proof, in bytes: 4 MiB, enough for a game of some three thousand files.

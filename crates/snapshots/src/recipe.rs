@@ -8,7 +8,7 @@ use crate::memory::MemoryPart;
 use crate::placement::placement;
 use crate::sealed::{self, Secret};
 use crate::tiers::{PuzzlePart, PuzzleSection, Tiers};
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use forge::games::Board;
 use generators::games::Kind;
 use generators::kernels::kinds;
@@ -91,7 +91,7 @@ pub struct Recipe {
     pub known: Known,
 }
 
-engine::with_defaults! {
+base::with_defaults! {
     /// New levels for corpus games, under a new theme.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
@@ -113,7 +113,7 @@ engine::with_defaults! {
     }
 }
 
-engine::with_defaults! {
+base::with_defaults! {
     /// New games.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

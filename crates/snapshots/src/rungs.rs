@@ -217,7 +217,7 @@ pub fn differences(ours: &[Card], theirs: &[Card]) -> Vec<RungDifference> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use engine::Digest;
+    use base::Digest;
     use forge::card::{LevelCard, Origin};
     use validators::{Difficulty, Ladder, Rate};
 

@@ -10,7 +10,7 @@ use crate::papers::{self, IGNORED_NAMES, PAPERS_LIMITS};
 use crate::withheld::{HeldPart, LIST_LIMIT, disclose, salt_flaw};
 use crate::witness::{Witness, descendant};
 use crate::{Draft, SnapshotError};
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use report::canonical::{CanonicalError, canonical_digest};
 use report::files;
 use serde::{Deserialize, Serialize};

@@ -67,7 +67,7 @@ impl PuzzleSection {
     };
 }
 
-engine::with_defaults! {
+base::with_defaults! {
     /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
     /// of the recipe; or, in sections of their own, games of locks, of yards and of strays.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -10,7 +10,7 @@ use crate::manifest::{Item, MANIFEST_LIMIT, Manifest};
 use crate::memory::is_solution;
 use crate::problem::Flaw;
 use crate::sealed::{HELD, Secret};
-use engine::Digest;
+use base::Digest;
 use report::canonical::{is_canonical_json, to_canonical_json};
 use serde::{Deserialize, Serialize};
 

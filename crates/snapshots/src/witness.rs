@@ -2,7 +2,8 @@
 
 use crate::manifest::ReleaseKind;
 use crate::sealed::HELD;
-use engine::{Episode, Seed};
+use base::Seed;
+use engine::Episode;
 use forge::games::Step;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -15,7 +16,7 @@ pub struct Witness {
     pub canary: String,
     /// The episode; it replays to a win.
     pub episode: Episode,
-    /// The steps from the release's root seed to the episode's seed, one [`Seed::child`](engine::Seed::child) each.
+    /// The steps from the release's root seed to the episode's seed, one [`Seed::child`](base::Seed::child) each.
     /// Sealed releases have them, to allow checking a revealed secret without minting; in open ones the list is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Step>,

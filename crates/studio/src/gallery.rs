@@ -10,7 +10,8 @@ use crate::refusal::Refusal;
 use crate::server::PAGE;
 use crate::studio::Studio;
 use crate::workspace::GameEntry;
-use engine::{Level, Seed};
+use base::Seed;
+use engine::Level;
 use serde_json::{Value, json};
 
 /// The tag after which the data of the release are loaded.

@@ -4,7 +4,8 @@ use crate::compiled::Compiled;
 use crate::frames::{Frame, TileSvg, Tiles, action_name};
 use crate::refusal::Refusal;
 use agents::{Budget, Planner, PlannerSpec, Player};
-use engine::{Action, Episode, Level, Seed, State};
+use base::Seed;
+use engine::{Action, Episode, Level, State};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 

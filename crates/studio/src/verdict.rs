@@ -4,8 +4,9 @@ use crate::compiled::Compiled;
 use crate::lines::{Ended, Lines};
 use crate::positions;
 use agents::{PortfolioConfig, Solution, Solved, solve_until};
+use base::Seed;
 use engine::analysis::{Reach, Role};
-use engine::{Analysis, Level, Seed, describe, line_and_column};
+use engine::{Analysis, Level, describe, line_and_column};
 use serde_json::{Value, json};
 use validators::{Criteria, Evidence, Judgement, Ladder, Line, Panel, PlayerResult, Verdict};
 

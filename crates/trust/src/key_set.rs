@@ -5,7 +5,7 @@
 
 use crate::error::TrustError;
 use crate::key::PublicKey;
-use engine::Digest;
+use base::Digest;
 use report::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

@@ -5,7 +5,7 @@ use crate::error::TrustError;
 use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
 use crate::key_set::{KeySet, NamedKey};
 use crate::statement::Statement;
-use engine::Digest;
+use base::Digest;
 use report::files;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};

@@ -2,7 +2,7 @@
 
 use crate::error::TrustError;
 use crate::key_set::canonical;
-use engine::Digest;
+use base::Digest;
 use report::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 

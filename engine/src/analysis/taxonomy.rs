@@ -34,7 +34,7 @@ pub struct Taxonomy {
     pub hidden: bool,
 }
 
-crate::named_enum! {
+base::named_enum! {
     /// The passing of time: turn-based or real-time.
     pub enum Time {
         /// Nothing moves, appears or disappears unless the player acts, except for short effects of an action (a shot, a
@@ -45,7 +45,7 @@ crate::named_enum! {
     }
 }
 
-crate::named_enum! {
+base::named_enum! {
     /// The movement of the player in space.
     pub enum Spatiality {
         /// The avatar stays where it is.
@@ -61,7 +61,7 @@ crate::named_enum! {
     }
 }
 
-crate::named_enum! {
+base::named_enum! {
     /// The genre of a game. If several fit, they are listed in this order; but shooting that does not win comes last if
     /// something other than waiting wins.
     pub enum Genre {

@@ -17,7 +17,6 @@ pub(crate) use clauses::clauses;
 pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Terms, TypeClause};
 pub use params::BASE as SPRITE_PARAMETERS;
 
-use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span, nearest};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
 use crate::rules::class::SpriteClass;
@@ -27,6 +26,7 @@ use crate::rules::traits::BLOCK_PAUSE;
 use crate::rules::{Alias, Aliases, NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
+use base::Digest;
 use header::Header;
 pub(crate) use outline::{Outline, outline};
 use scenery::{fixtures, referenced, scenery};

@@ -3,9 +3,9 @@
 use super::Policy;
 use super::interactions::COMMON;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::sampler::Sampler;
 use crate::syntax::{Description, Literal, Param, ParameterLine, SpriteLine, literal, print_bare};
-use crate::{Digest, Seed};
+use base::Sampler;
+use base::{Digest, Seed};
 use std::borrow::Cow;
 
 const KEYS: [&str; 3] = ["values", "value", "string"];

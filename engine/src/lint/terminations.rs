@@ -11,8 +11,8 @@ use crate::limits::MAX_TICKS;
 use crate::rules::class::SpriteClass;
 use crate::rules::terminations::{Condition, Decision, Termination, can_be_held_up};
 use crate::rules::{Outcome, SpriteType};
-use crate::seed::Seed;
 use crate::syntax::{Param, TerminationLine};
+use base::Seed;
 
 /// Seeds with which the first tick of a level is tried, in stochastic games.
 const SEEDS: u64 = 4;

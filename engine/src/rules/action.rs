@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-crate::named_enum! {
+base::named_enum! {
     /// An action of a player in a tick.
     pub enum Action {
         /// Nothing.

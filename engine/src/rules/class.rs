@@ -2,7 +2,7 @@
 
 use crate::rules::Action;
 
-crate::named_enum! {
+base::named_enum! {
     /// The behaviour of sprites of a class by themselves.
     pub enum ClassFamily {
         /// None: they lie about, are pushed, lead somewhere or carry.

@@ -8,11 +8,11 @@ mod outcome;
 pub(crate) mod terminations;
 pub(crate) mod traits;
 
-use crate::Digest;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::flat::bytes_of_wrapper;
 use crate::syntax::Description;
 pub use action::Action;
+use base::Digest;
 use class::{ClassFamily, SpriteClass};
 use effects::{Effect, Summary, TickSummary};
 pub use outcome::{Limit, Outcome};

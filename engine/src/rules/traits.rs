@@ -5,7 +5,7 @@ use crate::geometry::Direction;
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
-crate::with_defaults! {
+base::with_defaults! {
     /// The values of a type's fields after class defaults and parameters: the initial values of a sprite and its
     /// constants. The defaults are those of the base sprite.
     #[derive(Clone, Debug)]

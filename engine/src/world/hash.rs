@@ -41,9 +41,11 @@ macro_rules! hash_type {
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<$name, D::Error> {
                 let text = String::deserialize(deserializer)?;
-                let bytes: [u8; 16] = crate::digest::parse_hex(&text)
-                    .map_err(|_| serde::de::Error::custom(format!("`{text}` is not 32 hexadecimal digits")))?;
-                Ok($name(u128::from_be_bytes(bytes)))
+                let number = u128::from_str_radix(&text, 16).ok();
+                // Each hash has one spelling.
+                number.map($name).filter(|hash| hash.to_string() == text).ok_or_else(|| {
+                    serde::de::Error::custom(format!("`{text}` is not 32 hexadecimal digits"))
+                })
             }
         }
     };

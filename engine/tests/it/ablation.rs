@@ -1,6 +1,7 @@
 //! Games without one rule.
 
-use engine::{Action, Game, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Action, Game, Level, Outcome};
 
 const GAME: &str = "BasicGame\n  SpriteSet\n    nut > Immovable\n    moth > RandomNPC\n    squirrel > MovingAvatar\n  LevelMapping\n    n > nut\n    m > moth\n    S > squirrel\n  InteractionSet\n    nut squirrel > killSprite scoreChange=1\n    moth nut > flipDirection\n    moth nut > spawn stype=moth prob=0.5\n    moth EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=nut win=True\n    Timeout limit=50\n";
 

@@ -1,6 +1,7 @@
 //! Sprite parameters with extreme values.
 
-use engine::{Action, Game, Seed, SpriteClass};
+use base::Seed;
+use engine::{Action, Game, SpriteClass};
 
 /// Any class with any parameters and extreme values, loaded both ways, ends in a typed outcome or continues.
 #[test]

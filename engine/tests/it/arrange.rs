@@ -1,6 +1,7 @@
 //! Arranged positions.
 
-use engine::{Action, Direction, Game, Seed};
+use base::Seed;
+use engine::{Action, Direction, Game};
 
 const GAME: &str = "BasicGame\n  SpriteSet\n    gate > Door\n    key > Resource limit=3\n    dart > Missile\n    avatar > ShootAvatar stype=dart ammo=key\n  LevelMapping\n    g > gate\n    k > key\n  InteractionSet\n    gate dart > killBoth\n    dart EOS > killSprite\n    avatar EOS > stepBack\n    key avatar > collectResource\n  TerminationSet\n    SpriteCounter stype=gate win=True\n";
 

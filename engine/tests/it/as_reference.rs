@@ -1,6 +1,7 @@
 //! Loading a file with faults as the reference does (`spec/01` §1, §10): dropped, ignored and counted faults.
 
-use engine::{Action, Game, Level, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Level, Outcome, State};
 
 const GAME: &str = "\
 BasicGame

@@ -1,6 +1,7 @@
 //! Countdowns.
 
-use engine::{Action, Event, Game, Seed};
+use base::Seed;
+use engine::{Action, Event, Game};
 
 const GAME: &str = "BasicGame\n    SpriteSet\n        den > SpawnPoint stype=log cooldown=4 total=2\n        \
     log > Immovable\n        ember > Flicker limit=5\n        hen > MovingAvatar\n    LevelMapping\n        d > den\n        \

@@ -1,7 +1,8 @@
 //! Guides to games.
 
+use base::Seed;
 use engine::describe::{self, Guide};
-use engine::{Action, Analysis, Game, Seed, SpriteRecord};
+use engine::{Action, Analysis, Game, SpriteRecord};
 
 /// A game in which most kinds of sentences occur.
 const ORCHARD: &str = "

@@ -1,8 +1,9 @@
 //! Each effect is executed and compared with its row: whatever it does to the two sprites and to others is in its summary.
 
+use base::Seed;
 use engine::analysis::{EffectSummary, Side};
 use engine::inspect::{EffectRow, is_idle};
-use engine::{Action, EFFECTS, Game, ParameterKind, Seed, SpriteRecord, effect_parameters};
+use engine::{Action, EFFECTS, Game, ParameterKind, SpriteRecord, effect_parameters};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A game in which one effect is executed once, on a sprite of `one` beside one of `two`; `rule` is its line.

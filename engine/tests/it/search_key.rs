@@ -1,7 +1,8 @@
 //! The differences between two states that change the search key, and those that do not. (`tests/tests/it/robustness.rs`
 //! checks that equal keys have equal futures in any game.)
 
-use engine::{Action, Game, Level, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Level, State};
 
 /// Plays two ways on one board, and returns the game and the two states.
 #[track_caller]

@@ -543,8 +543,7 @@ fn search_keys_tell_phases_apart() {
     for spawner in ["SpawnPointMultiSprite stypes=y cooldown=50", "SpawnPoint stype=y cooldown=50"] {
         let sprites = format!("avatar > MovingAvatar\ny > Immovable\ns > {spawner}");
         let mut vector = Vector::new(&sprites, "", &[("avatar", 0, 70), ("s", 100, 20)], 1);
-        let key =
-            |vector: &Vector| vector.state.fork(engine::Seed::from_text("one")).search_key(&vector.game);
+        let key = |vector: &Vector| vector.state.fork(base::Seed::from_text("one")).search_key(&vector.game);
         vector.play(".");
         let first = key(&vector);
         vector.play(".");

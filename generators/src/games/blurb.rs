@@ -4,9 +4,10 @@ use super::casting;
 use super::english::{capital, headline, one, plural, series, spaced};
 use super::kind::Kind;
 use super::theme::Theme;
+use base::Sampler;
+use engine::SpriteType;
 use engine::analysis::{Analysis, Genre, Role as Use};
 use engine::describe::Guide;
-use engine::{Sampler, SpriteType};
 use itertools::Itertools;
 
 /// The maximum number of names in a clause of a summary.

@@ -1,6 +1,6 @@
 //! The kinds of games, by what wins them.
 
-use engine::Sampler;
+use base::Sampler;
 use serde::{Deserialize, Serialize};
 
 /// Declares the kinds once: variant, name in configurations, words for titles.

@@ -111,7 +111,8 @@ impl LockRules {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::{Action, Outcome, Seed};
+    use base::Seed;
+    use engine::{Action, Outcome};
 
     /// A key opens one door, in the tick before it is entered; a plank carries once.
     #[test]

@@ -5,8 +5,9 @@
 //! `wall` and `avatar` stay, since the engine depends on them.
 
 use super::surface::{self, Symbols};
+use base::{Sampler, Seed};
+use engine::Description;
 use engine::syntax::SpriteLine;
-use engine::{Description, Sampler, Seed};
 use itertools::Itertools;
 use std::collections::BTreeMap;
 

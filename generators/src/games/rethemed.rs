@@ -11,9 +11,10 @@ use super::role::Role;
 use super::surface::{self, RESERVED, Symbols};
 use super::theme::Theme;
 use crate::GenerateError;
+use base::{Sampler, Seed};
 use engine::analysis::{Analysis, Role as Use};
 use engine::syntax::{MappingLine, SpriteLine};
-use engine::{Description, Game, Sampler, Seed, SpriteType};
+use engine::{Description, Game, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The directions in which names end that are given to types of one kind.

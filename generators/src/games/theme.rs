@@ -2,7 +2,7 @@
 
 use super::role::{Role, Words};
 use super::themes;
-use engine::Sampler;
+use base::Sampler;
 
 pub(crate) struct Theme {
     /// The identifier, for configurations and provenance.

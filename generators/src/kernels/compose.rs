@@ -12,8 +12,9 @@ use super::scene::Scene;
 use super::{template, vocabulary, ways};
 use crate::GenerateError;
 use crate::games::{english, palette};
+use base::{Sampler, Seed};
+use engine::Description;
 use engine::syntax::{self, MappingLine, Param, SpriteLine};
-use engine::{Description, Sampler, Seed};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The choices that make a game of a kernel.

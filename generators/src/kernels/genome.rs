@@ -9,7 +9,8 @@ use super::turns::Turns;
 use super::variation::pick;
 use crate::GenerateError;
 use crate::games::{GeneratedGame, Kind};
-use engine::{Description, Digest, Game, Sampler, Seed, syntax};
+use base::{Digest, Sampler, Seed};
+use engine::{Description, Game, syntax};
 use std::collections::BTreeSet;
 
 /// The ticks of a game whose levels nobody has played yet.

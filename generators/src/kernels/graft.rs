@@ -3,8 +3,9 @@
 use super::kernel::{Casting, Kernel};
 use super::map::{Item, Place};
 use super::scene::Scene;
+use base::Seed;
+use engine::Description;
 use engine::syntax::{self, InteractionLine, SpriteLine};
-use engine::{Description, Seed};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 

@@ -1,8 +1,9 @@
 //! Habits of a game's author: points, edges, sizes and clocks, which a kernel leaves open.
 
 use super::course::Space;
+use base::Seed;
+use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine};
-use engine::{Description, Seed};
 use std::collections::BTreeMap;
 
 /// The habits of the author of a game. They change how it looks and counts, and nothing about its dilemma.

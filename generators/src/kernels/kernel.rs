@@ -74,7 +74,7 @@ impl Casting {
     }
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The intent of a level in a course of five, in the order of a course.
     pub enum Slot {
         /// The trick in its safe and small form.

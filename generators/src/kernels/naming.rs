@@ -7,7 +7,7 @@ use super::kernel::Casting;
 use super::phrase::Nouns;
 use super::vocabulary;
 use crate::games::english;
-use engine::Sampler;
+use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Last words of nouns that say too little alone.
@@ -109,7 +109,7 @@ fn short(noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
 
     #[test]
     fn names_are_short_and_differ() {

@@ -6,7 +6,7 @@ pub(crate) struct Numbers(pub(crate) Vec<Number>);
 
 impl Numbers {
     /// Draws a value for each.
-    pub(crate) fn draw(&self, sampler: &mut engine::Sampler) -> Vec<u32> {
+    pub(crate) fn draw(&self, sampler: &mut base::Sampler) -> Vec<u32> {
         let mut draw = |number: &Number| sampler.between(number.least as usize, number.most as usize) as u32;
         self.0.iter().map(&mut draw).collect()
     }

@@ -3,7 +3,7 @@
 use super::kernel::Kernel;
 use super::scene::Scene;
 use crate::games::Kind;
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 
 /// The most turns of a kind in a round, however many kernels it has.
 const MOST: usize = 3;

@@ -7,7 +7,7 @@ use super::kernel::Kernel;
 use super::scene::Scene;
 use crate::Variation;
 use crate::games::Kind;
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 
 /// The number of draws of a change before a parent is returned unchanged.
 const ATTEMPTS: usize = 16;

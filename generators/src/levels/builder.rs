@@ -7,8 +7,9 @@ use super::grid::{FAR, WAYS};
 use super::palette::{Palette, Walk};
 use super::placement::{NICHE, nook};
 use super::plan::{self, Wish};
+use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
-use engine::{Analysis, Direction, Sampler, SpriteType};
+use engine::{Analysis, Direction, SpriteType};
 
 /// The weight factor of a cell next to a companion that such a sprite almost always has in the examples.
 const COMPANION_WEIGHT: u32 = 1000;

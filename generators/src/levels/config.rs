@@ -10,7 +10,7 @@ const MIN_SIDE: usize = 4;
 /// The maximum of columns and rows: the cost of a level grows with the square of its cells.
 const MAX_SIDE: usize = 64;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The configuration of a level generator.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -11,8 +11,9 @@ use super::layout::{self, Family};
 use super::palette::Palette;
 use super::plan::furnishable;
 use crate::{GenerateError, Generator};
+use base::{Sampler, Seed};
 use engine::analysis::{Condition, EffectSummary, Goal, Motion, Reason, Role, Steering};
-use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
+use engine::{Action, Analysis, Game, Level, SpriteType};
 
 /// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;

@@ -6,8 +6,9 @@ use super::examples::is_cover;
 use super::grid::{FAR, Grid, WAYS};
 use super::palette::holds_avatar;
 use crate::Generator;
+use base::{Sampler, Seed};
 use engine::analysis::{Harm, Reason, Role, Steering};
-use engine::{Level, Sampler, Seed, SpriteType};
+use engine::{Level, SpriteType};
 use std::collections::VecDeque;
 
 /// The number of levels from which the usual counts are taken.

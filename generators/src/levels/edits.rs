@@ -3,7 +3,7 @@
 use super::draft::{Draft, SymbolUse};
 use super::grid::{Grid, WAYS};
 use super::layout::{self, Family};
-use engine::Sampler;
+use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 
 /// The maximum distance that a thing moves in a small move, in cells.

@@ -4,8 +4,9 @@ use super::grid::Grid;
 use super::layout::Patterns;
 use super::palette::Palette;
 use super::placement::{NOOKS, Placement, Scene, nook};
+use base::Sampler;
 use engine::analysis::{Motion, Role};
-use engine::{Analysis, Game, Level, Sampler, SpriteType};
+use engine::{Analysis, Game, Level, SpriteType};
 
 /// Statistics of a game's own levels.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use super::constructive::ConstructiveLevels;
 use super::layout::Family;
 use super::plan::furnishable;
-use engine::Sampler;
+use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 
 impl ConstructiveLevels<'_> {

@@ -1,6 +1,6 @@
 //! The board as a graph of cells. A cell is its row-major index.
 
-use engine::Sampler;
+use base::Sampler;
 use std::collections::VecDeque;
 
 /// The steps up, left, down and right: (columns, rows).

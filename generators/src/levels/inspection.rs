@@ -2,8 +2,9 @@
 
 use super::board::Board;
 use super::constructive::{ConstructiveLevels, Made};
+use base::Seed;
 use engine::analysis::{Harm, Motion, Reason, Role, Steering};
-use engine::{Action, Level, Outcome, Seed, SpriteType, State};
+use engine::{Action, Level, Outcome, SpriteType, State};
 
 /// The number of ticks that a player who does nothing should survive.
 const GRACE_TICKS: usize = 12;

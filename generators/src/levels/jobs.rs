@@ -2,8 +2,9 @@
 
 use super::palette::{Palette, Walk};
 use super::plan::{furnishable, round};
+use base::Sampler;
 use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
-use engine::{Analysis, Sampler, SpriteType};
+use engine::{Analysis, SpriteType};
 use itertools::Itertools;
 
 /// A task: push a sprite onto a partner.

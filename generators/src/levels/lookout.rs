@@ -1,7 +1,8 @@
 //! A careful player among strays, which wander at random: how often can a level be won by whoever looks often enough?
 
 use super::grid::{Grid, WAYS};
-use engine::{Action, Game, Level, Outcome, Sampler, Seed, SpriteType};
+use base::{Sampler, Seed};
+use engine::{Action, Game, Level, Outcome, SpriteType};
 use std::ops::RangeInclusive;
 
 /// Ticks that a plan looks ahead, at least.

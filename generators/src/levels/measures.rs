@@ -11,7 +11,7 @@ const HALF: f64 = 4.0;
 /// The number of steps at which nearness is half of its maximum.
 const NEAR: f64 = 4.0;
 
-engine::named_enum! {
+base::named_enum! {
     /// A static measure of a level, from 0.0 to 1.0. A share of nothing is 0.0.
     pub enum LevelMeasure {
         /// The share of cells that are neither empty nor ground.

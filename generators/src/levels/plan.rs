@@ -2,8 +2,9 @@
 
 use super::examples::Target;
 use super::palette::Palette;
+use base::Sampler;
 use engine::analysis::{Motion, Reason, Role};
-use engine::{Analysis, Sampler, SpriteType};
+use engine::{Analysis, SpriteType};
 
 /// A desired number of sprites of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 
 use super::grid::{FAR, Grid, WAYS};
 use super::jobs::{Job, Jobs};
-use engine::{Sampler, SpriteType};
+use base::Sampler;
+use engine::SpriteType;
 use std::collections::VecDeque;
 
 /// One push: moves the thing on a cell one step.
@@ -239,7 +240,7 @@ fn walk(now: &Pulls, from: usize, to: usize, ways: &mut Vec<(i32, i32)>) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
 
     #[test]
     fn pulled_things_can_be_pushed_back() {

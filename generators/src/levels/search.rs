@@ -5,7 +5,8 @@ use super::constructive::ConstructiveLevels;
 use super::puzzles::{PuzzleConfig, PuzzleVariation};
 use super::variation::LevelVariation;
 use crate::{GenerateError, Variation};
-use engine::{Game, Level, Sampler, Seed};
+use base::{Sampler, Seed};
+use engine::{Game, Level};
 
 /// The variation of levels that suits a game.
 pub enum LevelSearch<'a> {

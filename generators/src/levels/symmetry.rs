@@ -2,8 +2,9 @@
 
 use super::grid::Grid;
 use super::palette::Palette;
+use base::Digest;
 use engine::analysis::Role;
-use engine::{Analysis, Digest, Level};
+use engine::{Analysis, Level};
 use itertools::Itertools;
 
 /// The number of symmetries of a board: bit 0 mirrors left and right, bit 1 up and down, bit 2 swaps columns and rows.

@@ -5,7 +5,8 @@ use super::constructive::ConstructiveLevels;
 use super::draft::{Draft, Faults, SymbolUse, Vocabulary};
 use super::edits::{Edit, pick};
 use crate::{GenerateError, Generator, Variation};
-use engine::{Game, Level, Sampler, Seed};
+use base::{Sampler, Seed};
+use engine::{Game, Level};
 
 /// The number of draws of an edit before another kind is tried.
 const REDRAWS: usize = 24;

@@ -1,6 +1,6 @@
 //! Simulated annealing of strings of bits, whose optimum is known.
 
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 
 const BITS: usize = 48;

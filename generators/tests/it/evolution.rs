@@ -1,7 +1,8 @@
 //! Evolves levels with a cheap stand-in for the judges, and compares them with as many levels of the constructive
 //! generator.
 
-use engine::{Analysis, Digest, Game, Level, Seed};
+use base::{Digest, Seed};
+use engine::{Analysis, Game, Level};
 use generators::levels::{LevelConfig, LevelMeasure, LevelMeasures, LevelSimilarity, LevelVariation};
 use generators::{
     Archive, Axis, Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, MapElites, MapElitesConfig,

@@ -1,7 +1,7 @@
 //! The search with two populations, of fences.
 
 use crate::toys::{Fences, best_of_random, run};
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use generators::{Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, Search};
 
 fn search(fences: &Fences, seed: u64) -> FeasibleInfeasible<'_, Fences> {

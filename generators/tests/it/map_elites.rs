@@ -1,7 +1,7 @@
 //! The illumination of slopes by MAP-Elites.
 
 use crate::toys::{Slopes, run, sample};
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use generators::{Archive, Axis, Evaluation, MapElites, MapElitesConfig, Search};
 
 const BINS: usize = 20;

@@ -1,6 +1,6 @@
 //! Toy problems for tests of the searches: variations whose best candidates are known.
 
-use engine::{Digest, Sampler, Seed};
+use base::{Digest, Sampler, Seed};
 use generators::{Evaluation, Search, Variation};
 
 /// Rows of places with or without a post: no two posts side by side, and as many as possible. The optimum is every other

@@ -4,8 +4,9 @@
 use crate::any_game::any_game;
 use crate::choices::{Choices, random_bytes};
 use crate::{generated, read, workspace_root};
+use base::{Sampler, Seed};
+use engine::SpriteClass;
 use engine::syntax;
-use engine::{Sampler, Seed, SpriteClass};
 use std::sync::LazyLock;
 
 /// Corpus games that are small enough, each with its levels.

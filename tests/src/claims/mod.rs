@@ -11,8 +11,9 @@ pub mod read;
 mod refute;
 pub mod shrink;
 
+use base::Seed;
 use engine::analysis::Reach;
-use engine::{Action, Analysis, Game, Level, Outcome, Seed, SpriteType};
+use engine::{Action, Analysis, Game, Level, Outcome, SpriteType};
 use play::Play;
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,7 +1,8 @@
 //! Recorded plays.
 
 use super::Case;
-use engine::{Action, Meeting, Outcome, Sampler, Seed, SpriteRecord, SpriteType, State, Watch};
+use base::{Sampler, Seed};
+use engine::{Action, Meeting, Outcome, SpriteRecord, SpriteType, State, Watch};
 
 /// The end of a tick.
 pub struct Frame {

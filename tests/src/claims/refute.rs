@@ -2,9 +2,10 @@
 
 use super::play::{Frame, Play};
 use super::{Case, Ending, Fact, Policy, Provided, Tie, When};
+use base::Seed;
 use engine::analysis::Precondition;
 use engine::syntax::{self, Param, SpriteLine};
-use engine::{Action, MAX_TICKS, Outcome, Seed, SpriteRecord, SpriteType};
+use engine::{Action, MAX_TICKS, Outcome, SpriteRecord, SpriteType};
 use std::collections::BTreeMap;
 
 /// Ticks of an idle play.

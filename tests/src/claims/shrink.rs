@@ -2,7 +2,8 @@
 
 use super::play::{Play, plays};
 use super::{Case, Fault, Policy, faults, read};
-use engine::{Action, Seed};
+use base::Seed;
+use engine::Action;
 
 /// Tries to remove lines of the game, rows and columns of the level, and parameters, as long as a claim of the same kind and
 /// code stays false.

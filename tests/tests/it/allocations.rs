@@ -1,6 +1,7 @@
 //! A warm step allocates no memory: planners make millions of them.
 
-use engine::{Action, Game, Level, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Level, State};
 use std::path::Path;
 use tests::{games, public_games, workspace_root};
 

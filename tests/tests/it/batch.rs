@@ -1,7 +1,8 @@
 //! Batches: each lane plays the same episode as on its own, on any number of threads.
 
 use agents::{Batch, BatchError};
-use engine::{Action, Game, Level, Sampler, Seed, State, StateHash};
+use base::{Sampler, Seed};
+use engine::{Action, Game, Level, State, StateHash};
 use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use tests::any_game::any_game;

@@ -2,7 +2,8 @@
 //! changed games, strict and as the reference reads them: see [`tests::claims`].
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
-use engine::{Action, Outcome, Seed, SpriteType};
+use base::Seed;
+use engine::{Action, Outcome, SpriteType};
 use rayon::prelude::*;
 use std::io::Write as _;
 use tests::claims::play::{Play, plays};

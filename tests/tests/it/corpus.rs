@@ -1,7 +1,8 @@
 //! Properties that hold for every game, here for the corpus: clones, hashes, replays, terminal states, prints. Cf.
 //! OpenSpiel's basic tests. Generated games are in `robustness.rs`.
 
-use engine::{Action, Episode, Game, Level, Outcome, Sampler, Seed, State, syntax};
+use base::{Sampler, Seed};
+use engine::{Action, Episode, Game, Level, Outcome, State, syntax};
 use std::fs;
 use tests::workspace_root;
 

@@ -2,7 +2,8 @@
 //!
 //! The faults are drawn from a seed, [`EACH`] of each kind, over the corpus games.
 
-use engine::{Diagnostic, Game, Sampler, Seed, SpriteClass, line_and_column};
+use base::{Sampler, Seed};
+use engine::{Diagnostic, Game, SpriteClass, line_and_column};
 use std::fs;
 use tests::workspace_root;
 

@@ -1,7 +1,8 @@
 //! Measures of our own games, compared with their authors' intentions.
 
 use agents::{PortfolioConfig, Solution, solve};
-use engine::{Analysis, Seed};
+use base::Seed;
+use engine::Analysis;
 use tests::{games, workspace_root};
 use validators::Recorded;
 use validators::game_measures::{AvatarKind, ChanceKind, GameKind, GoalKind, PlayMeasures};

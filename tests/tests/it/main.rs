@@ -1,6 +1,7 @@
 //! Properties that span crates, and the tidiness of the tree.
 
 extern crate infinite_arcade_agents as agents;
+extern crate infinite_arcade_base as base;
 extern crate infinite_arcade_editor as editor;
 extern crate infinite_arcade_engine as engine;
 extern crate infinite_arcade_generators as generators;

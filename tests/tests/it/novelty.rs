@@ -1,7 +1,8 @@
 //! Novelty of games: irrelevant changes leave the form of a game unchanged, relevant ones change it, and the
 //! duplicate distance lies between copies with other numbers and other games (docs/novelty.md).
 
-use engine::{Game, Seed};
+use base::Seed;
+use engine::Game;
 use generators::games::{Kind, Masked, Rethemed};
 use generators::kernels::KernelGenome;
 use std::path::Path;

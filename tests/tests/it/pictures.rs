@@ -1,6 +1,7 @@
 //! Every game that loads can be drawn: the hostile games and the corpus, in every format.
 
-use engine::{Action, Analysis, Game, Level, Seed, syntax};
+use base::Seed;
+use engine::{Action, Analysis, Game, Level, syntax};
 use generators::games::Kind;
 use generators::kernels::KernelGenome;
 use render::{Looks, RenderError, Style, Symbols};

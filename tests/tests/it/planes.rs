@@ -1,6 +1,7 @@
 //! Planes: kept up to date from tick to tick, they show what observations list.
 
-use engine::{Action, Drawn, Game, Level, Planes, Seed, SpriteType, State};
+use base::Seed;
+use engine::{Action, Drawn, Game, Level, Planes, SpriteType, State};
 use tests::{games, public_games, workspace_root};
 
 /// The planes of an observation.

@@ -1,7 +1,8 @@
 //! Short runs of the checks that `fuzz/` runs for long: any text, any level, any actions. The same inputs in every run.
 
+use base::Sampler;
 use engine::syntax::Section;
-use engine::{EFFECTS, SPRITE_PARAMETERS, Sampler, SpriteClass, TERMINATIONS, effect_parameters};
+use engine::{EFFECTS, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 use proptest::prelude::*;
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};

@@ -5,8 +5,9 @@
 //! leaves out, and the same wins.
 
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
+use base::Seed;
 use engine::analysis::StateAbstraction;
-use engine::{Action, Analysis, Game, Level, Outcome, Seed, State};
+use engine::{Action, Analysis, Game, Level, Outcome, State};
 use std::collections::BTreeMap;
 
 /// Returns a game: sprites, mapping, interactions and terminations, besides walls and the player.

@@ -1,6 +1,7 @@
 //! Shortcuts of a step: sprites that a step skips, because their movement is predicted, are where they would be without it.
 
-use engine::{Action, Game, Level, Limit, Outcome, Sampler, Seed, State};
+use base::{Sampler, Seed};
+use engine::{Action, Game, Level, Limit, Outcome, State};
 use proptest::prelude::*;
 use std::path::Path;
 use tests::any_game::any_game;

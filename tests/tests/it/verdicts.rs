@@ -3,7 +3,8 @@
 //! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad one names the criterion that it does not
 //! pass, the expected verdict, and words that reason and evidence must contain. A good one meets every criterion.
 
-use engine::{Game, Level, Seed};
+use base::Seed;
+use engine::{Game, Level};
 use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,8 +2,9 @@
 
 use crate::levels::folders;
 use anyhow::{Context, bail};
+use base::Seed;
 use cpu_time::ThreadTime;
-use engine::{Chance, Game, Seed, State};
+use engine::{Chance, Game, State};
 use std::fs;
 use std::path::Path;
 use std::time::Duration;

@@ -7,7 +7,8 @@
 use crate::levels::load;
 use agents::{Budget, Limits, PlannerSpec, Play, play};
 use anyhow::{Context, bail};
-use engine::{Game, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Game, Level, Outcome};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;

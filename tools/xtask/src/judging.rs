@@ -1,7 +1,7 @@
 //! `cargo xtask judging`: compares the sequential judging of candidates with judging in full.
 
 use anyhow::Context;
-use engine::Seed;
+use base::Seed;
 use forge::games::GameOrder;
 use generators::games::GeneratedGame;
 use generators::kernels::{KernelGame, KernelGenome, Slot};

@@ -1,7 +1,7 @@
 //! `cargo xtask kernels`: what stands in the way of games of each kernel.
 
 use anyhow::{Context, bail};
-use engine::Seed;
+use base::Seed;
 use forge::Tally;
 use forge::games::{GameOrder, attempt_kernel};
 use forge::levels::Method;

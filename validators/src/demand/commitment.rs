@@ -2,9 +2,10 @@
 
 use super::patience;
 use agents::{Budget, OpenLoop, PlannerSpec};
-use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Game, Level, Outcome};
 
-engine::named_enum! {
+base::named_enum! {
     /// The longest plan, in actions played without another look, with which a planner wins a level. Lower is more demanding.
     pub enum Commitment {
         /// No planner wins, even with a look before every action.

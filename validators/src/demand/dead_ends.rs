@@ -2,7 +2,8 @@
 
 use crate::measures::actions;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
-use engine::{Analysis, Episode, Level, Outcome, Seed, State};
+use base::Seed;
+use engine::{Analysis, Episode, Level, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 

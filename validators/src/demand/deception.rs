@@ -3,7 +3,8 @@
 use super::patience;
 use super::route::{Route, avatar_cell};
 use agents::{Budget, Limits, NearestGoal, OneStep, OneStepConfig, Planner, play};
-use engine::{Analysis, Episode, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Level, Outcome};
 use serde::{Deserialize, Serialize};
 
 /// The plays of the nearest-goal player and of one-step look-ahead.

@@ -14,7 +14,8 @@ pub use shorter::shorter_win;
 pub use tier::{TIERS, Tier, TierBounds};
 
 use crate::measures::pushes_of;
-use engine::{Action, Analysis, Episode, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Action, Analysis, Episode, Level, Outcome};
 use route::Route;
 use serde::{Deserialize, Serialize};
 

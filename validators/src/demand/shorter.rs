@@ -1,7 +1,8 @@
 //! Shorter wins of stochastic games.
 
 use agents::{Budget, Limits, PlannerSpec, play};
-use engine::{Analysis, Episode, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Level, Outcome};
 
 /// The planners that play.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];

@@ -3,7 +3,8 @@
 //! The futures press random keys, but take back a key that loses at once. Without that, any deadly game would checkpoint
 //! hopeless at every moment.
 
-use engine::{Game, Outcome, Sampler, Seed, State};
+use base::{Sampler, Seed};
+use engine::{Game, Outcome, State};
 use std::cmp::Ordering;
 use std::mem;
 

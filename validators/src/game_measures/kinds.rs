@@ -7,7 +7,7 @@ use engine::{Analysis, SpriteClass, SpriteType, Term};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-engine::named_enum! {
+base::named_enum! {
     /// The abilities of the initial avatar: how it moves, and whether the use key makes something.
     pub enum AvatarKind {
         /// Goes up, left, down and right.
@@ -57,7 +57,7 @@ impl AvatarKind {
     }
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The task that a win requires, by the signed goals: if several fit, the first in this order counts.
     pub enum GoalKind {
         /// Others head for the same goal, and the first to arrive wins.
@@ -130,7 +130,7 @@ impl GoalKind {
     }
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The source of randomness, if randomness can decide anything.
     pub enum ChanceKind {
         /// Nothing.

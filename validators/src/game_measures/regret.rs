@@ -1,7 +1,8 @@
 //! Regret: the price of sensible choices that are not the winner's.
 
 use agents::{Budget, Olets, OletsConfig, OneStep, OneStepConfig, Planner};
-use engine::{Action, Chance, Episode, Game, Level, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Chance, Episode, Game, Level, Outcome, State};
 use serde::{Deserialize, Serialize};
 
 /// The most moments of an episode at which policies choose, evenly spread.

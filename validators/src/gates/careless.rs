@@ -3,7 +3,8 @@
 use super::{Gates, WonLevel};
 use crate::game_report::GameCase;
 use agents::{Budget, Limits, NearestGoal, play};
-use engine::{Episode, Game, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Episode, Game, Level, Outcome};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;

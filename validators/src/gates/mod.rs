@@ -116,7 +116,8 @@ fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
 #[cfg(test)]
 mod tests {
     use crate::{Criteria, Finding, Gates, Panel};
-    use engine::{Game, Seed};
+    use base::Seed;
+    use engine::Game;
 
     /// Judges a game by one gate, with wins from the search of `winnable`.
     pub(super) fn judged(gate: &str, source: &str, levels: &[&str], alter: impl Fn(&mut Gates)) -> Finding {

@@ -4,8 +4,9 @@ use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_lev
 use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
+use base::Seed;
 use engine::analysis::{Attainable, Role};
-use engine::{Analysis, Episode, Game, Level, Seed, SpriteClass, SpriteType, Term};
+use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 
 /// On each level after the first, up to [`Gates::instant_levels`] of them apart, the shortest known win takes at least
 /// [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the slowest spawner on the level, and the nearest-goal player

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The thresholds of the gates: the `[criteria.gates]` table of a recipe. The page `docs/gates.md` gives the source of each.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -3,7 +3,7 @@
 //! A colour is a hash of the structure it stands for, so that the colours of different games can be compared.
 
 use super::graph::RuleGraph;
-use engine::Digest;
+use base::Digest;
 use itertools::Itertools;
 
 /// The colour of a node.

@@ -6,7 +6,8 @@ mod graph;
 mod kernel;
 mod labelling;
 
-use engine::{Digest, Game, SpriteType};
+use base::Digest;
+use engine::{Game, SpriteType};
 use graph::RuleGraph;
 use kernel::Features;
 

@@ -1,7 +1,8 @@
 //! A lower bound on the pushes that a state needs before it can be won; a box in a corner can never be pushed home.
 
+use base::Seed;
 use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
-use engine::{Level, Seed, SpriteClass, SpriteType, State};
+use engine::{Level, SpriteClass, SpriteType, State};
 use smallvec::SmallVec;
 
 /// The pushes that pushable sprites need, in one level.

@@ -6,8 +6,9 @@ mod route;
 pub use beliefs::Experience;
 
 use crate::planner::{Budget, Planner};
+use base::{Sampler, Seed};
 use beliefs::{Beliefs, Circumstances, Passed, circumstances};
-use engine::{Action, Game, Observation, Sampler, Seed, State};
+use engine::{Action, Game, Observation, State};
 use route::{Board, Routes};
 use std::collections::BTreeMap;
 

@@ -1,7 +1,8 @@
 //! Heuristic values.
 
 use agents::Heuristic;
-use engine::{Action, Game, Seed};
+use base::Seed;
+use engine::{Action, Game};
 
 /// Cells are ten pixels wide.
 const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    exit > Door\n    far > RandomNPC cons=100\n    near > RandomNPC cons=100\n    coin > Immovable\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    e > exit\n    f > far\n    n > near\n    c > coin\n    p > pit\n  InteractionSet\n    coin avatar > killSprite scoreChange=5\n    exit avatar > killSprite\n    avatar pit > killSprite\n  TerminationSet\n    SpriteCounter stype=coin win=True\n    SpriteCounter stype=avatar win=False\n";

@@ -1,7 +1,8 @@
 //! MCTS on a board with a pit.
 
 use agents::{Budget, Limits, Mcts, MctsConfig, Planner, play};
-use engine::{Game, Outcome, Seed};
+use base::Seed;
+use engine::{Game, Outcome};
 
 const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=500 win=False\n";
 

@@ -1,7 +1,8 @@
 //! Guided MCTS: keys, exits, and wins that are certain.
 
 use agents::{Budget, GuidedMcts, GuidedMctsConfig, Limits, Play, play};
-use engine::{Game, Outcome, Seed};
+use base::Seed;
+use engine::{Game, Outcome};
 
 /// The key is far beyond the look-ahead, and the exit, locked without it, is further still: no score shows the
 /// way.

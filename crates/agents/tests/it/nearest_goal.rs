@@ -1,7 +1,8 @@
 //! The nearest-goal bot.
 
 use agents::{Budget, Limits, NearestGoal, play};
-use engine::{Game, Outcome, Seed};
+use base::Seed;
+use engine::{Game, Outcome};
 
 const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    trap > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    t > trap\n  InteractionSet\n    avatar wall > stepBack\n    avatar trap > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=30 win=False\n";
 

@@ -1,7 +1,8 @@
 //! Plans of several actions.
 
 use agents::{Budget, Mcts, MctsConfig, OpenLoop, Planner};
-use engine::{Game, Seed, State};
+use base::Seed;
+use engine::{Game, State};
 
 /// A corridor with a gem at its end, and a ghost that walks at random if `ghost` is its symbol.
 fn corridor(level: &str) -> (Game, State) {

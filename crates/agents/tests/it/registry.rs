@@ -1,7 +1,8 @@
 //! Planners by name: saved and loaded, and within their budgets.
 
 use agents::{Budget, PLANNERS, Planner, PlannerSpec, planner};
-use engine::{Action, Episode, Game, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Episode, Game, Outcome, State};
 
 #[test]
 fn only_registered_names_make_planners() {

@@ -1,7 +1,8 @@
 //! The systematic player.
 
 use agents::{Budget, Planner, Systematic};
-use engine::{Game, Outcome, Seed};
+use base::Seed;
+use engine::{Game, Outcome};
 
 const GAME: &str = "BasicGame
     SpriteSet

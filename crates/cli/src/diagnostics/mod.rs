@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn any_text_and_span_are_accepted() {
-        let mut sampler = engine::Seed::from_text("excerpts").sampler();
+        let mut sampler = base::Seed::from_text("excerpts").sampler();
         let pieces = ["\t", "蟻", "\u{301}", " ", "a", "\r", "\n", "\u{feff}", "🎮", "\u{200b}"];
         for _ in 0..400 {
             let mut text = String::new();

@@ -35,7 +35,7 @@ struct Asked<'a> {
     entrant: &'a Entrant,
     suite: &'a str,
     semantics: u32,
-    snapshot: Option<engine::Digest>,
+    snapshot: Option<base::Digest>,
     seed: &'a str,
     runs: u64,
     max_steps: u64,

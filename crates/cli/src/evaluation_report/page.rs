@@ -7,7 +7,7 @@ use super::told::Told;
 use crate::failure::Failure;
 use crate::page::facts::Fact;
 use crate::page::words;
-use engine::Digest;
+use base::Digest;
 use evaluation::study::{LeaderRow, Study};
 use report::Table;
 use serde::Serialize;

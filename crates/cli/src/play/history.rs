@@ -1,6 +1,7 @@
 //! An episode in progress that can be undone tick by tick.
 
-use engine::{Action, Episode, Game, Level, Seed, State};
+use base::Seed;
+use engine::{Action, Episode, Game, Level, State};
 
 /// Ticks between two stored states: undoing a tick replays at most this many.
 const STRIDE: usize = 32;

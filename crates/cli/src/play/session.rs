@@ -2,7 +2,8 @@
 
 use super::history::History;
 use agents::{Budget, Planner};
-use engine::{Action, Episode, Game, Level, Seed, State};
+use base::Seed;
+use engine::{Action, Episode, Game, Level, State};
 
 /// The most ticks a second.
 pub(crate) const MAX_PACE: u16 = 60;

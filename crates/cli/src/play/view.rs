@@ -197,7 +197,8 @@ fn keys_of(session: &Session) -> &'static str {
 mod tests {
     use super::*;
     use crate::play::session::Command;
-    use engine::{Action, Analysis, Game, Seed};
+    use base::Seed;
+    use engine::{Action, Analysis, Game};
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use render::Symbols;

@@ -3,7 +3,8 @@
 use super::{MOST, Sheet, Shot, Showcase, cell, failed, made_in, write};
 use crate::failure::Failure;
 use crate::page::{Figure, plots, words};
-use engine::{Analysis, Level, Seed};
+use base::Seed;
+use engine::{Analysis, Level};
 use forge::levels::report::{BINS, LevelSetReport};
 use render::{Looks, Picture, Style, picture};
 use snapshots::Draft;

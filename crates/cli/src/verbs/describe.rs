@@ -3,8 +3,9 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
+use base::Digest;
+use engine::Analysis;
 use engine::describe::{self, Guide};
-use engine::{Analysis, Digest};
 use serde::Serialize;
 use serde_json::json;
 

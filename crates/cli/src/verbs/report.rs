@@ -6,7 +6,7 @@ use crate::failure::Answer;
 use crate::protected;
 use crate::trusted::{digest, refuse};
 use crate::verbs::release::in_pool;
-use engine::Digest;
+use base::Digest;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
 use serde_json::{Value, json};

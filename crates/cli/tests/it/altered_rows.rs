@@ -2,7 +2,8 @@
 //! ways: 1,000 in a sweep.
 
 use crate::arcade::{TINY, arcade, copy_tree, files, run, sweeping, text};
-use engine::{Action, Digest, Game, Sampler, Seed};
+use base::{Digest, Sampler, Seed};
+use engine::{Action, Game};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

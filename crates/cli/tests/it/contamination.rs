@@ -1,7 +1,8 @@
 //! Tests of memory: a player that replays what coins published is found, others are not.
 
 use crate::arcade::{copy_tree, files, run, text};
-use engine::{Digest, Game};
+use base::Digest;
+use engine::Game;
 use serde_json::Value;
 use snapshots::mint::{Memory, Plan, lay_out, make_jobs};
 use snapshots::released::{Released, ReleasedGame};

@@ -3,7 +3,7 @@
 
 use crate::arcade::{arcade, copy_of_tiny, files, run, sweeping, text};
 use crate::server::{ReceivedRequest, Response, Server};
-use engine::Digest;
+use base::Digest;
 use evaluation::log::{Event, ReplyClass, read, without_times};
 use evaluation::player::Validity;
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! The language server as an editor runs it: a client that counts in UTF-16 conducts whole sessions with the binary.
 
 use crate::arcade::{arcade, run, text};
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};

@@ -88,7 +88,7 @@ fn marks_are_the_episodes_of_an_evaluation() {
     }
     assert!(won > 0, "{marks:#}");
     // Other numbers without another GENERATION mean that marks change after all.
-    let digest = engine::Digest::of(marks["games"].to_string().as_bytes());
+    let digest = base::Digest::of(marks["games"].to_string().as_bytes());
     assert_eq!(digest.short(), "2a7dbbb2", "{}", marks["games"]);
 
     // Reports show them beside the players.

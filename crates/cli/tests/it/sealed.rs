@@ -1,7 +1,7 @@
 //! Sealed releases: the public part reveals no secret, and the revealed part matches the commitment.
 
 use crate::arcade::{commit, copy_tree, files, run, sweeping, text};
-use engine::Digest;
+use base::Digest;
 use snapshots::Secret;
 use std::fs;
 use std::path::Path;

@@ -137,7 +137,7 @@ fn releases_are_signed_by_enough_keys() {
     let manifest = folder.join("tiny/MANIFEST.json");
     let honest = fs::read_to_string(&manifest).unwrap();
     let mut altered = Manifest::parse(honest.as_bytes()).unwrap();
-    altered.lockfile = engine::Digest::of(b"another");
+    altered.lockfile = base::Digest::of(b"another");
     altered.seal_root().unwrap();
     fs::write(&manifest, altered.to_bytes().unwrap()).unwrap();
     run(folder, &["verify", "tiny"], 0);

@@ -1,7 +1,8 @@
 //! Properties over every corpus game, and over texts that are damaged at random.
 
+use base::{Sampler, Seed};
+use engine::Game;
 use engine::syntax::{parse, print_bare};
-use engine::{Game, Sampler, Seed};
 use infinite_arcade_editor::{
     applied, complete, definition, format, hover, level_hover, level_problems, outline, problems, references,
     renamable, rename,

@@ -30,7 +30,7 @@ pub enum Format {
     Number,
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The rule that read an answer in spite of its format.
     pub enum Stage {
         /// `"action": "left"`, as in JSON.

@@ -3,7 +3,7 @@
 use super::chat::{ChatReply, ChatRequest};
 use super::provider::Provider;
 use crate::error::EvaluationError;
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use report::files;
 use serde::{Deserialize, Serialize};
 use std::fs;

@@ -1,6 +1,6 @@
 //! Requests to a model, and its answers.
 
-use engine::Seed;
+use base::Seed;
 use serde::{Deserialize, Serialize};
 
 /// A language model that answers chats.

@@ -12,14 +12,14 @@ use super::remote::Remote;
 use super::spec::ModelSpec;
 use super::wire::Wire;
 use crate::error::EvaluationError;
-use engine::Digest;
+use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The user's options for a model. They contain no key: keys are read from the environment.
     #[derive(Clone, Debug)]
     pub struct ModelOptions {

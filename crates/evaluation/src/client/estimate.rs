@@ -116,7 +116,7 @@ mod tests {
             [&b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"[..], &280u32.to_be_bytes(), &56u32.to_be_bytes()].concat();
         let prompt = |image: Option<Vec<u8>>| {
             let messages = vec![ChatMessage { role: Role::User, text: "left".to_owned(), image }];
-            let sample = engine::Seed::from_text("x");
+            let sample = base::Seed::from_text("x");
             prompt_tokens(&ChatRequest { messages, decoding: Decoding::default(), sample })
         };
         assert_eq!(prompt(None), 1 + tokens::PER_MESSAGE);

@@ -10,7 +10,7 @@ use super::key::Key;
 use super::pace::Pace;
 use super::spec::ModelSpec;
 use super::wire::Wire;
-use engine::{Digest, Sampler};
+use base::{Digest, Sampler};
 use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
@@ -191,7 +191,7 @@ fn wait(number: u32, requested_wait: Option<Duration>, jitter: &mut Sampler) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
 
     #[test]
     fn waits_double_up_to_a_minute() {

@@ -1,6 +1,7 @@
 //! The coins of a release, as the tests need them.
 
-use engine::{Action, Digest};
+use base::Digest;
+use engine::Action;
 
 /// The games and witnesses that the coins of a release published and withheld.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -222,8 +222,9 @@ mod tests {
     use super::super::coins::{GameCoin, LevelCoin};
     use super::*;
     use crate::study::Player;
+    use base::Digest;
+    use engine::Action;
     use engine::Action::{Down, Left, Right, Up};
-    use engine::{Action, Digest};
 
     const GAMES: usize = 10;
     const BEGINNINGS: [&[Action]; 2] = [&[Up, Left], &[Down, Right]];

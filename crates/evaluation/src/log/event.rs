@@ -5,7 +5,8 @@ use crate::commitment::Commitment;
 use crate::player::Validity;
 use crate::predictions::{Grade, Predicted};
 use crate::track::SeriesPlace;
-use engine::{Action, Digest, Outcome, Seed, StateHash};
+use base::{Digest, Seed};
+use engine::{Action, Outcome, StateHash};
 use serde::{Deserialize, Serialize};
 
 /// The version of the events below, raised when a reader of older logs could misread newer ones.

@@ -7,7 +7,7 @@ use engine::{Limit, Meeting, Outcome, Removal, Span, SpriteType, State, Watch};
 use itertools::Itertools;
 use serde::Serialize;
 
-engine::named_enum! {
+base::named_enum! {
     /// The causes by which an episode is not won.
     pub enum EndingKind {
         /// The avatar was removed, or turned into something else.

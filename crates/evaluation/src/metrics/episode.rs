@@ -10,7 +10,8 @@ use crate::metrics::replay::{Replayed, replay, replay_course};
 use crate::predictions::Grade;
 use crate::subject::Subject;
 use crate::track::SeriesPlace;
-use engine::{Digest, Outcome};
+use base::Digest;
+use engine::Outcome;
 use serde::Serialize;
 use std::collections::BTreeSet;
 

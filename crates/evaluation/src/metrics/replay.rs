@@ -10,7 +10,8 @@ use crate::metrics::meaningful::{Effect, meaningful};
 use crate::player::Validity;
 use crate::run::graded;
 use crate::subject::{Subject, SubjectLevel};
-use engine::{Action, Digest, Game, Outcome, SEMANTICS, State};
+use base::Digest;
+use engine::{Action, Game, Outcome, SEMANTICS, State};
 
 /// The results of an episode's replay.
 #[derive(Clone, Debug, PartialEq)]

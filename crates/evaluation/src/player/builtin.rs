@@ -4,7 +4,8 @@ use crate::log::Journal;
 use crate::player::{Agent, Choice, Halt};
 use crate::turn::Turn;
 use agents::{Budget, PlannerSpec};
-use engine::{Action, Digest, Episode};
+use base::Digest;
+use engine::{Action, Episode};
 
 /// The player of an episode.
 pub enum Contestant {

@@ -94,7 +94,7 @@ impl Choice {
     }
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The origin of a choice. All but [`Valid`](Validity::Valid) are counted separately in every table.
     pub enum Validity {
         /// The player named the action.

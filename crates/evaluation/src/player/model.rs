@@ -9,7 +9,8 @@ use crate::predictions::Predicted;
 use crate::prompt::{Attempt, Past, Prompt, Prompter};
 use crate::run::Task;
 use crate::turn::Turn;
-use engine::{Action, Digest, Seed};
+use base::{Digest, Seed};
+use engine::Action;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

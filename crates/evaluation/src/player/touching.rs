@@ -6,7 +6,8 @@ use crate::predictions::{Predicted, TouchFact};
 use crate::turn::{Turn, is_of_use};
 use agents::TouchEverything;
 use agents::touch_everything::Experience;
-use engine::{Action, Observation, Seed};
+use base::Seed;
+use engine::{Action, Observation};
 
 /// An agent that learns by touching: it sees the observation of a turn, and nothing of the rules.
 #[derive(Clone, Debug)]

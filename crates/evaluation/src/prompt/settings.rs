@@ -113,7 +113,7 @@ pub enum PromptStyle {
     Discover,
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The handling of earlier turns.
     #[derive(Default)]
     pub enum Mode {

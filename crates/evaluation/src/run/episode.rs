@@ -11,7 +11,8 @@ use crate::subject::{Subject, SubjectLevel};
 use crate::track::SeriesPlace;
 use crate::turn::{LevelEnd, Played, Recent, Turn, choices};
 use agents::{OpenLoop, Player};
-use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Observation, Outcome, SEMANTICS, State};
 
 /// An episode to play.
 #[derive(Clone, Copy, Debug)]

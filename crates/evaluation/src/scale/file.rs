@@ -3,7 +3,7 @@
 use crate::error::EvaluationError;
 use crate::run::Settings;
 use crate::run::text::read_text;
-use engine::Digest;
+use base::Digest;
 use serde::{Deserialize, Serialize};
 use statistics::Interval;
 use statistics::scale::{

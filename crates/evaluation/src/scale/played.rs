@@ -5,7 +5,7 @@ use crate::metrics::EpisodeMetrics;
 use crate::run::Settings;
 use crate::study::{Player, persons};
 use crate::track::Track;
-use engine::Digest;
+use base::Digest;
 use itertools::Itertools;
 use statistics::scale::Dimension;
 use std::collections::{BTreeMap, BTreeSet};

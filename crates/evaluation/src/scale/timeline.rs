@@ -3,7 +3,7 @@
 use super::file::{Estimate, ScaleFile, Span};
 use super::person::{MonthAbility, PersonAbility, Refusal, of_person};
 use super::played::PersonPlays;
-use engine::Digest;
+use base::Digest;
 use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The limits of a server. Beyond them it waits or refuses, and takes no more memory.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Bounds {

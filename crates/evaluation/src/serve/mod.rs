@@ -21,7 +21,8 @@ pub use server::{Running, Server};
 
 use crate::client::{ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Finish, Model, Usage};
 use agents::PlannerSpec;
-use engine::{Action, Seed};
+use base::Seed;
+use engine::Action;
 use shown::Shown;
 use std::fmt;
 use std::str::FromStr;

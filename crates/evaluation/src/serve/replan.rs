@@ -6,9 +6,10 @@
 use super::Unanswerable;
 use super::shown::Shown;
 use agents::{Budget, OpenLoop, PlannerSpec};
+use base::Seed;
 use engine::analysis::Time;
 use engine::syntax::{Description, MappingLine, parse};
-use engine::{Action, Analysis, Direction, Game, Level, Seed, State};
+use engine::{Action, Analysis, Direction, Game, Level, State};
 use std::collections::BTreeMap;
 
 /// The number of forward-model calls per decision, if the planner's name does not set it.

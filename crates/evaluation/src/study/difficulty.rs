@@ -5,7 +5,7 @@ use crate::study::scores::{Scores, mean};
 use report::{Table, TableCell};
 use serde::Serialize;
 
-engine::named_enum! {
+base::named_enum! {
     /// The difficulty class of a level or a game.
     pub enum DifficultyLabel {
         /// A score of at least 0.8.

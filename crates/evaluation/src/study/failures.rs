@@ -9,7 +9,7 @@ use serde::Serialize;
 use statistics::{bonferroni, quantile, welch};
 use std::collections::BTreeMap;
 
-engine::named_enum! {
+base::named_enum! {
     /// The failure-mode metrics.
     pub enum FailureMeasure {
         /// The fraction of steps that were not meaningful.

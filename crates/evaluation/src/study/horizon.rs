@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// The resamples of an interval.
 const RESAMPLES: usize = 1000;
 
-engine::named_enum! {
+base::named_enum! {
     /// The games of a horizon: what has to be foreseen.
     pub enum Foresight {
         /// Deterministic games: what will happen follows from the rules.

@@ -7,7 +7,7 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-engine::named_enum! {
+base::named_enum! {
     /// The value shown by a heat map.
     pub enum Measure {
         /// Wins divided by episodes.
@@ -65,7 +65,7 @@ impl Measure {
     }
 }
 
-engine::named_enum! {
+base::named_enum! {
     /// The players shown by a heat map. Players that are not models are in all of them.
     pub enum Scope {
         /// Models in zero-shot mode.

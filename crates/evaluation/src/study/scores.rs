@@ -2,7 +2,7 @@
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::LEVEL;
-use engine::Digest;
+use base::Digest;
 use report::TableCell;
 use serde::Serialize;
 use statistics::{Interval, RateOverGames, Z95, rate_over_games, wilson};

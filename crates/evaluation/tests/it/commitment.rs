@@ -1,7 +1,8 @@
 //! Players that commit to several actions: what is played, logged, resumed, replayed and shown.
 
 use crate::walk::game;
-use engine::{Action, Seed};
+use base::Seed;
+use engine::Action;
 use evaluation::log::decisions;
 use evaluation::metrics::{Replayed, replay, replay_course};
 use evaluation::player::Choice;

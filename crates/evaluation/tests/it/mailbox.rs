@@ -1,7 +1,8 @@
 //! Mailboxes: files that are no answers, folders that are no mailboxes, and interruptions.
 
 use crate::games::corridor;
-use engine::{SEMANTICS, Seed};
+use base::Seed;
+use engine::SEMANTICS;
 use evaluation::log::{read, without_times};
 use evaluation::player::Contestant;
 use evaluation::player::mailbox::{Delivery, Desk, MAX_ANSWER, Mailbox, MailboxPlayer, OpenPrompt};

@@ -19,7 +19,7 @@ fn request(text: &str) -> ChatRequest {
     ChatRequest {
         messages: vec![message(Role::System, "You play a game."), message(Role::User, text)],
         decoding: Decoding { temperature: Some(0.7), max_output_tokens: Some(32), ..Decoding::default() },
-        sample: engine::Seed::from_text(text),
+        sample: base::Seed::from_text(text),
     }
 }
 
@@ -337,11 +337,11 @@ fn repeated_requests_are_answered_from_the_cache() {
     let (second, _) = connect(&server, cached);
     let mut other = request("Now?");
     assert!(second.model.chat(&other).unwrap().cached);
-    other.sample = engine::Seed::from_text("another draw");
+    other.sample = base::Seed::from_text("another draw");
     assert_eq!(second.model.chat(&other).unwrap().text, "answer 1");
     other.decoding.temperature = Some(0.0);
     assert_eq!(second.model.chat(&other).unwrap().text, "answer 2");
-    other.sample = engine::Seed::from_text("a third draw");
+    other.sample = base::Seed::from_text("a third draw");
     assert_eq!(second.model.chat(&other).unwrap().text, "answer 2", "greedy answers are one");
     assert_eq!(server.received().len(), 3);
     assert_eq!(second.caps.spent().requests, 2);

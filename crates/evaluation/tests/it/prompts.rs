@@ -4,7 +4,8 @@
 //! code. A changed word requires a new [`evaluation::prompt::VERSION`].
 
 use crate::walk::{Walk, corpus, game};
-use engine::{Action, Digest, Game, Outcome};
+use base::Digest;
+use engine::{Action, Game, Outcome};
 use evaluation::client::{ChatMessage, Role};
 use evaluation::prompt::{
     Attempt, Encodings, Mode, Past, PromptSettings, PromptStyle, Prompter, Rules, sections,

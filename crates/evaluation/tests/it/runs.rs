@@ -137,8 +137,7 @@ fn an_agents_episode_is_resumed_at_the_end_of_its_log() {
     let actions = vec![Action::Right; 3];
     let agent = || {
         let level = &subjects[0].levels[1];
-        let (mut episode, _) =
-            Episode::begin(&subjects[0].game, &level.level, engine::Seed::from_text("any"));
+        let (mut episode, _) = Episode::begin(&subjects[0].game, &level.level, base::Seed::from_text("any"));
         episode.actions.clone_from(&actions);
         Contestant::Agent(Box::new(Replay::of(&episode)))
     };
@@ -216,7 +215,7 @@ fn damaged_logs_are_reported() {
     let path = home.path().join("r/episodes").join(tasks[0].file_name());
     let agent = |_: &Task<'_>| {
         let (subject, level) = (&tasks[0].subject, &tasks[0].level.level);
-        let (episode, _) = Episode::begin(&subject.game, level, engine::Seed::from_text("any"));
+        let (episode, _) = Episode::begin(&subject.game, level, base::Seed::from_text("any"));
         Ok(Contestant::Agent(Box::new(Replay::of(&episode))))
     };
     evaluation.run(agent, &Silent).unwrap();

@@ -2,7 +2,8 @@
 //! real APIs.
 
 use crate::sweeping;
-use engine::{Action, Game, Observation, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Observation, Outcome, State};
 use evaluation::answer::Reading;
 use evaluation::client::{ChatMessage, ChatRequest, Decoding, Model, ModelOptions, Role, connect};
 use evaluation::prompt::{Attempt, Mode, Past, PromptSettings, Prompter, Rules};

@@ -1,6 +1,7 @@
 //! Games of the corpus, and episodes of random actions.
 
-use engine::{Action, Game, Observation, Seed, State};
+use base::Seed;
+use engine::{Action, Game, Observation, State};
 use evaluation::{Before, Commitment, Subject, SubjectFacts, Turn};
 use std::fs;
 use std::io::Write;
@@ -61,7 +62,7 @@ pub(crate) struct Walk<'a> {
     subject: &'a Subject,
     level: usize,
     state: State,
-    sampler: engine::Sampler,
+    sampler: base::Sampler,
     number: u64,
     pub(crate) now: Observation,
     pub(crate) before: Option<(Observation, Action, f64)>,

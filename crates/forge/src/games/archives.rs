@@ -7,7 +7,7 @@ use super::make::{Attempted, GameSet, Maker, Shortfall, path};
 use super::rule_sets::{Own, SetVariation};
 use crate::search_loop::{run_search, spread};
 use crate::tally::{LOOK, Tally};
-use engine::Digest;
+use base::Digest;
 use generators::kernels::{KernelGenome, KernelVariation};
 use generators::{Archive, Evaluated, Evaluation, MapElites, MapElitesConfig};
 use rayon::prelude::*;
@@ -150,7 +150,7 @@ mod tests {
     use crate::games::gate::tests::order;
     use crate::games::{GameEffort, GameOrder, GamesError, make_games};
     use crate::levels::Method;
-    use engine::Seed;
+    use base::Seed;
     use generators::games::Kind;
 
     #[test]

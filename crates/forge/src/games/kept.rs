@@ -5,7 +5,8 @@ use super::levels::FoundLevel;
 use super::make::Attempted;
 use crate::card::Card;
 use crate::tally::Tally;
-use engine::{Episode, Game, Seed};
+use base::Seed;
+use engine::{Episode, Game};
 use serde::{Deserialize, Serialize};
 use validators::Report;
 

@@ -1,7 +1,8 @@
 //! A quick look at a game: the evaluation of a search.
 
 use agents::Play;
-use engine::{Analysis, Episode, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Level, Outcome};
 use generators::kernels::{Course, KernelGame, KernelGenome, Slot};
 use generators::{Axis, Evaluation};
 use validators::game_measures::{Coupling, PlayMeasures, Regret};

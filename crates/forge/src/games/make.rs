@@ -10,7 +10,7 @@ use super::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::{LOOK, Tally};
-use engine::Seed;
+use base::Seed;
 use generators::kernels::KernelGenome;
 use generators::{Annealing, AnnealingConfig, Variation};
 use std::collections::BTreeSet;

@@ -29,7 +29,7 @@ pub struct GameOrder {
     pub effort: GameEffort,
 }
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The sizes that boards are drawn from, in cells, both ends included.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

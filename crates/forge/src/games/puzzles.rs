@@ -1,7 +1,8 @@
 //! Puzzles for one game, of pushed things, with strays or without, locks or yards, made to a tier.
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
-use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Action, Analysis, Episode, Game, Level, Outcome};
 use generators::GenerateError;
 use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::{

@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use super::company::{Company, Room};
 use super::make::{Attempted, GameSet, Maker, Shortfall, path};
 use super::rule_sets::CHANGES;
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 use generators::Variation;
 use generators::games::Kind;
 use generators::kernels::{KernelGenome, KernelVariation, Turns};

@@ -3,7 +3,8 @@
 
 use super::cast::Cast;
 use crate::levels::Method;
-use engine::{Game, Sampler, Seed};
+use base::{Sampler, Seed};
+use engine::Game;
 use generators::Variation;
 use generators::games::{GeneratedGame, Kind};
 use generators::kernels::{KernelGenome, KernelVariation, Turns};

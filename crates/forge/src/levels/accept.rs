@@ -2,7 +2,8 @@
 
 use super::aim::{bears, wins};
 use super::order::LevelOrder;
-use engine::{Analysis, Level, Seed};
+use base::Seed;
+use engine::{Analysis, Level};
 use validators::{
     Case, Criteria, Difficulty, Finding, Ladder, LadderConfig, NotRandom, Panel, Report, Validator,
 };

@@ -3,7 +3,8 @@
 use super::aim::{Aim, Told};
 use super::order::LevelOrder;
 use agents::{PortfolioConfig, Solution, Solved, solve};
-use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Game, Level, Outcome};
 use generators::Evaluation;
 use validators::{Case, Criteria, Finding, NoEarlyDeath, NotIdle, NotRandom, Validator, Verdict, WellFormed};
 

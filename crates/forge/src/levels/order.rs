@@ -6,7 +6,7 @@ use std::fmt;
 use std::str::FromStr;
 use validators::{Criteria, Difficulty, RuleRef};
 
-engine::named_enum! {
+base::named_enum! {
     /// The method of making levels or games.
     pub enum Method {
         /// Walls, then furniture by role: instant, and judged only where something is asked that has to be measured.
@@ -62,7 +62,7 @@ pub struct LevelOrder {
     pub effort: Effort,
 }
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The effort of a search for one level, or for one level of an archive.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Effort {

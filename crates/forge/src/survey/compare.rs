@@ -1,7 +1,7 @@
 //! Two groups of games, line by line.
 
 use super::row::{GameRow, NO_LEVEL, NO_WIN};
-use engine::Seed;
+use base::Seed;
 use report::{Table, TableCell};
 use statistics::{bootstrap_difference, quantile};
 

@@ -1,7 +1,8 @@
 //! Games judged for a comparison.
 
 use super::row::{self, GameRow};
-use engine::{Digest, Game, Level, Seed};
+use base::{Digest, Seed};
+use engine::{Game, Level};
 use rayon::prelude::*;
 use report::canonical::to_canonical_json;
 use validators::{Criteria, CriteriaError, GameReport, Judgement, Panel};

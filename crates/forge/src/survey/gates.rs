@@ -1,6 +1,7 @@
 //! Games put through the gates, so that their thresholds rest on something.
 
-use engine::{Episode, Game, Level, Seed};
+use base::Seed;
+use engine::{Episode, Game, Level};
 use rayon::prelude::*;
 use report::{Table, TableCell};
 use serde::{Deserialize, Serialize};

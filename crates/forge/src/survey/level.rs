@@ -1,7 +1,8 @@
 //! Levels judged for a report: afresh, by everybody.
 
 use crate::levels::report::FOR_NOTHING;
-use engine::{Analysis, Level, Seed};
+use base::Seed;
+use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
 use rayon::prelude::*;
 use validators::{Case, Criteria, CriteriaError, Difficulty, Ladder, LadderConfig, Measures, Panel, Report};

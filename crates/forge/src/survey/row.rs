@@ -2,7 +2,8 @@
 
 use super::edge::{Edge, ladder_order};
 use super::game::SurveyedGame;
-use engine::{Analysis, Digest, Episode, Outcome, Seed};
+use base::{Digest, Seed};
+use engine::{Analysis, Episode, Outcome};
 use report::TableCell;
 use serde::{Deserialize, Serialize};
 use std::fmt;

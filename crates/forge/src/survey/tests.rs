@@ -2,7 +2,8 @@
 
 use super::row::NO_WIN;
 use super::*;
-use engine::{Digest, Game, Level, Seed};
+use base::{Digest, Seed};
+use engine::{Game, Level};
 use validators::Criteria;
 
 /// Fetch the gem; `idle` sprites and rules that nothing needs may be added.

@@ -16,7 +16,7 @@ mod node;
 
 use std::fmt::{self, Write};
 
-use engine::Digest;
+use base::Digest;
 use serde::Serialize;
 
 pub use node::Node;

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use super::entry::{BLOCK, padding};
 use crate::error::SnapshotError;
-use engine::Digest;
+use base::Digest;
 
 /// The first bytes of a zstd file (RFC 8878 §3.1.1).
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];

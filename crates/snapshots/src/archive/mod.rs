@@ -32,7 +32,7 @@ use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 use crate::verify::refuse_unfinished;
 use crate::withheld::{HeldPart, LIST_LIMIT, disclose};
-use engine::Digest;
+use base::Digest;
 use entry::{BLOCK, END, padding};
 use frame::{FrameReader, FrameWriter, Unreadable};
 

@@ -2,7 +2,8 @@
 
 use super::Compared;
 use crate::released::ReleasedGame;
-use engine::{Digest, Level};
+use base::Digest;
+use engine::Level;
 use itertools::Itertools;
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -5,7 +5,7 @@
 //! Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
 
 use super::Compared;
-use engine::Seed;
+use base::Seed;
 use report::Quantiles;
 use serde::Serialize;
 use std::collections::BTreeMap;

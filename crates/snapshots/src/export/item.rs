@@ -3,7 +3,8 @@
 use crate::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};
 use crate::twin::{Twin, TwinError, TwinGame};
-use engine::{Analysis, Digest, Episode, Game};
+use base::Digest;
+use engine::{Analysis, Episode, Game};
 use forge::card::{Card, LevelCard};
 use std::borrow::Cow;
 use validators::{GameForm, GameKind};

@@ -291,7 +291,7 @@ mod tests {
 
     #[test]
     fn the_walk_matches_a_tree_of_names() {
-        let mut sampler = engine::Seed::from_text("trees").sampler();
+        let mut sampler = base::Seed::from_text("trees").sampler();
         let names = ["a", "A", "b", "a-b", "a.b", "B", "c"];
         let mut counts = [0; 2];
         for _ in 0..4000 {

@@ -25,7 +25,7 @@ use crate::merkle::{self, Leaf};
 use crate::sealed::HELD;
 use crate::version::MintedBy;
 use crate::withheld::{HeldPart, Withheld};
-use engine::Digest;
+use base::Digest;
 use report::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 use std::collections::BTreeSet;
 

@@ -52,7 +52,7 @@ const PLANNED: f64 = 0.01;
 /// The player without rules, which reads no prompts.
 const TOUCHING: &str = "touch-everything";
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The marks that a recipe asks for.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -4,7 +4,8 @@ use super::{SecondWin, Sibling, differ, publishes_sibling, publishes_win};
 use crate::mint::FrozenGame;
 use crate::verify::replay_problem;
 use crate::witness::descendant;
-use engine::{Episode, Game, Level, Seed};
+use base::Seed;
+use engine::{Episode, Game, Level};
 use validators::GameForm;
 
 /// The levels of a game with the wins that coins published.
@@ -164,8 +165,8 @@ mod tests {
     #[test]
     fn wins_of_a_pair_differ_and_the_coin_withholds_one() {
         let of = |actions: &[Action]| Episode {
-            game: engine::Digest::of(b"game"),
-            level: engine::Digest::of(b"level"),
+            game: base::Digest::of(b"game"),
+            level: base::Digest::of(b"level"),
             seed: Seed::from_text("seed"),
             actions: actions.to_vec(),
             hashes: Vec::new(),

@@ -14,7 +14,8 @@ pub(crate) use toss::{differ, toss};
 use crate::manifest::{Manifest, ReleaseKind};
 use crate::recipe::{RecipeError, wrong};
 use crate::sealed::HELD;
-use engine::{Digest, Episode, Seed};
+use base::{Digest, Seed};
+use engine::Episode;
 use forge::games::Step;
 use report::canonical::canonical_digest;
 use serde::{Deserialize, Serialize};
@@ -22,7 +23,7 @@ use serde::{Deserialize, Serialize};
 /// The number of actions by which wins are told apart: players that know a published win begin like it.
 pub const PREFIX: usize = 10;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The coins that a recipe asks for.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

@@ -3,7 +3,8 @@
 use crate::marks::Wins;
 use crate::memory::{SecondWin, Sibling};
 use crate::witness::{descendant, way_of_search};
-use engine::{Analysis, Episode, Seed};
+use base::Seed;
+use engine::{Analysis, Episode};
 use forge::Tally;
 use forge::card::Card;
 use forge::games::{FoundLevel, MadeGame, Step};

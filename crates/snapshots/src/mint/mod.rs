@@ -329,9 +329,8 @@ mod tests {
     /// Otherwise a sealed release could not show that its witnesses were played under its secret.
     #[test]
     fn every_way_of_making_games_leaves_a_way_from_the_seed_to_the_witness() {
-        let check = |root: engine::Seed, game: &FrozenGame| {
-            let step =
-                |seed: engine::Seed, (purpose, index): &forge::games::Step| seed.child(purpose, *index);
+        let check = |root: base::Seed, game: &FrozenGame| {
+            let step = |seed: base::Seed, (purpose, index): &forge::games::Step| seed.child(purpose, *index);
             assert_eq!(game.paths.len(), game.witnesses.len());
             for (path, witness) in game.paths.iter().zip(&game.witnesses) {
                 assert_eq!(path.iter().fold(root, step), witness.seed, "{path:?}");

@@ -3,7 +3,8 @@
 use super::plan::{Job, Plan, apportion};
 use crate::recipe::Recipe;
 use crate::tiers::PuzzlePart;
-use engine::{Game, Seed, syntax};
+use base::Seed;
+use engine::{Game, syntax};
 use forge::Tally;
 use forge::card::Origin;
 use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};

@@ -6,10 +6,11 @@
 
 use super::{Made, Original, Twin, TwinError, TwinGame, replayed};
 use agents::{PortfolioConfig, Solution, solve};
+use base::Seed;
 use engine::analysis::Analysis;
 use engine::syntax::{Param, SpriteLine, Word};
 use engine::{
-    Action, Description, Direction, Episode, Game, Level, Observation, Outcome, Seed, SpriteClass, SpriteType,
+    Action, Description, Direction, Episode, Game, Level, Observation, Outcome, SpriteClass, SpriteType,
 };
 use std::collections::{BTreeMap, BTreeSet};
 

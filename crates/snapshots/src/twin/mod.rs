@@ -8,13 +8,14 @@ pub use released::of_released;
 
 use engine::describe::Guide;
 
-use engine::{Action, Analysis, Description, Diagnostics, Episode, Game, Level, Outcome, Seed, syntax};
+use base::Seed;
+use engine::{Action, Analysis, Description, Diagnostics, Episode, Game, Level, Outcome, syntax};
 use generators::GenerateError;
 use generators::games::{Masked, Rethemed};
 use std::fmt;
 use std::str::FromStr;
 
-engine::named_enum! {
+base::named_enum! {
     /// The kind of a twin: the change of the surface.
     pub enum Twin {
         /// Names and level characters no longer carry meaning.

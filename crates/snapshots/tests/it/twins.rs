@@ -1,7 +1,8 @@
 //! Twins of corpus games: the same mechanics under any surface.
 
 use agents::{PortfolioConfig, Solution, solve};
-use engine::{Analysis, Episode, Game, Outcome, Seed};
+use base::Seed;
+use engine::{Analysis, Episode, Game, Outcome};
 use rayon::prelude::*;
 use snapshots::released::{ReleasedGame, ReleasedLevel};
 use snapshots::twin::{self, Twin, TwinError, TwinGame};

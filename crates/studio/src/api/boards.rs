@@ -5,7 +5,8 @@ use crate::frames::{Frame, Frames, TileSvg, Tiles, action_name};
 use crate::positions;
 use crate::refusal::Refusal;
 use crate::studio::Studio;
-use engine::{Diagnostics, Episode, Level, MAX_TICKS, Seed};
+use base::Seed;
+use engine::{Diagnostics, Episode, Level, MAX_TICKS};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 

@@ -6,7 +6,7 @@ use crate::lines::{Ended, Lines};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
 use crate::workspace::Workspace;
-use engine::Digest;
+use base::Digest;
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Value, json};

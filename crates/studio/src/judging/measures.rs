@@ -1,7 +1,8 @@
 //! The measures of a game that its judge's preferences are compared with.
 
 use super::Candidate;
-use engine::{Analysis, Episode, Seed};
+use base::Seed;
+use engine::{Analysis, Episode};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use validators::{Criteria, Panel, PlayMeasures, Recorded, Report, SkillGap};

@@ -1,7 +1,7 @@
 //! The record of judgements: a line of JSON each, appended and flushed.
 
 use super::JudgingError;
-use engine::Digest;
+use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};

@@ -145,7 +145,7 @@ impl Report {
 mod tests {
     use super::super::record::{Played, Side, Watched, Which};
     use super::*;
-    use engine::Digest;
+    use base::Digest;
 
     fn judgement(better: Better, again: Which, machine: Option<Which>, drama: [f64; 2]) -> Judgement {
         let side = |source: &str, drama: f64| Side {

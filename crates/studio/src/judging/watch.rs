@@ -4,7 +4,8 @@
 use crate::compiled::Compiled;
 use crate::verdict::look_for_win;
 use agents::{Budget, Planner, PlannerSpec, Solution};
-use engine::{Episode, Level, Seed};
+use base::Seed;
+use engine::{Episode, Level};
 use serde::Deserialize;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,7 +1,8 @@
 //! Games opened, checked, played and saved.
 
 use crate::client::{GAME, LEVEL, in_folder, in_memory, run, studio, usual};
-use engine::{Digest, Episode, Game, Outcome};
+use base::Digest;
+use engine::{Episode, Game, Outcome};
 use serde_json::{Value, json};
 
 #[test]

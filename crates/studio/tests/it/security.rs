@@ -172,11 +172,11 @@ fn links_are_neither_followed_nor_replaced() {
     std::fs::write(&target, "target").expect("written");
     let running = run(studio(home.path(), vec![in_folder("one", &folder)]));
     std::os::unix::fs::symlink(&target, folder.join("lvl1.txt")).expect("linked");
-    for base in [json!(null), json!(engine::Digest::of(b"target"))] {
+    for base in [json!(null), json!(base::Digest::of(b"target"))] {
         let answer = running.put("/api/games/one/files/lvl1.txt", &json!({ "text": "x", "base": base }));
         assert_eq!(answer.status, 403);
     }
-    let base = json!({ "base": engine::Digest::of(b"target") });
+    let base = json!({ "base": base::Digest::of(b"target") });
     let answer =
         running.send("DELETE", "/api/games/one/files/lvl1.txt", &running.own(), base.to_string().as_bytes());
     assert_eq!(answer.status, 403);
@@ -253,12 +253,12 @@ fn linked_folders_are_not_written_to() {
     let before = names(&outside);
     for id in ["linked", "one"] {
         for (name, base) in
-            [("game.vgdl", json!(engine::Digest::of(GAME.as_bytes()))), ("lvl7.txt", json!(null))]
+            [("game.vgdl", json!(base::Digest::of(GAME.as_bytes()))), ("lvl7.txt", json!(null))]
         {
             let path = format!("/api/games/{id}/files/{name}");
             assert_eq!(running.put(&path, &json!({ "text": "x", "base": base })).status, 403, "{path}");
         }
-        let base = json!({ "base": engine::Digest::of(LEVEL.as_bytes()) });
+        let base = json!({ "base": base::Digest::of(LEVEL.as_bytes()) });
         assert_eq!(running.delete(&format!("/api/games/{id}/files/lvl0.txt"), &base).status, 403);
     }
     assert_eq!(names(&outside), before);

@@ -6,7 +6,7 @@ pub use drand::{Chain, Metadata, check_source};
 
 use crate::error::TrustError;
 use crate::log::{Entry, Round};
-use engine::Digest;
+use base::Digest;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 

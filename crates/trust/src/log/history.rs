@@ -2,7 +2,7 @@
 
 use super::entry::{Entry, Revealed, Round};
 use crate::beacon::{Drawn, check_source};
-use engine::Digest;
+use base::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Computes the commitment to a secret that was revealed.

@@ -1,6 +1,6 @@
 //! Signed roots under thresholds, rotation and revocation, altered files, and losses of power.
 
-use engine::Digest;
+use base::Digest;
 use infinite_arcade_trust::{
     Anchor, Disk, KeySet, KeysInForce, NamedKey, NewKey, Provenance, SecretKey, Signatures, Signed,
     Statement, generate, sign_into,

@@ -1,7 +1,7 @@
 //! The log of a year, and attacks on it. Each attack is tried in many ways: 1,000 in a sweep (`cargo xtask sweep`).
 
+use base::{Digest, Sampler, Seed};
 use blst::min_sig;
-use engine::{Digest, Sampler, Seed};
 use infinite_arcade_trust::log::{
     CHECKPOINT_FILE, Checkpoint, Consistency, Entry, Inclusion, Log, ResultRow, Revealed, Round, append,
     frozen, problems, unkept,

@@ -7,7 +7,7 @@ use super::{SpeedChange, build};
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
-crate::named_enum! {
+base::named_enum! {
     /// The group of an effect: the groups of the engine's ontology, with movement split by its result.
     pub enum EffectFamily {
         /// Sprites go away, perhaps on a condition.

@@ -96,10 +96,10 @@ fn goals_have_a_sign() {
     assert_eq!((aims.avatar_must_live, aims.deadline, aims.survive), (true, Some(300), None));
     assert!(aims.protect.is_empty() && aims.create.is_empty() && aims.prevent.is_empty());
     let level = analysis.game().level("A.x\n").unwrap();
-    let state = analysis.game().start(&level, engine::Seed::from_text("goals"));
+    let state = analysis.game().start(&level, base::Seed::from_text("goals"));
     assert_eq!(analysis.goal_met(&state), None);
     let level = analysis.game().level("A..\n").unwrap();
-    let state = analysis.game().start(&level, engine::Seed::from_text("goals"));
+    let state = analysis.game().start(&level, base::Seed::from_text("goals"));
     assert_eq!(analysis.goal_met(&state).map(|goal| (goal.win, goal.line)), Some((true, 1)));
 }
 

@@ -4,7 +4,7 @@ use super::*;
 
 fn state(analysis: &Analysis, level: &str) -> State {
     let game = analysis.game();
-    game.start(&game.level(level).unwrap(), engine::Seed::from_text("outlook"))
+    game.start(&game.level(level).unwrap(), base::Seed::from_text("outlook"))
 }
 
 /// A fair: a bird flies at random and hatches from an egg that only a nest lays, and an invisible trap kills.

@@ -100,7 +100,7 @@ fn avatars_drawn_first_are_reported() {
     );
     let game = Game::from_source(&first.replace("A > grass avatar", "A > grass hen")).unwrap();
     assert!(game.warnings().iter().any(|warning| warning.code == "lost-avatar"), "{:?}", game.warnings());
-    let mut state = game.start(&game.level("A.n\n").unwrap(), engine::Seed::from_text("any"));
+    let mut state = game.start(&game.level("A.n\n").unwrap(), base::Seed::from_text("any"));
     game.step(&mut state, engine::Action::Right);
     assert_eq!(game.actions(&state), [engine::Action::Nil], "the warning is wrong: the player finds it");
 }

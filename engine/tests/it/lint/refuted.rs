@@ -1,8 +1,9 @@
 //! Claims that play refuted, each with the smallest game that did so: the property test of all claims found them.
 
+use base::Seed;
 use engine::analysis::Missing;
 use engine::describe::{Guide, describe};
-use engine::{Action, Analysis, Game, Outcome, Seed};
+use engine::{Action, Analysis, Game, Outcome};
 
 /// Returns a game with these sections.
 #[track_caller]

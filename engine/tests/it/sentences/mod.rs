@@ -3,8 +3,9 @@
 
 mod templates;
 
+use base::Seed;
 use engine::describe::describe;
-use engine::{Action, Game, Outcome, Seed, State};
+use engine::{Action, Game, Outcome, State};
 use std::fmt::Write as _;
 
 /// The rows, a paragraph each: the templates that the sentence is made from, then fields.

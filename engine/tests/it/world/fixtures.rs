@@ -1,7 +1,8 @@
 //! Fixtures: sprites that others meet and that nothing touches.
 
+use base::Seed;
 use engine::inspect::is_fixture;
-use engine::{Action, Game, Seed, State};
+use engine::{Action, Game, State};
 
 const START: &str = "BasicGame square_size=10\n  SpriteSet\n    wall > Immovable\n    brick > Immovable\n    gem > \
                      Immovable\n    ball > Missile\n    hero > MovingAvatar\n  LevelMapping\n    w > wall\n    b > \

@@ -1,7 +1,8 @@
 //! Sprites that move periodically without a difference.
 
+use base::Seed;
 use engine::inspect::flight_periods;
-use engine::{Action, Game, Outcome, Seed};
+use engine::{Action, Game, Outcome};
 
 const INVADERS: &str = "\
 BasicGame

@@ -1,7 +1,8 @@
 //! The sizes of sprites before their update.
 
+use base::Seed;
 use engine::inspect::widths;
-use engine::{Action, Game, Seed, State};
+use engine::{Action, Game, State};
 
 /// A bud that opens becomes a flower of two cells; its last rectangle is a bud's until the next update.
 const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    bud > Immovable\n    flower > Immovable wMult=2\n    avatar > MovingAvatar\n  \

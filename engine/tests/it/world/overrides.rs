@@ -1,7 +1,8 @@
 //! Sprites' own values in place of their type's.
 
+use base::Seed;
 use engine::inspect::overrides;
-use engine::{Action, Game, Seed};
+use engine::{Action, Game};
 
 const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    arrow > Missile orientation=LEFT speed=1\n    wall > Immovable\n    \
                     grave > Immovable\n    car > CarAvatar\n  LevelMapping\n    a > arrow\n    w > wall\n    g > grave\n    A > car\n  \

@@ -1,7 +1,8 @@
 //! Scenery: types without rules.
 
+use base::Seed;
 use engine::inspect::{is_scenery, stored_sprites};
-use engine::{Action, Game, Seed};
+use engine::{Action, Game};
 
 const MEADOW: &str = "BasicGame square_size=10\n  SpriteSet\n    grass > Immovable\n    ground >\n      sand > Immovable\n      \
                       clay > Immovable\n    asleep > Immovable\n    bird > RandomNPC\n    nest > SpawnPoint stype=bird\n    \

@@ -2,7 +2,7 @@
 
 use super::Cell;
 use crate::kernels::map::Map;
-use engine::Sampler;
+use base::Sampler;
 
 /// The number of embeddings to draw, of which the most compact one is used.
 const DRAWS: usize = 48;

@@ -4,7 +4,7 @@ use super::embedding::{Embedding, Rectangle};
 use super::room::Openings;
 use super::{Board, Cell, Traits};
 use crate::kernels::map::{Item, Map, Place};
-use engine::Sampler;
+use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Places the things of all rooms; `None` if something finds no place.

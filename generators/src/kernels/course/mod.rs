@@ -7,8 +7,8 @@ mod stretch;
 
 use super::kernel::Kernel;
 use super::map::Map;
+use base::{Sampler, Seed};
 use embedding::Embedding;
-use engine::{Sampler, Seed};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The greatest number of columns and rows of a level.

@@ -4,7 +4,7 @@ use super::embedding::{Embedding, Rectangle};
 use super::{Board, Cell, Traits};
 use crate::kernels::kernel::Kernel;
 use crate::kernels::map::{Link, Map, Room, Size, Style};
-use engine::Sampler;
+use base::Sampler;
 
 /// The openings of each room: their cells, which lie in its border.
 pub(super) type Openings = Vec<Vec<Cell>>;

@@ -1,7 +1,7 @@
 //! Boards drawn larger: columns and rows are doubled where that changes no way and parts no two things.
 
 use super::{Board, Cell};
-use engine::Sampler;
+use base::Sampler;
 
 /// The least number of cells of a type that counts as ground, which goes on in what is doubled, rather than as things.
 const GROUND: usize = 6;
@@ -62,7 +62,7 @@ fn with_column(board: &Board, at: usize, column: &[Option<String>]) -> Board {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
     use std::collections::BTreeMap;
 
     const WALLS: &str = "\

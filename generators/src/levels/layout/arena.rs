@@ -2,7 +2,7 @@
 
 use super::mirror::Mirror;
 use crate::levels::grid::{Grid, WAYS};
-use engine::Sampler;
+use base::Sampler;
 
 /// Draws straight and bent pieces of wall of two to four cells that touch neither each other nor the border.
 pub(super) fn pieces(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {

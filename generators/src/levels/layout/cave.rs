@@ -2,7 +2,7 @@
 //! infinite cave levels").
 
 use crate::levels::grid::Grid;
-use engine::Sampler;
+use base::Sampler;
 
 /// The number of smoothing rounds.
 const ROUNDS: usize = 3;

@@ -2,7 +2,7 @@
 
 use super::mirror::Mirror;
 use crate::levels::grid::Grid;
-use engine::Sampler;
+use base::Sampler;
 
 /// Thickens walls, or erodes them at their ends, until the share of wall inside the border is about `share`. Regions stay
 /// connected, and symmetries are kept. Cost: O(cells) for each cell that changes, in the worst case.
@@ -68,7 +68,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
 mod tests {
     use super::super::{Family, walls};
     use super::*;
-    use engine::Seed;
+    use base::Seed;
 
     #[test]
     fn shares_are_met_and_cells_stay_connected() {

@@ -5,7 +5,7 @@
 //! there, and the last decisions are undone before a board is restarted.
 
 use crate::levels::grid::Grid;
-use engine::Sampler;
+use base::Sampler;
 use std::collections::{BTreeMap, VecDeque};
 
 /// The side of a window, in cells.
@@ -293,7 +293,7 @@ impl<'a> Wave<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
     use std::collections::BTreeSet;
 
     fn board(text: &str) -> (Grid, Vec<bool>) {

@@ -1,7 +1,7 @@
 //! Mazes: depth-first corridors on every second cell, some dead ends opened.
 
 use crate::levels::grid::{Grid, WAYS};
-use engine::Sampler;
+use base::Sampler;
 
 /// Draws a maze; on a board of even width or height, the last column or row joins the border.
 pub(super) fn maze(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, wall: &mut [bool]) {

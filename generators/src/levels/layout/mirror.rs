@@ -1,7 +1,7 @@
 //! Symmetries of a board.
 
 use crate::levels::grid::Grid;
-use engine::Sampler;
+use base::Sampler;
 
 /// Symmetries of a board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@ pub(crate) use density::adjust;
 pub(crate) use learnt::Patterns;
 
 use super::grid::Grid;
-use engine::Sampler;
+use base::Sampler;
 
 /// A way to lay out walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,7 @@ fn keep_largest(grid: Grid, wall: &mut [bool]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Seed;
+    use base::Seed;
 
     #[test]
     fn open_cells_are_connected_and_many() {

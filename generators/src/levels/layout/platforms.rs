@@ -1,7 +1,7 @@
 //! Ledges for avatars that fall, walk and jump.
 
 use crate::levels::grid::Grid;
-use engine::Sampler;
+use base::Sampler;
 
 /// The number of rows from one ledge up to the next.
 const RISE: usize = 3;

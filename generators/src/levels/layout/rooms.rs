@@ -1,7 +1,7 @@
 //! Rooms: the inside is divided recursively by walls with doors.
 
 use crate::levels::grid::Grid;
-use engine::Sampler;
+use base::Sampler;
 
 /// A rectangle of open cells: a corner (x, y), with a width and a height.
 #[derive(Clone, Copy)]

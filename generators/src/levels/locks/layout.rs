@@ -2,7 +2,7 @@
 
 use crate::Variation;
 use crate::levels::grid::Grid;
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 
 /// The content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

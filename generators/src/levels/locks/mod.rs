@@ -6,11 +6,12 @@ mod walk;
 use crate::games::LockRules;
 use crate::levels::grid::Grid;
 use crate::{Annealing, AnnealingConfig, Evaluation, Search};
-use engine::{Action, Seed};
+use base::Seed;
+use engine::Action;
 use layout::{Furniture, Layout, Layouts, Tile};
 use walk::Walk;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The configuration of levels of locks.
     #[derive(Clone, Debug, PartialEq)]
     pub struct LockConfig {

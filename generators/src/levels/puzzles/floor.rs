@@ -5,7 +5,7 @@ use super::rules::{KINDS, Rules};
 use crate::levels::edits::pick;
 use crate::levels::grid::{Grid, WAYS};
 use crate::{Evaluation, Variation};
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 
 /// The maximum number of positions to examine for the rating of a floor plan.
 pub(crate) const MAX_POSITIONS: usize = 100_000;

@@ -9,9 +9,10 @@ use crate::levels::fuse;
 use crate::levels::grid::{Grid, WAYS};
 use crate::levels::lookout::{ACTIONS, Lookout, Strays};
 use crate::levels::palette::Palette;
-use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
+use base::{Sampler, Seed};
+use engine::{Action, Analysis, Game, Level, SpriteType};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The configuration of puzzles among strays.
     #[derive(Clone, Debug, PartialEq)]
     pub struct StrayConfig {

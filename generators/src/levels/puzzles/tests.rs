@@ -10,7 +10,8 @@ use super::rules::{Destination, Rules};
 use crate::Variation;
 use crate::levels::grid::Grid;
 use crate::levels::palette::Palette;
-use engine::{Analysis, Game, Seed};
+use base::Seed;
+use engine::{Analysis, Game};
 use std::collections::{BTreeMap, VecDeque};
 
 fn rules_of(game: &Game) -> Rules {

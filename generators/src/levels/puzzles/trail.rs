@@ -3,7 +3,8 @@
 use crate::games::PushRules;
 use crate::levels::grid::{Grid, WAYS};
 use crate::levels::lookout::{ACTIONS, Moves};
-use engine::{Action, Game, Level, Outcome, Seed, SpriteType, State};
+use base::Seed;
+use engine::{Action, Game, Level, Outcome, SpriteType, State};
 
 /// The pushes of a win, in its order: a state is their number so far, and the avatar's cell.
 pub(super) struct Trail {

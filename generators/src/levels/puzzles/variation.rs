@@ -10,7 +10,8 @@ use crate::levels::constructive::{ConstructiveLevels, Solved};
 use crate::levels::grid::Grid;
 use crate::levels::jobs::Jobs;
 use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
-use engine::{Game, Level, Sampler, Seed, SpriteType};
+use base::{Sampler, Seed};
+use engine::{Game, Level, SpriteType};
 
 /// The maximum number of positions to search for the level of a floor plan.
 const MAX_POSITIONS: usize = 400_000;
@@ -26,7 +27,7 @@ const ATTEMPTS: u64 = 4;
 /// The number of changes of a floor plan from which a mutation keeps the best.
 const CHANGES: usize = 6;
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The configuration of puzzles.
     #[derive(Clone, Debug, PartialEq)]
     pub struct PuzzleConfig {

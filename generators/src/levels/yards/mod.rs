@@ -7,11 +7,12 @@ use crate::games::YardRules;
 use crate::levels::fuse;
 use crate::levels::grid::Grid;
 use crate::levels::lookout::{ACTIONS, Lookout, Strays};
-use engine::{Action, Sampler, Seed};
+use base::{Sampler, Seed};
+use engine::Action;
 use timetable::{Errands, Timetable};
 use yard::{Furniture, Sign, Yard};
 
-engine::with_defaults! {
+base::with_defaults! {
     /// The configuration of levels of yards.
     #[derive(Clone, Debug, PartialEq)]
     pub struct YardConfig {

@@ -2,7 +2,7 @@
 
 use crate::games::YardRules;
 use crate::levels::grid::{Grid, WAYS};
-use engine::Sampler;
+use base::Sampler;
 
 /// The index of the step to the right in [`WAYS`].
 pub(super) const RIGHT: usize = 3;

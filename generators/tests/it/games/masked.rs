@@ -1,7 +1,8 @@
 //! Masked games, which play as the games themselves.
 
 use super::{RESERVED, corpus, generated, play_alike};
-use engine::{Description, Game, Seed, syntax};
+use base::Seed;
+use engine::{Description, Game, syntax};
 use generators::games::Masked;
 
 fn seed() -> Seed {

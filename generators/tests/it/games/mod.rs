@@ -5,7 +5,8 @@ mod push;
 mod rethemed;
 
 use crate::corpora;
-use engine::{Description, Game, Seed};
+use base::Seed;
+use engine::{Description, Game};
 use generators::games::Kind;
 use generators::kernels::{KernelGame, KernelGenome, Slot};
 use std::collections::BTreeSet;

@@ -1,6 +1,7 @@
 //! Games of pushed things among strays.
 
-use engine::{Action, Game, Seed, State, syntax};
+use base::Seed;
+use engine::{Action, Game, State, syntax};
 use generators::games::PushRules;
 use generators::levels::{StrayConfig, StrayLevels};
 

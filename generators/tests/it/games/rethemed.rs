@@ -1,8 +1,9 @@
 //! Rethemed games, which play as the games themselves under other names.
 
 use super::{corpus, generated, own_names, play_alike};
+use base::Seed;
 use engine::describe::plural;
-use engine::{Description, Game, Seed, syntax};
+use engine::{Description, Game, syntax};
 use generators::games::Rethemed;
 use std::collections::BTreeSet;
 

@@ -3,7 +3,8 @@
 mod turns;
 mod variation;
 
-use engine::{Game, Rect, Seed, syntax};
+use base::Seed;
+use engine::{Game, Rect, syntax};
 use generators::games::Kind;
 use generators::kernels::{KernelGame, KernelGenome, Slot, preview};
 use std::collections::{BTreeMap, BTreeSet};

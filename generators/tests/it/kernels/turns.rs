@@ -1,6 +1,6 @@
 //! The turns that kernels take in a set of games.
 
-use engine::Seed;
+use base::Seed;
 use generators::games::Kind;
 use generators::kernels::{KernelGenome, Turns};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,7 +1,7 @@
 //! The variation of games of kernels.
 
 use super::drawn;
-use engine::Seed;
+use base::Seed;
 use generators::Variation;
 use generators::games::Kind;
 use generators::kernels::{KernelGenome, KernelVariation};

@@ -8,8 +8,9 @@ mod variation;
 mod yards;
 
 use crate::corpora::{self, game_in, levels_in, name_of};
+use base::Seed;
 use engine::analysis::{Role, Steering};
-use engine::{Action, Analysis, Game, Level, Outcome, Seed};
+use engine::{Action, Analysis, Game, Level, Outcome};
 use generators::levels::{ConstructiveLevels, Examples, LevelConfig, cover};
 use generators::{GenerateError, Generator};
 use std::collections::BTreeSet;

@@ -1,7 +1,7 @@
 //! The choice of a variation for the levels of a game.
 
 use crate::corpora::own_game;
-use engine::Seed;
+use base::Seed;
 use generators::Variation;
 use generators::levels::{LevelConfig, LevelSearch, PuzzleConfig};
 

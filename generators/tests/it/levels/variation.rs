@@ -1,7 +1,7 @@
 //! Variation of levels for search.
 
 use crate::corpora::{game_in, own};
-use engine::Seed;
+use base::Seed;
 use generators::Variation;
 use generators::levels::{LevelConfig, LevelVariation};
 

@@ -1,7 +1,8 @@
 //! Levels of yards.
 
+use base::Seed;
 use engine::syntax::Word;
-use engine::{Episode, Game, Outcome, Seed};
+use engine::{Episode, Game, Outcome};
 use generators::games::YardRules;
 use generators::levels::YardConfig;
 

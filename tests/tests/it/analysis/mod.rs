@@ -1,7 +1,8 @@
 //! Tests of the analysis in play: its proofs hold on the corpus, and on the reference's games if they are available.
 
+use base::{Sampler, Seed};
 use engine::analysis::{Attainable, Reach};
-use engine::{Action, Analysis, Game, Level, Outcome, Rect, Sampler, Seed, SpriteType, State};
+use engine::{Action, Analysis, Game, Level, Outcome, Rect, SpriteType, State};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tests::any_game::any_game;

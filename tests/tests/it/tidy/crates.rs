@@ -6,21 +6,23 @@ use tests::{read, rust_files};
 
 /// Our crates by name, each with its allowed dependencies. Imports point one way only.
 const ALLOWED: &[(&str, &[&str])] = &[
-    ("engine", &[]),
+    ("base", &[]),
+    ("engine", &["base"]),
     ("editor", &["engine"]),
     ("statistics", &[]),
-    ("agents", &["engine"]),
-    ("generators", &["engine"]),
-    ("validators", &["engine", "agents", "statistics"]),
-    ("report", &["engine", "statistics"]),
-    ("forge", &["engine", "agents", "generators", "validators", "report", "statistics"]),
-    ("snapshots", &["engine", "agents", "generators", "validators", "forge", "report", "statistics"]),
-    ("trust", &["engine", "report"]),
+    ("agents", &["base", "engine"]),
+    ("generators", &["base", "engine"]),
+    ("validators", &["base", "engine", "agents", "statistics"]),
+    ("report", &["base", "engine", "statistics"]),
+    ("forge", &["base", "engine", "agents", "generators", "validators", "report", "statistics"]),
+    ("snapshots", &["base", "engine", "agents", "generators", "validators", "forge", "report", "statistics"]),
+    ("trust", &["base", "engine", "report"]),
     ("render", &["engine"]),
-    ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
+    ("evaluation", &["base", "engine", "agents", "render", "report", "statistics"]),
     (
         "studio",
         &[
+            "base",
             "engine",
             "editor",
             "agents",
@@ -36,11 +38,22 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ),
     (
         "python",
-        &["engine", "agents", "generators", "validators", "forge", "snapshots", "render", "evaluation"],
+        &[
+            "base",
+            "engine",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "render",
+            "evaluation",
+        ],
     ),
     (
         "cli",
         &[
+            "base",
             "engine",
             "editor",
             "agents",
@@ -59,6 +72,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "xtask",
         &[
+            "base",
             "engine",
             "agents",
             "generators",

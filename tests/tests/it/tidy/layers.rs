@@ -9,22 +9,8 @@ const ENGINE: &str = "engine/src/";
 const LAYERS: [&[&str]; 5] = [&["syntax"], &["rules", "compile"], &["world"], &["tick"], &["schedule"]];
 
 /// Modules without knowledge of games, which every layer may use.
-const VALUES: [&str; 14] = [
-    "causes",
-    "chance",
-    "defaults",
-    "diagnostic",
-    "digest",
-    "flat",
-    "geometry",
-    "keywords",
-    "limits",
-    "meanings",
-    "named",
-    "sampler",
-    "seed",
-    "trigonometry",
-];
+const VALUES: [&str; 9] =
+    ["causes", "chance", "diagnostic", "flat", "geometry", "keywords", "limits", "meanings", "trigonometry"];
 
 fn layer(module: &str) -> Option<usize> {
     LAYERS.iter().position(|modules| modules.contains(&module))

@@ -3,7 +3,7 @@
 
 mod scale;
 
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 use serde_json::{Value, json};
 use statistics::{
     Power, Stratum, Z95, benjamini_hochberg, cohens_h, correlation_p, difference, fisher, paired_over_games,

@@ -3,7 +3,8 @@
 use super::folders;
 use crate::levels::{load, name_of};
 use anyhow::Context;
-use engine::{Digest, Episode, Game, Level, Outcome, Seed};
+use base::{Digest, Seed};
+use engine::{Episode, Game, Level, Outcome};
 use forge::survey::{Comparison, GameRow, GameSurvey, GateRow, GateSurvey};
 use serde::Deserialize;
 use std::collections::BTreeMap;

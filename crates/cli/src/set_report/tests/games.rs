@@ -1,7 +1,8 @@
 use super::page;
 use crate::embedded;
 use crate::set_report::game_report;
-use engine::{Game, Level, Seed};
+use base::Seed;
+use engine::{Game, Level};
 use forge::games::report::{GameSetReport, GamesSample};
 use forge::survey::SurveyedGame;
 use forge::{JudgeCost, Tally};

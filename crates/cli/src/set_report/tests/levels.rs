@@ -1,7 +1,8 @@
 use super::page;
 use crate::input;
 use crate::set_report::level_report;
-use engine::{Analysis, Level, Seed};
+use base::Seed;
+use engine::{Analysis, Level};
 use forge::levels::Cost;
 use forge::levels::report::{LevelSetReport, Sample};
 use forge::survey::{LevelSurvey, SurveyedLevel};

@@ -6,7 +6,7 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::whole_file;
-use engine::Digest;
+use base::Digest;
 use evaluation::run::Adaptive;
 use evaluation::scale::{AdaptiveChoice, Plan, PlannedErrors, ScaleFile, ScaledLevels, Target};
 use evaluation::{Settings, Subject};

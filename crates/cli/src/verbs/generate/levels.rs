@@ -8,7 +8,8 @@ use crate::memory::Bytes;
 use crate::protected;
 use crate::set_report::level_report;
 use crate::threads::{bound_searches, in_pool};
-use engine::{Analysis, Game, Level, Seed, SpriteType};
+use base::Seed;
+use engine::{Analysis, Game, Level, SpriteType};
 use forge::levels::report::{LevelSetReport, Sample};
 use forge::levels::{
     LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels, unconstrained_pool,

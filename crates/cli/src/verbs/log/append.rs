@@ -7,7 +7,7 @@ use crate::paths;
 use crate::shell;
 use crate::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file};
-use engine::Digest;
+use base::Digest;
 use evaluation::scale::ScaleFile;
 use serde_json::json;
 use snapshots::{Manifest, Recipe, RecipeError, SECRET_FILE, follow, integrity_of};

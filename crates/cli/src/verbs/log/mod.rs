@@ -9,7 +9,7 @@ mod show;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use engine::Digest;
+use base::Digest;
 use snapshots::Secret;
 use std::path::Path;
 use trust::log::{Checkpoint, Entry, Log, MAX_CHECKPOINT, Revealed, problems};

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::sorted_entries;
-use engine::Digest;
+use base::Digest;
 use evaluation::Evaluation;
 use evaluation::study::Study;
 use snapshots::Manifest;

@@ -1,8 +1,9 @@
 //! The speed of this machine: a few fixed plays, timed.
 
 use agents::{Budget, Limits, Mcts, MctsConfig, Olets, OletsConfig, Planner, play};
+use base::Seed;
 use cpu_time::ThreadTime;
-use engine::{Game, Level, Seed};
+use engine::{Game, Level};
 use snapshots::{Corpus, CorpusGame};
 
 /// The games of the probe: of pushing, of chasing, and of shooting.

@@ -2,7 +2,8 @@
 
 use crate::diagnostics::Placed;
 use crate::input::Named;
-use engine::{Digest, Episode, line_and_column};
+use base::Digest;
+use engine::{Episode, line_and_column};
 use serde::Serialize;
 use validators::{Criteria, Finding, Judgement, Report};
 

@@ -4,7 +4,7 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::whole_file;
-use engine::Digest;
+use base::Digest;
 use serde_json::json;
 use snapshots::folder::{self, Limits};
 use snapshots::proof::{ItemProof, MAX_PROOF};

@@ -7,7 +7,7 @@ use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{self, TrustArgs, digest};
-use engine::Digest;
+use base::Digest;
 use serde::Serialize;
 use serde_json::json;
 use snapshots::chain::{Chain, Link, follow};

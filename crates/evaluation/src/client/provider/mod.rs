@@ -15,7 +15,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use ureq::http::HeaderValue;
 
-engine::named_enum! {
+base::named_enum! {
     /// The API of a server.
     pub enum Provider {
         /// OpenAI's chat completions, in the dialect of its own servers.
@@ -193,7 +193,7 @@ mod tests {
 mod examples {
     use super::*;
     use crate::client::chat::{ChatMessage, Role};
-    use engine::Seed;
+    use base::Seed;
 
     /// A conversation that uses every feature of a request.
     pub(super) fn request() -> ChatRequest {

@@ -5,7 +5,7 @@ use super::files::{FINISHED_FILE, LOCK_FILE, MARKER_FILE, names, read_data, writ
 use crate::error::EvaluationError;
 use crate::player::Halt;
 use crate::run::{Settings, Tally};
-use engine::Digest;
+use base::Digest;
 use report::files;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};

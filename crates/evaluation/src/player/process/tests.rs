@@ -2,7 +2,8 @@ use super::*;
 use crate::commitment::Commitment;
 use crate::subject::{Subject, SubjectFacts};
 use crate::turn::{Before, Played};
-use engine::{Observation, Outcome, Seed, State};
+use base::Seed;
+use engine::{Observation, Outcome, State};
 use rustix::process::{Pid, test_kill_process};
 use serde_json::Value;
 

@@ -8,9 +8,10 @@ mod route;
 
 use super::shown::{Shown, You};
 use super::{Unanswerable, actions_except_nil};
+use base::{Sampler, Seed};
 use beliefs::Beliefs;
 use engine::describe::{Guide, plural};
-use engine::{Action, Game, Sampler, Seed};
+use engine::{Action, Game};
 use route::{Board, DIRECTIONS, Routes};
 use std::collections::BTreeMap;
 

@@ -2,7 +2,8 @@
 
 use super::logs::subject;
 use agents::Budget;
-use engine::{Action, SEMANTICS, Seed};
+use base::Seed;
+use engine::{Action, SEMANTICS};
 use evaluation::metrics::{EpisodeMetrics, replay};
 use evaluation::player::Contestant;
 use evaluation::run::{FORMAT, PlayResult, Progress, Task, play};

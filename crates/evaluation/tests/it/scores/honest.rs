@@ -3,9 +3,10 @@
 use super::episode;
 use super::folders::{evaluate, with_details};
 use super::logs::{log, subject};
+use base::Digest;
 use engine::Action::{Left, Right};
+use engine::Outcome;
 use engine::Outcome::{Lost, Ongoing, Won};
-use engine::{Digest, Outcome};
 use evaluation::metrics::{EpisodeMetrics, EpisodeStatus};
 use evaluation::study::{Player, Study};
 use evaluation::{Evaluation, Event, Subject, SubjectFacts};

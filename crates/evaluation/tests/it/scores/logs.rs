@@ -1,7 +1,8 @@
 //! Episodes played by hand, with metrics computed by hand.
 
+use base::Seed;
 use engine::Action::{self, Left, Nil, Right, Up, Use};
-use engine::{Outcome, Seed};
+use engine::Outcome;
 use evaluation::client::{Finish, Usage};
 use evaluation::log::{Reply, ReplyClass};
 use evaluation::metrics::{Choices, EpisodeMetrics, EpisodeStatus, Movement, replay};

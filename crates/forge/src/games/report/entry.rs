@@ -1,7 +1,8 @@
 //! A game in a row.
 
 use crate::survey::{Edge, GameRow, SurveyedGame};
-use engine::{Analysis, Digest, Seed};
+use base::{Digest, Seed};
+use engine::Analysis;
 use report::{Table, TableCell};
 use serde::Serialize;
 use validators::{Criteria, Difficulty, GameForm, GameKind};

@@ -1,7 +1,7 @@
 //! The distances of games by their rules: from each other, and from the corpus.
 
 use super::entry::{Measured, Nearest};
-use engine::Digest;
+use base::Digest;
 use rayon::prelude::*;
 use report::{Section, Share};
 use std::collections::BTreeSet;

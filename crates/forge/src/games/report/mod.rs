@@ -12,7 +12,8 @@ pub use entry::{GameEntry, LevelEntry, Nearest};
 
 use crate::Tally;
 use crate::survey::SurveyedGame;
-use engine::{Game, Seed};
+use base::Seed;
+use engine::Game;
 use entry::Measured;
 use likeness::Distances;
 use rayon::prelude::*;

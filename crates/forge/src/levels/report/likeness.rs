@@ -1,7 +1,7 @@
 //! The likeness of levels: to each other, and to the game's own.
 
 use crate::survey::SurveyedLevel;
-use engine::Digest;
+use base::Digest;
 use generators::levels::LevelSimilarity;
 use rayon::prelude::*;
 use report::{Mean, Section, Share};

@@ -1,7 +1,7 @@
 //! One level in the report.
 
 use crate::survey::SurveyedLevel;
-use engine::Digest;
+use base::Digest;
 use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::survey::LevelSurvey;
-use engine::{Action, Episode, Game, Level, Seed};
+use base::Seed;
+use engine::{Action, Episode, Game, Level};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use validators::{

@@ -69,7 +69,7 @@ pub(crate) fn compress(bytes: &[u8]) -> Vec<u8> {
 
 /// Appends the frame that detects accidental damage.
 fn seal(compressed: &[u8]) -> Vec<u8> {
-    let digest = engine::Digest::of(compressed);
+    let digest = base::Digest::of(compressed);
     [compressed, &[0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0], digest.as_bytes()].concat()
 }
 
@@ -102,7 +102,7 @@ fn packing_round_trips() {
     let mut tar = Vec::new();
     zstd::stream::copy_decode(fs::File::open(&file).expect("there"), &mut tar).expect("zstd");
     assert_eq!(tar, Entries::of(&release).tar());
-    assert_eq!(engine::Digest::of(&tar), packed.digest);
+    assert_eq!(base::Digest::of(&tar), packed.digest);
 }
 
 /// The digest of the archive of a fixed release: it changes only with the format.
@@ -366,7 +366,7 @@ fn manifests_of_deep_paths() {
     let text = String::from_utf8(honest.manifest.to_bytes().expect("sound")).expect("JSON");
     let (start, end) =
         (text.find("\"items\": [").expect("items"), text.find("\n  ],\n  \"kind\"").expect("kind"));
-    let digest = engine::Digest::of(b"");
+    let digest = base::Digest::of(b"");
     let folders = "/a".repeat(124);
     let item = |n| {
         format!(

@@ -1,7 +1,7 @@
 //! Chains of releases in folders.
 
 use super::small::{Small, home, small};
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use report::canonical::to_canonical_json;
 use serde_json::json;
 use snapshots::archive::pack;

@@ -1,7 +1,7 @@
 //! Proofs of single items, honest and forged.
 
 use super::small::small;
-use engine::{Digest, Seed};
+use base::{Digest, Seed};
 use snapshots::merkle;
 use snapshots::proof::{FileProof, ItemProof, MAX_PROOF, ProofError};
 use std::convert::Infallible;

@@ -1,6 +1,7 @@
 //! The smallest possible release: a game, a level, and a witness that wins it.
 
-use engine::{Action, Digest, Episode, Game, Outcome, Seed};
+use base::{Digest, Seed};
+use engine::{Action, Episode, Game, Outcome};
 use forge::Tally;
 use forge::card::{Card, LevelCard, Origin};
 use report::Quantiles;

@@ -1,7 +1,7 @@
 //! False statements of a release about itself, by a forger who updates all digests.
 
 use super::small::{Small, home, json, small, witness, won};
-use engine::Digest;
+use base::Digest;
 use report::canonical::to_canonical_json;
 use serde_json::json;
 use snapshots::export::{Export, Format, export};

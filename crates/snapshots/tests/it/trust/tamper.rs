@@ -4,7 +4,7 @@
 
 use super::archives::compress;
 use super::small::{Small, home, small};
-use engine::{Sampler, Seed};
+use base::{Sampler, Seed};
 use report::canonical::to_canonical_json;
 use serde_json::{Value, json};
 use snapshots::archive::pack;

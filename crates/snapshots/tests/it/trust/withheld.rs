@@ -1,7 +1,7 @@
 //! Sealed releases hide what they withhold, and bind it.
 
 use super::small::{Small, home, json, small, witness, won};
-use engine::Digest;
+use base::Digest;
 use serde_json::{Value, json};
 use snapshots::archive::{Archive, pack};
 use snapshots::proof::ItemProof;

@@ -5,8 +5,8 @@
 
 use super::{Proof, hex, not_hex};
 use crate::log::Round;
+use base::Digest;
 use blst::{BLST_ERROR, min_pk, min_sig};
-use engine::Digest;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 

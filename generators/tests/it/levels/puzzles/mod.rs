@@ -6,7 +6,8 @@ mod strays;
 use self::crates::{hole, place, sink};
 use crate::corpora::{self, game_in, name_of, own_game};
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
-use engine::{Action, Analysis, Game, Level, Outcome, Seed, State};
+use base::Seed;
+use engine::{Action, Analysis, Game, Level, Outcome, State};
 use generators::games::PushRules;
 use generators::levels::{
     ConstructiveLevels, LevelConfig, PuzzleConfig, PuzzleTarget, PuzzleVariation, Solved,

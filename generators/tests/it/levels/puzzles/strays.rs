@@ -1,6 +1,6 @@
 //! Puzzles among strays.
 
-use engine::Seed;
+use base::Seed;
 use generators::games::PushRules;
 use generators::levels::{StrayConfig, StrayLevels};
 

@@ -16,7 +16,7 @@ use std::convert::Infallible;
 /// versions; the methods here return the same values for ever.
 ///
 /// ```
-/// use infinite_arcade_engine::{Sampler, Seed};
+/// use infinite_arcade_base::{Sampler, Seed};
 /// use rand::distr::{Bernoulli, Distribution};
 /// use rand::seq::SliceRandom;
 ///

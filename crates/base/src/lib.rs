@@ -1,0 +1,17 @@
+//! The foundation of all other crates: digests, seeds and their paths, random draws, canonical JSON.
+//!
+//! Seeds, digests, draws and canonical JSON never change: the bytes of every release depend on them.
+#![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
+
+mod digest;
+mod named_enum;
+mod sampler;
+mod seed;
+mod seed_path;
+mod serde_as_text;
+mod with_defaults;
+
+pub use digest::{Digest, NotHex};
+pub use sampler::Sampler;
+pub use seed::Seed;
+pub use seed_path::{SeedPath, SeedStep};

@@ -1,0 +1,113 @@
+//! The derivation of a seed: the root seed, and the steps that lead from it to the seed.
+
+use crate::seed::Seed;
+use std::fmt;
+
+/// One call of [`Seed::child`]: its purpose and its index.
+pub type SeedStep = (String, u64);
+
+/// A seed that remembers its root and the steps from the root to it.
+///
+/// `Display` writes the steps as a JSON list of pairs, the form in which witnesses of sealed releases publish them.
+/// The root is not part of that text.
+///
+/// ```
+/// use infinite_arcade_base::{Seed, SeedPath};
+///
+/// let root = Seed::from_text("starter");
+/// let path = SeedPath::from(root).child("level", 2).child("winnable", 0);
+/// assert_eq!(path.seed(), root.child("level", 2).child("winnable", 0));
+/// assert_eq!(path.to_string(), r#"[["level",2],["winnable",0]]"#);
+/// assert_eq!(SeedPath::parse(root, &path.to_string())?, path);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SeedPath {
+    root: Seed,
+    steps: Vec<SeedStep>,
+    /// The seed at the end of the steps.
+    seed: Seed,
+}
+
+impl SeedPath {
+    /// Follows steps from a root.
+    pub fn new(root: Seed, steps: Vec<SeedStep>) -> SeedPath {
+        let seed = steps.iter().fold(root, |seed, (purpose, index)| seed.child(purpose, *index));
+        SeedPath { root, steps, seed }
+    }
+
+    /// Reads the steps that `Display` writes, and follows them from a root.
+    ///
+    /// # Errors
+    /// The text is not a JSON list of pairs of a string and a 64-bit number.
+    pub fn parse(root: Seed, text: &str) -> Result<SeedPath, serde_json::Error> {
+        serde_json::from_str(text).map(|steps| SeedPath::new(root, steps))
+    }
+
+    /// Appends a step. The seed of the result is `self.seed().child(purpose, index)`.
+    #[must_use]
+    pub fn child(&self, purpose: &str, index: u64) -> SeedPath {
+        let mut steps = Vec::with_capacity(self.steps.len() + 1);
+        steps.extend_from_slice(&self.steps);
+        steps.push((purpose.to_owned(), index));
+        SeedPath { root: self.root, steps, seed: self.seed.child(purpose, index) }
+    }
+
+    /// The seed at the end of the path.
+    pub fn seed(&self) -> Seed {
+        self.seed
+    }
+
+    /// The seed at the start of the path.
+    pub fn root(&self) -> Seed {
+        self.root
+    }
+
+    /// The steps from the root to the seed.
+    pub fn steps(&self) -> &[SeedStep] {
+        &self.steps
+    }
+}
+
+/// The path without steps.
+impl From<Seed> for SeedPath {
+    fn from(root: Seed) -> SeedPath {
+        SeedPath::new(root, Vec::new())
+    }
+}
+
+impl fmt::Display for SeedPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&serde_json::to_string(&self.steps).expect("strings and numbers have a JSON form"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_seed_is_that_of_the_same_children() {
+        let root = Seed::from_text("paths");
+        let mut path = SeedPath::from(root);
+        let mut seed = root;
+        assert_eq!((path.seed(), path.root(), path.steps().len()), (root, root, 0));
+        for (purpose, index) in [("job", 7), ("candidate", 0), ("", u64::MAX), ("\"odd\"\n", 1)] {
+            (path, seed) = (path.child(purpose, index), seed.child(purpose, index));
+            assert_eq!((path.seed(), path.root()), (seed, root));
+            assert_eq!(SeedPath::new(root, path.steps().to_vec()), path);
+            assert_eq!(SeedPath::parse(root, &path.to_string()).expect("written by us"), path);
+        }
+        let elsewhere = SeedPath::new(Seed::from_text("another root"), path.steps().to_vec());
+        assert_ne!(elsewhere.seed(), seed);
+    }
+
+    #[test]
+    fn other_texts_are_refused() {
+        let root = Seed::from_text("paths");
+        for text in ["", "[[\"a\"]]", "[[\"a\",-1]]", "[[\"a\",1.5]]", "[[1,\"a\"]]", "{}", "[[\"a\",1]] x"] {
+            assert!(SeedPath::parse(root, text).is_err(), "{text}");
+        }
+        assert_eq!(SeedPath::parse(root, " [ [\"a\", 1] ] ").expect("spaces").seed(), root.child("a", 1));
+    }
+}
