@@ -2,7 +2,7 @@
 
 use super::plan::{Job, Plan, apportion};
 use crate::recipe::Recipe;
-use crate::tiers::PuzzlePart;
+use crate::recipe::tiers::PuzzlePart;
 use engine::{Game, Seed, syntax};
 use forge::Tally;
 use forge::card::Origin;
