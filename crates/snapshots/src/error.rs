@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::merkle::DuplicatePath;
-use crate::path::PathProblem;
+use crate::format::merkle::DuplicatePath;
+use crate::format::path::PathProblem;
 use report::canonical::CanonicalError;
 
 /// The reasons why a release folder cannot be written or read.

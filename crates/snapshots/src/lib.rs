@@ -45,67 +45,49 @@
 //! # }
 //! ```
 
-mod ancestry;
-pub mod archive;
-mod beacon;
-mod canary;
-pub mod chain;
-mod cited;
+mod card;
+mod check;
 mod contents;
-mod corpus;
 pub mod diff;
 mod draft;
 mod error;
 pub mod export;
-pub mod folder;
-mod integrity;
-mod known;
+mod format;
 pub mod lineage;
-mod manifest;
-pub mod marks;
-pub mod memory;
-pub mod merkle;
 pub mod mint;
-mod papers;
-mod path;
-mod placement;
-mod problem;
-pub mod proof;
+mod publish;
 mod recipe;
-mod regenerate;
 pub mod released;
-pub mod rungs;
-mod sealed;
-mod tiers;
+mod sections;
 pub mod twin;
-mod verify;
-pub mod version;
-mod withheld;
-mod witness;
 
-pub use ancestry::{AncestryError, follow};
-pub use beacon::BeaconPart;
-pub use canary::canary;
-pub use contents::integrity_of;
-pub use corpus::{Corpus, CorpusCard, CorpusGame, Intent};
+pub use card::rungs;
+pub use check::{Bounds, Verification, Witnesses, verify, verify_within};
+pub use contents::integrity::{Integrity, check_integrity};
+pub use contents::withheld::{Withheld, withhold};
+pub use contents::{archive, integrity_of, proof};
 pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
-pub use integrity::{Integrity, check_integrity};
-pub use known::Known;
-pub use manifest::{
+pub use format::canary::canary;
+pub use format::manifest::{
     FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind, SEALED_FORMAT,
 };
-pub use papers::{PAPERS, PAPERS_LIMITS, Untracked};
-pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
-pub use problem::{Flaw, Problem};
-pub use recipe::{CorpusPart, GeneratedPart, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
-pub use regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
-pub use sealed::{
+pub use format::path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
+pub use format::problem::{Flaw, Problem};
+pub use format::witness::Witness;
+pub use format::{folder, merkle, version};
+pub use lineage::ancestry::{AncestryError, follow};
+pub use lineage::chain;
+pub use mint::corpus::{Corpus, CorpusCard, CorpusGame, Intent};
+pub use publish::papers::{PAPERS, PAPERS_LIMITS, Untracked};
+pub use publish::regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
+pub use recipe::beacon::BeaconPart;
+pub use recipe::known::Known;
+pub use recipe::sealed::{
     COMMITS_TO_RECIPE_SINCE, HELD, Reveal, RevealError, SECRET_FILE, Secret, read_secret, reveal,
 };
-pub use tiers::{PuzzlePart, Tiers};
-pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
-pub use withheld::{Withheld, withhold};
-pub use witness::Witness;
+pub use recipe::tiers::{PuzzlePart, Tiers};
+pub use recipe::{CorpusPart, GeneratedPart, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
+pub use sections::{marks, memory};
 
 use base::Digest;

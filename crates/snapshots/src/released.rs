@@ -1,12 +1,12 @@
 //! The games of a verified release, parsed: the input of exports and comparisons.
 
+use crate::check::{Verification, verify};
 use crate::contents::Contents;
-use crate::integrity::Integrity;
-use crate::manifest::{MANIFEST_FILE, Manifest};
-use crate::marks::Marks;
-use crate::memory::{PREFIX, SecretGame, second_path, sibling_path};
-use crate::verify::{Verification, verify};
-use crate::witness::{Witness, witness_path};
+use crate::contents::integrity::Integrity;
+use crate::format::manifest::{MANIFEST_FILE, Manifest};
+use crate::format::witness::{Witness, witness_path};
+use crate::sections::marks::Marks;
+use crate::sections::memory::{PREFIX, SecretGame, second_path, sibling_path};
 use crate::{Digest, SnapshotError};
 use engine::{Action, Episode, Game, Level};
 use forge::card::Card;

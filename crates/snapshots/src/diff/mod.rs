@@ -11,9 +11,9 @@ pub use neighbours::{Neighbours, Pair};
 pub use shifts::{DEALS, NumberShift, Share, Shift, Unmeasured};
 pub use verdict::Order;
 
-use crate::marks::{MarkDifference, mark_differences};
+use crate::card::rungs::{RungDifference, differences};
 use crate::released::{Released, ReleasedGame};
-use crate::rungs::{RungDifference, differences};
+use crate::sections::marks::{MarkDifference, mark_differences};
 use base::Digest;
 use engine::Analysis;
 use forge::card::Origin;

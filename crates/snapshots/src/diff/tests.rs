@@ -1,9 +1,9 @@
 //! Releases of a few games whose differences are known.
 
 use super::*;
-use crate::manifest::tests::example;
+use crate::card::rungs::tests::card;
+use crate::format::manifest::tests::example;
 use crate::released::ReleasedLevel;
-use crate::rungs::tests::card;
 use engine::Game;
 use forge::card::Card;
 

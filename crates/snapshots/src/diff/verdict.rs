@@ -2,7 +2,7 @@
 
 use super::Diff;
 use super::shifts::{DIFFICULTY, Shift};
-use crate::manifest::Manifest;
+use crate::format::manifest::Manifest;
 use serde::Serialize;
 
 /// The p-value from which a difference may be due to chance.

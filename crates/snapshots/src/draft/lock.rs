@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 
 use crate::error::SnapshotError;
-use crate::folder;
+use crate::format::folder;
 use report::files;
 
 /// The lock file. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.

@@ -22,9 +22,9 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::SnapshotError;
-use crate::folder::{self, Limits};
-use crate::path::check_path;
-use crate::sealed::HELD;
+use crate::format::folder::{self, Limits};
+use crate::format::path::check_path;
+use crate::recipe::sealed::HELD;
 use lock::{JOBS, LOCK, TREE};
 use sync::{create_folder, sync_folder, sync_folders};
 

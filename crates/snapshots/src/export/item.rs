@@ -1,6 +1,6 @@
 //! The source of a row of an export: a level with its game, under the game's own theme or as a twin.
 
-use crate::manifest::Manifest;
+use crate::format::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};
 use crate::twin::{Twin, TwinError, TwinGame};
 use base::Digest;

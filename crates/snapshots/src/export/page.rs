@@ -4,7 +4,7 @@
 use super::columns::{Column, ColumnKind};
 use super::item::ExportedGame;
 use super::{Export, Format, SPLIT};
-use crate::papers;
+use crate::publish::papers;
 use crate::released::Released;
 use forge::card::{Card, Origin};
 use std::fmt::Write;

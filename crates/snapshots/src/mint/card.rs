@@ -2,7 +2,7 @@
 
 use super::Plan;
 use super::select::{Bin, Contender, bins, is_new};
-use crate::rungs::{RungRate, rates};
+use crate::card::rungs::{RungRate, rates};
 use forge::Tally;
 use forge::card::{Card, Origin};
 use report::Quantiles;

@@ -3,13 +3,13 @@
 use super::card::ReleaseCard;
 use super::job::FrozenGame;
 use super::{MintError, Plan};
-use crate::manifest::{FORMAT, Item, Manifest, ReleaseKind};
-use crate::marks::{GameMarks, LevelMarks, Marks, Wins};
-use crate::memory::{SecondWin, second_path, sibling_path};
+use crate::contents::withheld::withhold;
+use crate::format::manifest::{FORMAT, Item, Manifest, ReleaseKind};
+use crate::format::witness::{Witness, witness_path};
 use crate::recipe::Recipe;
-use crate::sealed::{SECRET_FILE, Secret};
-use crate::withheld::withhold;
-use crate::witness::{Witness, witness_path};
+use crate::recipe::sealed::{SECRET_FILE, Secret};
+use crate::sections::marks::{GameMarks, LevelMarks, Marks, Wins};
+use crate::sections::memory::{SecondWin, second_path, sibling_path};
 use crate::{Digest, SnapshotError};
 use engine::syntax;
 use forge::card::{Card, LevelCard, Origin};
@@ -121,7 +121,7 @@ impl<'a, 'b> Folder<'a, 'b> {
             kind: self.kind,
             semantics: engine::SEMANTICS,
             generation: generators::GENERATION,
-            version: Some(crate::version::CURRENT.number.to_owned()),
+            version: Some(crate::format::version::CURRENT.number.to_owned()),
             parent: recipe.parent,
             canary: self.canary,
             commitment: recipe.commitment,

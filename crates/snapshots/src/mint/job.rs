@@ -1,8 +1,8 @@
 //! The result of a job, as data that can be stored and shipped.
 
-use crate::marks::Wins;
-use crate::memory::{SecondWin, Sibling};
-use crate::witness::{descendant, way_of_search};
+use crate::format::witness::{descendant, way_of_search};
+use crate::sections::marks::Wins;
+use crate::sections::memory::{SecondWin, Sibling};
 use base::Seed;
 use engine::{Analysis, Episode};
 use forge::Tally;

@@ -3,7 +3,7 @@
 
 use super::job::JobResult;
 use crate::draft::sync::{create_folder, sync_folder};
-use crate::folder;
+use crate::format::folder;
 use crate::{Digest, SnapshotError};
 use report::canonical::{canonical_digest, to_canonical_json};
 use serde::de::DeserializeOwned;

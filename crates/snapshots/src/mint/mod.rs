@@ -6,6 +6,7 @@
 //! alone: not on threads, order, machines, time or interruptions.
 
 mod card;
+pub(crate) mod corpus;
 mod folder;
 mod forecast;
 mod job;
@@ -16,9 +17,9 @@ mod select;
 mod shard;
 mod supply;
 
-use crate::manifest::Manifest;
+use crate::format::manifest::Manifest;
 use crate::recipe::RecipeError;
-use crate::sealed::Secret;
+use crate::recipe::sealed::Secret;
 use crate::{Digest, SnapshotError};
 pub use card::{Novelty, ReleaseCard, Rung};
 pub(crate) use card::{counted, generator};
@@ -215,7 +216,7 @@ pub fn lay_out(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::corpus::{Corpus, CorpusCard, CorpusGame};
+    use crate::mint::corpus::{Corpus, CorpusCard, CorpusGame};
     use crate::recipe::Recipe;
     use forge::card::Origin;
     use forge::games::{GameEffort, GameOrder, make_games};

@@ -2,7 +2,7 @@
 
 use super::plan::{Job, Plan, apportion};
 use crate::recipe::Recipe;
-use crate::tiers::PuzzlePart;
+use crate::recipe::tiers::PuzzlePart;
 use base::Seed;
 use engine::{Game, syntax};
 use forge::Tally;

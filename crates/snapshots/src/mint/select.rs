@@ -9,7 +9,7 @@ use super::job::FrozenGame;
 use super::plan::{Job, Plan, apportion};
 use super::puzzles::PuzzleKind;
 use crate::Digest;
-use crate::ancestry::item;
+use crate::lineage::ancestry::item;
 use crate::recipe::Recipe;
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};

@@ -11,14 +11,14 @@ use super::MintError;
 use super::job::{FrozenGame, JobResult};
 use super::job_store::{JobFolder, JobStore};
 use super::plan::{Job, Plan};
-use crate::folder::{self, Limits};
-use crate::manifest::{Item, MANIFEST_LIMIT};
-use crate::marks::{MarksPart, shape_problem};
-use crate::memory;
+use crate::check::{number_problems, replay_problem};
+use crate::format::folder::{self, Limits};
+use crate::format::manifest::{Item, MANIFEST_LIMIT};
+use crate::format::version::{CURRENT, MintedBy};
+use crate::format::witness::descendant;
 use crate::recipe::Recipe;
-use crate::verify::{number_problems, replay_problem};
-use crate::version::{CURRENT, MintedBy};
-use crate::witness::descendant;
+use crate::sections::marks::{MarksPart, shape_problem};
+use crate::sections::memory;
 use crate::{Digest, Draft, SnapshotError};
 use base::Seed;
 use engine::{Episode, Game};
@@ -382,7 +382,7 @@ impl JobStore for Shards {
 mod tests {
     use super::super::{Memory, make_jobs, tests};
     use super::*;
-    use crate::sealed::Secret;
+    use crate::recipe::sealed::Secret;
     use std::fs;
 
     #[test]

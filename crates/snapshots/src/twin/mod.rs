@@ -24,7 +24,7 @@ base::named_enum! {
         Mirrored = "mirrored",
         /// The game has another theme.
         Renamed = "renamed",
-        /// The renaming that a coin withheld until the reveal ([`crate::memory`]).
+        /// The renaming that a coin withheld until the reveal ([`crate::sections::memory`]).
         Sibling = "sibling",
     }
 }

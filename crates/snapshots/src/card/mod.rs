@@ -1,0 +1,3 @@
+//! Summaries of the games of a release.
+
+pub mod rungs;

@@ -1,0 +1,242 @@
+//! The check of a game of a release: rules, levels, card and witnesses must fit together.
+
+use super::numbers;
+use super::replay::{Meter, Replayed, replay};
+use crate::contents::Contents;
+use crate::format::manifest::{Manifest, ReleaseKind};
+use crate::format::witness::{Witness, witness_path};
+use crate::recipe::sealed::{Secret, UNRELATED_WITNESS};
+use crate::{Digest, SnapshotError};
+use engine::{Analysis, Game};
+use forge::card::{Card, Origin};
+use forge::games::slug;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The maximum size of a `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.
+const CARD_LIMIT: u64 = 1 << 20;
+/// The maximum number of patterns on a card. Our games have about ten, and edits.
+const MAX_PATTERNS: usize = 1024;
+
+/// The files of a game's folder, by path below it.
+pub(super) type Files = BTreeSet<String>;
+
+/// The result of checking a game.
+#[derive(Default)]
+pub(super) struct GameCheck {
+    /// The number of levels read.
+    pub(super) levels: usize,
+    /// The number of witnesses that replayed to a win.
+    pub(super) replayed: usize,
+    /// The paths of its witnesses in a sealed release.
+    pub(super) held: Vec<String>,
+    /// The card, if it is valid.
+    pub(super) card: Option<Card>,
+    /// The problems, each naming the file.
+    pub(super) problems: Vec<String>,
+}
+
+/// Checks the game folders of a release.
+pub(super) struct Checker<'a> {
+    pub(super) contents: &'a Contents,
+    pub(super) manifest: &'a Manifest,
+    /// The secret of a sealed release that was revealed.
+    pub(super) secret: Option<&'a Secret>,
+    /// The meter for replays; `None` if the witnesses are of other semantics.
+    pub(super) meter: Option<&'a Meter>,
+}
+
+impl Checker<'_> {
+    /// Checks folders whose names end with the same digest, in order. If two hold the same game, the second is a
+    /// problem, and its witnesses are not replayed.
+    pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
+        let mut seen = BTreeMap::new();
+        folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
+    }
+
+    /// The texts and facts of a card that follow from the rules, and do not. Only this version's words can be compared.
+    fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
+        let version = (self.manifest.generation, self.manifest.semantics);
+        if version != (generators::GENERATION, engine::SEMANTICS) {
+            return Vec::new();
+        }
+        let mut found = Vec::new();
+        if card.rules != engine::describe(game) {
+            found.push("its `rules` are not those of game.vgdl in words".to_owned());
+        }
+        if card.deterministic == Analysis::of(game).is_stochastic() {
+            found.push("its `deterministic` is not what game.vgdl says".to_owned());
+        }
+        let comments = &game.description().header.trivia.above;
+        if card.id != format!("{}-{}", slug(&card.title), game.digest().short())
+            || comments.first().is_none_or(|title| title.trim() != card.title.trim())
+        {
+            found.push("its `title` is not that of game.vgdl and its folder".to_owned());
+        }
+        found
+    }
+
+    fn game(
+        &self,
+        folder: &str,
+        files: &Files,
+        seen: &mut BTreeMap<Digest, String>,
+    ) -> Result<GameCheck, SnapshotError> {
+        let mut check = GameCheck::default();
+        let GameCheck { levels, replayed, held, problems, .. } = &mut check;
+        let canary = &self.manifest.canary;
+        let path = |file: &str| format!("games/{folder}/{file}");
+        // The digests match, so every listed file can be read as a text of its size; its content may still be wrong.
+        let read = |file: &str| -> Result<Option<String>, SnapshotError> {
+            match files.contains(file) {
+                true => Ok(String::from_utf8(self.contents.read(&path(file))?).ok()),
+                false => Ok(None),
+            }
+        };
+        let mut wrong = |file: &str, what: String| problems.push(format!("{}: {what}", path(file)));
+
+        let Some(source) = read("game.vgdl")? else {
+            wrong("game.vgdl", "missing or not a text".to_owned());
+            return Ok(check);
+        };
+        if !super::carries(source.as_bytes(), canary) {
+            wrong("game.vgdl", "without the release's canary".to_owned());
+        }
+        let game = match Game::from_source(&source) {
+            Ok(game) => game,
+            Err(problems) => {
+                wrong("game.vgdl", format!("not a game: {problems}"));
+                return Ok(check);
+            }
+        };
+        let of_card = self.manifest.item(&path("card.json"));
+        if let Some(item) = of_card.filter(|item| item.size > CARD_LIMIT) {
+            wrong("card.json", format!("{} bytes, and a card has at most {CARD_LIMIT}", item.size));
+            return Ok(check);
+        }
+        let mut card: Card = match read("card.json")?.map(|text| serde_json::from_str(&text)) {
+            Some(Ok(card)) => card,
+            Some(Err(error)) => {
+                wrong("card.json", format!("not a card: {error}"));
+                return Ok(check);
+            }
+            None => {
+                wrong("card.json", "missing or not a text".to_owned());
+                return Ok(check);
+            }
+        };
+        if card.id != folder || card.digest != game.digest() || !folder.ends_with(&game.digest().short()) {
+            wrong("card.json", "card, folder name and game do not match".to_owned());
+        }
+        if matches!(&card.origin, Origin::Generated { patterns, .. } if patterns.len() > MAX_PATTERNS) {
+            wrong("card.json", format!("more than {MAX_PATTERNS} patterns"));
+            return Ok(check);
+        }
+        if card.canary != *canary {
+            wrong("card.json", "its canary is not the release's".to_owned());
+        }
+        if card.levels.is_empty() {
+            wrong("card.json", "the game has no levels".to_owned());
+        }
+        for what in self.of_the_rules(&card, &game) {
+            wrong("card.json", what);
+        }
+        let twin = seen.get(&game.digest());
+        if let Some(other) = twin {
+            wrong("game.vgdl", format!("the same game as games/{other}"));
+        }
+        let is_sealed = self.manifest.kind == ReleaseKind::Sealed;
+        let mut known: BTreeSet<String> = ["game.vgdl", "card.json"].map(str::to_owned).into();
+        let mut boards: BTreeMap<Digest, usize> = BTreeMap::new();
+        let mut loaded = Vec::new();
+        for (number, level_card) in card.levels.iter().enumerate() {
+            let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
+            if is_sealed {
+                held.push(witness_path(ReleaseKind::Sealed, folder, number));
+            }
+            let level = match read(&file)?.map(|text| game.level(&text)) {
+                Some(Ok(level)) => level,
+                Some(Err(problems)) => {
+                    wrong(&file, format!("not a level of this game: {problems}"));
+                    continue;
+                }
+                None => {
+                    wrong(&file, "missing or not a text".to_owned());
+                    continue;
+                }
+            };
+            *levels += 1;
+            if level_card.file != file || level_card.digest != level.digest() {
+                wrong(&file, "card and level do not match".to_owned());
+            }
+            for what in numbers::problems(level_card, &level) {
+                wrong("card.json", format!("{file}: {what}"));
+            }
+            let first = *boards.entry(level.digest()).or_insert(number);
+            if first != number {
+                wrong(&file, format!("the same level as lvl{first}.txt"));
+            }
+            let is_again = first != number || twin.is_some();
+            let mut won = None;
+            let witness = match is_sealed {
+                true => {
+                    let bytes = self.contents.find(&witness_path(ReleaseKind::Sealed, folder, number))?;
+                    bytes.and_then(|bytes| String::from_utf8(bytes).ok())
+                }
+                false => read(&witness_file)?,
+            };
+            match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
+                Some(Ok(witness)) if witness.canary != *canary => {
+                    wrong(&witness_file, "its canary is not the release's".to_owned());
+                }
+                Some(Ok(witness))
+                    if self
+                        .secret
+                        .is_some_and(|secret| !secret.leads_to(&witness, &self.manifest.recipe)) =>
+                {
+                    wrong(&witness_file, UNRELATED_WITNESS.to_owned());
+                }
+                Some(Ok(Witness { episode, .. })) => {
+                    let told = (level_card.witness_ticks, level_card.witness_score);
+                    let fits = (episode.actions.len(), episode.score) == told;
+                    if !fits {
+                        let what = format!("not the ticks and score of the episode that wins {file}");
+                        wrong("card.json", what);
+                    }
+                    // Duplicates and mismatches are reported already, and cost no replay.
+                    let meter = self.meter.filter(|_| fits && !is_again);
+                    match meter.map(|meter| replay(&episode, &game, &level, meter)) {
+                        Some(Replayed::Won) => *replayed += 1,
+                        Some(Replayed::Wrong(what)) => wrong(&witness_file, what),
+                        Some(Replayed::OutOfWork) | None => {}
+                    }
+                    won = Some(episode);
+                }
+                Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
+                // The completeness of withheld files has been checked already.
+                None if is_sealed => {}
+                None => wrong(&witness_file, "missing or not a text".to_owned()),
+            }
+            loaded.push((level, won));
+            known.insert(file);
+            if !is_sealed {
+                known.insert(witness_file);
+            }
+        }
+        for file in files.difference(&known) {
+            wrong(file, "a game has no such file".to_owned());
+        }
+        if is_sealed && loaded.len() == card.levels.len() {
+            let coins = self.coins(folder, &game, &loaded, twin.is_some())?;
+            held.extend(coins.listed);
+            problems.extend(coins.problems);
+            *replayed += coins.replayed;
+        }
+        seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
+        // The texts are dropped, because the cards of all games are kept until they are counted.
+        for text in [&mut card.title, &mut card.description, &mut card.goal, &mut card.rules] {
+            *text = String::new();
+        }
+        check.card = Some(card);
+        Ok(check)
+    }
+}

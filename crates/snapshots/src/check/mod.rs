@@ -1,0 +1,317 @@
+//! Verifying a release folder, without trusting anything in it.
+
+mod coins;
+mod game;
+mod numbers;
+mod readme_and_card;
+mod replay;
+pub(crate) mod version;
+
+use crate::contents::Contents;
+use crate::contents::withheld::{HeldPart, salt_flaw};
+use crate::format::manifest::{Manifest, ReleaseKind};
+use crate::mint::RELEASE_CARD_FILE;
+use crate::recipe::beacon::{BEACON, BeaconPart};
+use crate::recipe::known::Known;
+use crate::recipe::sealed::{HELD, SECRET_FILE, Secret};
+use crate::sections::marks::{self, Marks};
+use crate::sections::memory::is_solution;
+use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
+use forge::card::Card;
+use game::{Checker, Files, GameCheck};
+use itertools::Itertools;
+use rayon::prelude::*;
+use replay::Meter;
+use report::canonical::to_canonical_json;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+pub(crate) use numbers::problems as number_problems;
+pub use replay::Bounds;
+pub(crate) use replay::problem as replay_problem;
+pub(crate) use version::CARD_AND_CANARY_SINCE;
+
+/// The results of checking the witnesses.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Witnesses {
+    /// The number of witnesses replayed; those that failed are among the problems.
+    Replayed(usize),
+    /// The release is sealed: they are withheld until the reveal.
+    Held,
+    /// The release was minted under other semantics of the engine.
+    NotReplayed {
+        /// The semantics that the witnesses need.
+        semantics: u32,
+    },
+}
+
+/// The result of [`verify`].
+#[derive(Clone, Debug, Serialize)]
+pub struct Verification {
+    /// The name of the release.
+    pub name: String,
+    /// The root digest, as stated.
+    pub root: Digest,
+    /// The number of files, without the manifest.
+    pub files: usize,
+    /// The number of games.
+    pub games: usize,
+    /// The number of levels.
+    pub levels: usize,
+    /// The results of checking the witnesses.
+    pub witnesses: Witnesses,
+    /// `true` if the release is sealed and its secret was not revealed.
+    pub is_secret: bool,
+    /// The units of work that the replays took, at most the bound; see [`Bounds`].
+    pub work: u64,
+    /// The bound, if the replays together take more; then no witness was judged, which is among the problems.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exceeded: Option<u64>,
+    /// The number of papers beside the release, which its root does not cover.
+    pub papers: usize,
+    /// Files that other programs left beside the release, by name; they are not read.
+    pub ignored: Vec<String>,
+    /// The problems, each naming the file; empty if the release is sound.
+    pub problems: Vec<String>,
+    /// The manifest, as stated.
+    #[serde(skip)]
+    pub manifest: Manifest,
+}
+
+/// Checks paths, links, sizes, digests and the root; if these are correct, that games, levels and cards are
+/// well-formed and fit together; and, under the same semantics, replays every witness to its win, within bounds that
+/// every release respects ([`Bounds::RELEASE`]). `root` is the release's folder or its [archive](crate::contents::archive).
+///
+/// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
+///
+/// # Errors
+/// There is no manifest, it is of a newer format or broken, or the file system refuses.
+pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
+    verify_within(root, &Bounds::RELEASE)
+}
+
+/// Verifies a release like [`verify`], with other bounds. A release whose replays exceed them is not sound, and the
+/// replays end there.
+///
+/// # Errors
+/// See [`verify`].
+pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, SnapshotError> {
+    refuse_unfinished(root)?;
+    let (integrity, contents) = Contents::open(root)?;
+    let manifest = integrity.manifest;
+    let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
+    let same_semantics = manifest.semantics == engine::SEMANTICS;
+    let is_sealed = manifest.kind == ReleaseKind::Sealed;
+    let secret = if is_sealed && problems.is_empty() { contents.find(SECRET_FILE)? } else { None };
+    let held = is_sealed && secret.is_none();
+    let secret = match secret.map(|bytes| serde_json::from_slice::<Secret>(&bytes)).transpose() {
+        Ok(secret) => secret,
+        Err(error) => {
+            problems.push(format!("{SECRET_FILE}: not a secret: {error}"));
+            None
+        }
+    };
+    if let Some(secret) = &secret {
+        problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
+        for part in HeldPart::ALL {
+            let list = contents.find(part.list())?;
+            problems.extend(list.and_then(|bytes| salt_flaw(part, &bytes, secret)));
+        }
+    }
+    let mut games = Vec::new();
+    let mut work = 0;
+    let mut exceeded = None;
+    if problems.is_empty() {
+        let folders = namesakes(game_folders(&manifest, &mut problems));
+        let meter = Meter::new(bounds.of(declared_levels(&manifest)));
+        let checker = Checker {
+            contents: &contents,
+            manifest: &manifest,
+            secret: secret.as_ref(),
+            meter: same_semantics.then_some(&meter),
+        };
+        let checked: Vec<Vec<GameCheck>> =
+            folders.par_iter().map(|folders| checker.namesakes(folders)).collect::<Result<_, _>>()?;
+        games = checked.into_iter().flatten().collect();
+        exceeded = meter.exceeded();
+        work = exceeded.unwrap_or(meter.spent());
+        match exceeded {
+            // The replays that finished depend on the threads, so no results of replays are reported.
+            Some(limit) => problems.push(format!(
+                "games: its witnesses take more than {limit} units of work to replay, the bound for {} levels",
+                declared_levels(&manifest)
+            )),
+            None => problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems))),
+        }
+        check_header(&manifest, &mut problems);
+        check_known(&manifest, &mut problems);
+        check_held(&manifest, &games, &mut problems);
+        let cards: Option<Vec<&Card>> = games.iter().map(|game| game.card.as_ref()).collect();
+        // Compared only if no game is left out: missing ones have been reported.
+        if let Some(cards) = cards {
+            problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
+            problems.extend(marks::problems(&contents, &manifest, &cards)?);
+        }
+    }
+    let levels = games.iter().map(|game| game.levels).sum();
+    let replayed: usize = games.iter().map(|game| game.replayed).sum();
+    Ok(Verification {
+        root: manifest.root,
+        files: manifest.files().count(),
+        papers: integrity.beside.papers.len(),
+        ignored: integrity.beside.ignored,
+        games: games.len(),
+        levels,
+        witnesses: match same_semantics {
+            _ if held && replayed == 0 => Witnesses::Held,
+            true => Witnesses::Replayed(replayed),
+            false => Witnesses::NotReplayed { semantics: manifest.semantics },
+        },
+        is_secret: held,
+        work,
+        exceeded,
+        name: manifest.name.clone(),
+        problems,
+        manifest,
+    })
+}
+
+/// The number of levels that the manifest lists.
+fn declared_levels(manifest: &Manifest) -> usize {
+    let is_level = |path: &str| {
+        path.starts_with("games/") && path.rsplit('/').next().is_some_and(|file| file.starts_with("lvl"))
+    };
+    manifest.items.iter().filter(|item| is_level(&item.path) && item.path.ends_with(".txt")).count()
+}
+
+/// Groups folders whose names have the same ending, as those of the same game do.
+fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
+    let mut by_end: BTreeMap<String, Vec<(String, Files)>> = BTreeMap::new();
+    for (folder, files) in folders {
+        let end = folder.char_indices().rev().nth(7).map_or(0, |(at, _)| at);
+        by_end.entry(folder[end..].to_owned()).or_default().push((folder, files));
+    }
+    by_end.into_values().sorted_by(|one, two| one[0].0.cmp(&two[0].0)).collect_vec()
+}
+
+/// Checks that the manifest's fields agree with its recipe.
+fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
+    let stated = [
+        ("name", Some(manifest.name.clone())),
+        ("parent", manifest.parent.map(|parent| parent.to_string())),
+        ("commitment", manifest.commitment.map(|commitment| commitment.to_string())),
+    ];
+    for (key, stated) in stated {
+        let recipe = manifest.recipe.get(key).and_then(|value| value.as_str());
+        if recipe != stated.as_deref() {
+            problems.push(format!("{MANIFEST_FILE}: its `{key}` is not that of its recipe"));
+        }
+    }
+    let (of, source) = match manifest.commitment {
+        Some(commitment) => (Some(commitment), "commitment"),
+        // The manifest has been read, so its recipe has a canonical text.
+        None if manifest.generation >= CARD_AND_CANARY_SINCE => {
+            (to_canonical_json(&manifest.recipe).ok().map(|text| Digest::of(text.as_bytes())), "recipe")
+        }
+        None => (None, ""),
+    };
+    if of.is_some_and(|of| manifest.canary != canary(&of)) {
+        problems.push(format!("{MANIFEST_FILE}: its `canary` is not that of its {source}"));
+    }
+    let has_beacon = manifest.recipe.get(BEACON).is_some();
+    let is_known = BeaconPart::of(&manifest.recipe).is_some_and(|beacon| beacon.value.is_some());
+    if has_beacon && !(is_known && manifest.commitment.is_some()) {
+        problems
+            .push(format!("{MANIFEST_FILE}: its recipe names a beacon without a value, or is not sealed"));
+    }
+    if let Some(what) = version::impossible(&manifest.minted_by()) {
+        problems.push(format!("{MANIFEST_FILE}: {what}"));
+    }
+}
+
+/// Checks that `known` in the recipe is plausible for a release with this parent, or with none. Only the parent can
+/// show whether it is right: see [`chain`](crate::lineage::chain).
+fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
+    if manifest.generation < CARD_AND_CANARY_SINCE {
+        return;
+    }
+    let mut wrong = |what: &str| problems.push(format!("{MANIFEST_FILE}: the recipe's `known` {what}"));
+    let known = match manifest.recipe.get("known").map(|known| serde_json::from_value(known.clone())) {
+        None => Known::default(),
+        Some(Ok(known)) => known,
+        // Another generation may store more.
+        Some(Err(_)) if manifest.generation != generators::GENERATION => return,
+        Some(Err(error)) => return wrong(&format!("is malformed ({error})")),
+    };
+    let names: BTreeSet<&String> = known.releases.iter().collect();
+    if names.len() < known.releases.len() || names.contains(&manifest.name) {
+        wrong("names a release twice, or itself");
+    }
+    match manifest.parent {
+        Some(_) if known.releases.is_empty() => wrong("names no release, but there is a parent"),
+        None if known != Known::default() => wrong("lists earlier releases, but there is no parent"),
+        _ => {}
+    }
+}
+
+/// Checks that a sealed release commits to its secret and to a witness of every level, and to no other hidden file.
+fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
+    if manifest.kind != ReleaseKind::Sealed {
+        return;
+    }
+    let witnesses = games.iter().flat_map(|game| &game.held).map(String::as_str);
+    let marks = Marks::path_in(manifest);
+    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(marks.as_deref()).collect();
+    let listed = manifest.held();
+    // What is hidden is judged when it is revealed.
+    let is_hidden = |path: &str| {
+        let part = if is_solution(path) { HeldPart::Solutions } else { HeldPart::Rest };
+        manifest.hides(part)
+    };
+    let absent = awaited.difference(&listed).filter(|path| !is_hidden(path));
+    let absent = absent.map(|path| format!("{path}: not committed to"));
+    let foreign = listed.difference(&awaited).map(|path| format!("{path}: not a file of a sealed release"));
+    problems.extend(absent.chain(foreign));
+}
+
+/// Tests whether a file contains the release's canary.
+pub(crate) fn carries(content: &[u8], canary: &str) -> bool {
+    content.windows(canary.len()).any(|part| part == canary.as_bytes())
+}
+
+/// Refuses `.partial` folders and everything inside them: even a complete release is none before its publication.
+pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
+    let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
+        std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),
+        _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
+    })?;
+    // For distant ancestors the name alone is weak evidence, so a draft is required.
+    let is_draft = |folder: &Path| folder.join(".lock").exists() && folder.join("tree").exists();
+    let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
+        folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))
+    });
+    if unfinished { Err(SnapshotError::Unfinished(root.to_path_buf())) } else { Ok(()) }
+}
+
+/// The files of each game folder, by path below it.
+fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
+    let mut folders: BTreeMap<String, Files> = BTreeMap::new();
+    let marks = Marks::path_in(manifest);
+    for item in &manifest.items {
+        match item.path.strip_prefix("games/").and_then(|rest| rest.split_once('/')) {
+            Some((folder, file)) => {
+                folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
+            }
+            None if [readme_and_card::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
+            None if marks.as_ref() == Some(&item.path) => {}
+            None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
+            None => problems.push(format!("{}: a release has no such file", item.path)),
+        }
+    }
+    if folders.is_empty() {
+        problems.push("games: the release holds no game".to_owned());
+    }
+    folders
+}

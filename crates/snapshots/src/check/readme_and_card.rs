@@ -1,0 +1,103 @@
+//! The files that describe a release as a whole: `README.md` and `CARD.json`.
+
+use super::carries;
+use super::version::CARD_AND_CANARY_SINCE;
+use crate::SnapshotError;
+use crate::contents::Contents;
+use crate::format::manifest::Manifest;
+use crate::mint::{RELEASE_CARD_FILE, ReleaseCard, counted, generator};
+use forge::card::{Card, Origin};
+use generators::GENERATION;
+use report::Quantiles;
+use serde_json::Value;
+
+/// The README, for people.
+pub(super) const README_FILE: &str = "README.md";
+
+/// The problems with the two, given the cards of the games.
+pub(super) fn problems(
+    contents: &Contents,
+    manifest: &Manifest,
+    cards: &[&Card],
+) -> Result<Vec<String>, SnapshotError> {
+    let mut problems = Vec::new();
+    let read = |path: &str| manifest.item(path).map(|item| contents.read(&item.path)).transpose();
+    match read(README_FILE)? {
+        None => problems.push(format!("{README_FILE}: missing: a release has one")),
+        Some(text) if !carries(&text, &manifest.canary) => {
+            problems.push(format!("{README_FILE}: without the release's canary"));
+        }
+        Some(_) => {}
+    }
+    match read(RELEASE_CARD_FILE)? {
+        None if manifest.generation < CARD_AND_CANARY_SINCE => {}
+        None => problems.push(format!("{RELEASE_CARD_FILE}: missing: a release has one")),
+        Some(text) => problems.extend(
+            of_card(&text, manifest, cards).into_iter().map(|what| format!("{RELEASE_CARD_FILE}: {what}")),
+        ),
+    }
+    Ok(problems)
+}
+
+/// The problems with the card of a release. A card of this generation has a known shape; for any other, only the
+/// counts that every generation has are compared.
+fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
+    let value: Value = match serde_json::from_slice(text) {
+        Ok(value @ Value::Object(_)) => value,
+        Ok(_) => return vec!["not the card of a release: not an object".to_owned()],
+        Err(error) => return vec![format!("not the card of a release: {error}")],
+    };
+    let mut problems = Vec::new();
+    if value.get("canary").and_then(Value::as_str) != Some(&manifest.canary) {
+        problems.push("its canary is not the release's".to_owned());
+    }
+    let is_new = |card: &&&Card| matches!(card.origin, Origin::Generated { .. });
+    let levels = cards.iter().map(|card| card.levels.len()).sum::<usize>();
+    let counts =
+        [("games", cards.len()), ("levels", levels), ("new_games", cards.iter().filter(is_new).count())];
+    for (key, found) in counts {
+        let stated = &value[key];
+        if stated.as_u64() != Some(found as u64) {
+            problems.push(format!("its `{key}` is {stated}, and the release has {found}"));
+        }
+    }
+    if manifest.generation != GENERATION || !problems.is_empty() {
+        return problems;
+    }
+    match serde_json::from_value::<ReleaseCard>(value) {
+        Ok(card) => problems.extend(of_known_card(&card, cards)),
+        Err(error) => problems.push(format!("not the card of a release: {error}")),
+    }
+    problems
+}
+
+/// Compares a release's card with the cards of its games.
+fn of_known_card(card: &ReleaseCard, cards: &[&Card]) -> Vec<String> {
+    let mut problems = Vec::new();
+    let mut expect = |key: &str, holds: bool| {
+        if !holds {
+            problems.push(format!("its `{key}` is not what the cards of its games say"));
+        }
+    };
+    let levels = || cards.iter().flat_map(|card| &card.levels);
+    let ladders = levels().filter_map(|level| level.ladder.as_ref());
+    expect(
+        "difficulty",
+        card.difficulty == counted(ladders.map(|found| found.difficulty.to_string().replace(' ', "_"))),
+    );
+    expect("generators", card.generators == counted(cards.iter().map(|card| generator(card))));
+    let patterns = cards.iter().flat_map(|card| card.origin.mechanics()).map(str::to_owned);
+    expect("patterns", card.patterns == counted(patterns));
+    let games = cards.len() as u64;
+    expect("goals", card.goals.values().sum::<u64>() == games);
+    expect("avatars", card.avatars.values().sum::<u64>() == games);
+    let ticks: Vec<f64> = levels().map(|level| level.witness_ticks as f64).collect();
+    expect("witness_ticks", card.witness_ticks == Quantiles::of(&ticks));
+    let is_share = |share: f64| (0.0..=1.0).contains(&share);
+    let sensible = |rung: &crate::mint::Rung| {
+        let rate = &rung.rate;
+        rate.wins <= rate.plays && is_share(rate.mean) && rate.interval.into_iter().all(is_share)
+    };
+    expect("ladder", card.ladder.iter().all(sensible));
+    problems
+}

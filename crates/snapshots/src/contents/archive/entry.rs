@@ -1,0 +1,121 @@
+//! The inside of an archive: the only header that a file of a release may have, and the diagnosis of any other.
+
+use crate::format::manifest::{Item, MANIFEST_FILE, Manifest};
+use crate::format::path::check_path;
+use crate::format::problem::{Flaw, Problem};
+use tar::{EntryType, Header};
+
+/// The bytes of a block. A header takes one block; contents are padded to whole blocks.
+pub(super) const BLOCK: usize = 512;
+/// The zero bytes at the end.
+pub(super) const END: usize = 2 * BLOCK;
+
+/// The header of `item` in the release called `name`; `None` if its path is too long for a header.
+pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
+    let mut header = Header::new_ustar();
+    header.set_path(format!("{name}/{}", item.path)).ok()?;
+    header.set_size(item.size);
+    header.set_mode(0o644);
+    header.set_uid(0);
+    header.set_gid(0);
+    header.set_mtime(0);
+    header.set_entry_type(EntryType::Regular);
+    header.set_cksum();
+    Some(*header.as_bytes())
+}
+
+/// The number of zero bytes that follow a content of `size` bytes.
+pub(super) fn padding(size: u64) -> usize {
+    let rest = (size % BLOCK as u64) as usize;
+    if rest == 0 { 0 } else { BLOCK - rest }
+}
+
+/// The uncompressed bytes of an archive of these files.
+pub(super) fn total<'a>(items: impl Iterator<Item = &'a Item>) -> u64 {
+    let sizes = items.map(|item| BLOCK as u64 + item.size + padding(item.size) as u64);
+    sizes.sum::<u64>() + END as u64
+}
+
+/// The path and the size that a header states.
+pub(super) fn path_and_size(block: &[u8; BLOCK]) -> Result<(String, u64), String> {
+    let header = Header::from_byte_slice(block);
+    let size = header.size().map_err(|_| "its tar header is damaged".to_owned())?;
+    Ok((path(header), size))
+}
+
+/// The problem with a header that differs from that of `expected`, or with any header if no further item is expected.
+/// The problem is reported at the entry's own path if that is usable.
+pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Option<&Item>) -> Problem {
+    let header = Header::from_byte_slice(block);
+    let full = path(header);
+    let inner = full.strip_prefix(&manifest.name).and_then(|rest| rest.strip_prefix('/'));
+    let due = expected.map_or(".", |item| item.path.as_str());
+    let found = inner.unwrap_or(&full);
+    let here = |flaw| Problem { path: found.to_owned(), flaw };
+    let there = |flaw| Problem { path: due.to_owned(), flaw };
+    if !has_valid_checksum(header) {
+        return there(Flaw::NotAsPacked("the tar header here is damaged".into()));
+    }
+    match header.entry_type() {
+        EntryType::Symlink => return here(Flaw::Link),
+        EntryType::Char | EntryType::Block | EntryType::Fifo => return here(Flaw::Special),
+        EntryType::Regular => {}
+        _ => return there(Flaw::NotAsPacked(describe_difference(block))),
+    }
+    if let Err(problem) = check_path(found) {
+        return here(Flaw::Name(problem));
+    }
+    if inner.is_none() {
+        return here(Flaw::NotAsPacked(format!("it is not in the folder `{}`", manifest.name)));
+    }
+    if Some(found) == expected.map(|item| item.path.as_str()) {
+        return match (header.size(), expected) {
+            (Ok(size), Some(item)) if size != item.size => {
+                here(Flaw::Size { found: size, stated: item.size })
+            }
+            _ => here(Flaw::NotAsPacked(describe_difference(block))),
+        };
+    }
+    let listed = found == MANIFEST_FILE || manifest.files().any(|item| item.path == found);
+    let passed = expected.is_none_or(|item| found == MANIFEST_FILE || found < item.path.as_str());
+    match (listed, passed) {
+        (false, _) => here(Flaw::Extra),
+        (true, true) => here(Flaw::NotAsPacked("it is in the archive a second time".into())),
+        (true, false) => here(Flaw::NotAsPacked(format!("it is out of order: `{due}` is due here"))),
+    }
+}
+
+/// Describes the respect in which a header is not one of ours.
+pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
+    let header = Header::from_byte_slice(block);
+    let kind = header.entry_type();
+    let what = match kind {
+        EntryType::Regular => "its tar header has another owner, mode, time or form",
+        EntryType::Link => "a hard link",
+        EntryType::Symlink => "a symbolic link",
+        EntryType::Directory => "a folder, which an archive does not list",
+        EntryType::Char | EntryType::Block | EntryType::Fifo => "a device or pipe",
+        EntryType::GNUSparse => "a sparse file",
+        EntryType::GNULongName | EntryType::GNULongLink => "a GNU extension for long names",
+        EntryType::XHeader | EntryType::XGlobalHeader => "a pax extension header",
+        EntryType::Continuous => "a contiguous file",
+        other => return format!("a tar entry of the unknown kind {:#04x}", other.as_byte()),
+    };
+    let link = header.link_name_bytes().map(|target| String::from_utf8_lossy(&target).into_owned());
+    match link {
+        Some(target) => format!("{what} to `{}`", target.escape_debug()),
+        None => what.to_owned(),
+    }
+}
+
+/// The path that a header states, with invalid UTF-8 replaced.
+fn path(header: &Header) -> String {
+    String::from_utf8_lossy(&header.path_bytes()).into_owned()
+}
+
+/// Tests whether a header's own checksum is correct.
+fn has_valid_checksum(header: &Header) -> bool {
+    let mut copy = header.clone();
+    copy.set_cksum();
+    header.cksum().ok().is_some_and(|stated| copy.cksum().ok() == Some(stated))
+}

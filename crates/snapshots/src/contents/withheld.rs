@@ -1,0 +1,160 @@
+//! The lists of the files that a sealed release withholds, and the commitments to them.
+//!
+//! A sealed release publishes neither the paths nor the sizes nor the plain digests of what it withholds: a withheld text
+//! that can be guessed could be checked against its digest. Its manifest has two digests instead, each of a list that is
+//! withheld, too. A list begins with a salt that only the secret gives, so nobody can guess the list, and it has path, size
+//! and digest of every file of its part, so it binds all of them. The digests of the lists are leaves of the tree.
+
+use crate::error::SnapshotError;
+use crate::format::manifest::{Item, MANIFEST_LIMIT, Manifest};
+use crate::format::problem::Flaw;
+use crate::recipe::sealed::{HELD, Secret};
+use crate::sections::memory::is_solution;
+use base::Digest;
+use report::canonical::{is_canonical_json, to_canonical_json};
+use serde::{Deserialize, Serialize};
+
+/// The maximum size of a list, in bytes.
+pub(crate) const LIST_LIMIT: u64 = MANIFEST_LIMIT;
+
+/// The commitments of a sealed release to what it withholds, and what was disclosed of it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Withheld {
+    /// The digest of the list of the wins that can be revealed before the rest.
+    pub solutions: Digest,
+    /// The digest of the list of everything else.
+    pub rest: Digest,
+    /// The lists that are at hand and the files that they name, sorted by the bytes of the path. Not part of the manifest's
+    /// text.
+    #[serde(skip)]
+    pub(crate) disclosed: Vec<Item>,
+}
+
+/// A part of what is withheld, revealed as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum HeldPart {
+    /// The wins that coins published.
+    Solutions,
+    /// Everything else.
+    Rest,
+}
+
+impl HeldPart {
+    /// Both parts, sorted by the paths of their lists.
+    pub(crate) const ALL: [HeldPart; 2] = [HeldPart::Rest, HeldPart::Solutions];
+
+    /// The path of its list.
+    pub(crate) fn list(self) -> &'static str {
+        match self {
+            HeldPart::Solutions => "held/SOLUTIONS.json",
+            HeldPart::Rest => "held/REST.json",
+        }
+    }
+
+    /// The part whose list is at a path.
+    pub(crate) fn of_list(path: &str) -> Option<HeldPart> {
+        HeldPart::ALL.into_iter().find(|part| part.list() == path)
+    }
+
+    /// Tests whether it has a withheld file.
+    pub(crate) fn has(self, path: &str) -> bool {
+        path.starts_with(HELD)
+            && HeldPart::of_list(path).is_none()
+            && is_solution(path) == (self == HeldPart::Solutions)
+    }
+}
+
+impl Withheld {
+    /// The digest of the list of a part.
+    pub(crate) fn digest(&self, part: HeldPart) -> Digest {
+        match part {
+            HeldPart::Solutions => self.solutions,
+            HeldPart::Rest => self.rest,
+        }
+    }
+
+    /// Tests whether the list of a part is at hand.
+    pub(crate) fn knows(&self, part: HeldPart) -> bool {
+        self.disclosed.iter().any(|item| item.path == part.list())
+    }
+}
+
+/// The list of the files of a part.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HeldList {
+    /// A value that only the secret gives.
+    salt: Digest,
+    /// The files, sorted by the bytes of the path.
+    items: Vec<Item>,
+}
+
+/// Moves the items below [`HELD`] from a manifest to two lists, commits to these, and returns their paths and contents.
+/// The manifest's root has to be sealed again.
+///
+/// # Errors
+/// A list is larger than a manifest may be.
+pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String, Vec<u8>)>, SnapshotError> {
+    let items = std::mem::take(&mut manifest.items);
+    let (mut held, public): (Vec<Item>, Vec<Item>) =
+        items.into_iter().partition(|item| item.path.starts_with(HELD));
+    held.retain(|item| HeldPart::of_list(&item.path).is_none());
+    held.sort_by(|a, b| a.path.cmp(&b.path));
+    manifest.items = public;
+    let mut lists = Vec::new();
+    for part in HeldPart::ALL {
+        let items = held.iter().filter(|item| part.has(&item.path)).cloned().collect();
+        let bytes = to_canonical_json(&HeldList { salt: secret.salt(part), items })?.into_bytes();
+        if bytes.len() as u64 > LIST_LIMIT {
+            return Err(SnapshotError::TooLarge { path: part.list().into(), limit: LIST_LIMIT });
+        }
+        lists.push((part.list().to_owned(), bytes));
+    }
+    let [rest, solutions] = [0, 1].map(|at: usize| Digest::of(&lists[at].1));
+    held.extend(lists.iter().map(|(path, bytes)| Item::of(path.clone(), bytes)));
+    held.sort_by(|a, b| a.path.cmp(&b.path));
+    manifest.withheld = Some(Withheld { solutions, rest, disclosed: held });
+    manifest.format = crate::format::manifest::SEALED_FORMAT;
+    Ok(lists)
+}
+
+/// Adds the files that the list of a part names to what a manifest knows of its withheld files.
+///
+/// # Errors
+/// The list is not the one that was committed to, or names what no list may name.
+pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) -> Result<(), Flaw> {
+    let withheld = manifest.withheld.as_mut().expect("asked of releases that hide what they withhold");
+    let (found, stated) = (Digest::of(bytes), withheld.digest(part));
+    if found != stated {
+        return Err(Flaw::Altered { found, stated });
+    }
+    let list: HeldList = serde_json::from_slice(bytes).map_err(|error| Flaw::NotAList(error.to_string()))?;
+    if !is_canonical_json(&list, bytes).unwrap_or(false) {
+        return Err(Flaw::NotCanonical);
+    }
+    if let Some(item) = list.items.iter().find(|item| !part.has(&item.path)) {
+        return Err(Flaw::NotAList(format!("`{}` is no file of its part", item.path.escape_debug())));
+    }
+    if let Some(pair) = list.items.windows(2).find(|pair| pair[0].path >= pair[1].path) {
+        let path = pair[1].path.escape_debug();
+        return Err(Flaw::NotAList(format!("`{path}` is listed twice or out of order")));
+    }
+    let before = withheld.disclosed.clone();
+    withheld.disclosed.push(Item::of(part.list(), bytes));
+    withheld.disclosed.extend(list.items);
+    withheld.disclosed.sort_by(|a, b| a.path.cmp(&b.path));
+    // Judged with all other files, since two of them may not be in each other's way.
+    if let Err(error) = manifest.check_files() {
+        manifest.withheld.as_mut().expect("as above").disclosed = before;
+        return Err(Flaw::NotAList(error.to_string()));
+    }
+    Ok(())
+}
+
+/// The fault of the list of a part, given the secret, in words.
+pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
+    let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
+    (list.salt != secret.salt(part))
+        .then(|| format!("{}: its salt does not follow from the release's secret", part.list()))
+}

@@ -1,0 +1,495 @@
+//! `MANIFEST.json`: the description of a release, the list of its files, and the root that commits to both.
+//!
+//! # What the root covers
+//! The root is that of the [`merkle`] tree over
+//!
+//! - one leaf per item: every file of the release but `MANIFEST.json` itself, at its path;
+//! - from format 3 on, instead of leaves for withheld files, one for each list of them;
+//! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]; no file of that name may exist), whose digest is
+//!   the BLAKE3 of the [canonical JSON](crate::canonical) of the *header*: an object of the manifest's fields
+//!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format 2
+//!   on, `version`, with `null` where there is no parent or no commitment.
+//!
+//! The root does not cover `items` (the tree is built from them), their sizes (a digest fixes the size), `root` itself
+//! and `lockfile`, which is provenance only: two builds with the same semantics mint the same release. `checksum`
+//! protects sizes and lock file against accidents, not against attackers, and must not be relied on.
+
+mod bounded;
+mod check;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::contents::withheld::{HeldPart, Withheld};
+use crate::error::SnapshotError;
+use crate::format::merkle::{self, Leaf};
+use crate::format::version::MintedBy;
+use crate::recipe::sealed::HELD;
+use base::Digest;
+use report::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
+use std::collections::BTreeSet;
+
+/// The snapshot format of open releases.
+pub const FORMAT: u32 = 2;
+/// The snapshot format of sealed releases, and the newest that this crate reads: it [hides](crate::withhold) what is
+/// withheld. Sealed releases of earlier formats listed it.
+pub const SEALED_FORMAT: u32 = 3;
+/// The oldest snapshot format that this crate reads: its manifests name no version.
+pub(crate) const OLDEST_FORMAT: u32 = 1;
+/// The file that holds the manifest, at the top of the release.
+pub const MANIFEST_FILE: &str = "MANIFEST.json";
+/// The path of the leaf that puts the manifest's header under the root.
+pub const HEADER_LEAF: &str = "MANIFEST";
+/// The largest manifest, in bytes: 64 MiB.
+pub const MANIFEST_LIMIT: u64 = 64 << 20;
+
+/// The description and the content of a release. The module's documentation lists the fields that the root covers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// The version of the folder's layout: [`FORMAT`] or [`SEALED_FORMAT`].
+    pub format: u32,
+    /// The name of the release, such as `2026-12`: one path component.
+    pub name: String,
+    /// The kind of release: its seed is public from the start, or revealed later.
+    pub kind: ReleaseKind,
+    /// The engine's `SEMANTICS` when the release was minted: witnesses replay under the same semantics.
+    pub semantics: u32,
+    /// The generators' `GENERATION` when the release was minted: the same generation gives the same bytes from the
+    /// recipe.
+    pub generation: u32,
+    /// The [version](crate::format::version) that minted the release, such as `0.12.0`: the first version of its generation,
+    /// even if a later one was used. `None` in format 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub version: Option<String>,
+    /// The root of the previous release; `None` for the first.
+    pub parent: Option<Digest>,
+    /// The GUID in every file that can carry one: see [`canary`](crate::canary()).
+    pub canary: String,
+    /// BLAKE3(seed ‖ nonce) of a sealed release; `None` for an open one.
+    pub commitment: Option<Digest>,
+    /// The digest of the `Cargo.lock` of the minting binary. Provenance only: not under the root.
+    pub lockfile: Digest,
+    /// The recipe in full.
+    #[serde(deserialize_with = "bounded::bounded")]
+    pub recipe: Value,
+    /// Every file except `MANIFEST.json`, sorted by the bytes of the path; from format 3 on, without withheld ones.
+    pub items: Vec<Item>,
+    /// The commitments to withheld files; `None` if there are none, and in earlier formats.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub withheld: Option<Withheld>,
+    /// The root of the tree over the items and the header.
+    pub root: Digest,
+    /// BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, to detect a
+    /// change of any byte of the manifest.
+    pub checksum: Digest,
+}
+
+/// The kind of a release, by the publication of its seed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ReleaseKind {
+    /// The seed is in the recipe.
+    Open,
+    /// The recipe holds a commitment to the seed, which is revealed later.
+    Sealed,
+}
+
+/// A file of a release.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    /// The relative path, as [`check_path`](crate::check_path) allows.
+    pub path: String,
+    /// The size in bytes.
+    pub size: u64,
+    /// The digest of the content.
+    pub digest: Digest,
+}
+
+impl Item {
+    /// The item of a file with this content. Cost: one pass over it.
+    pub fn of(path: impl Into<String>, content: &[u8]) -> Item {
+        Item { path: path.into(), size: content.len() as u64, digest: Digest::of(content) }
+    }
+}
+
+/// The part of the manifest that its own leaf covers. Adding a field here changes every root.
+#[derive(Serialize)]
+struct Header<'a> {
+    format: u32,
+    name: &'a str,
+    kind: ReleaseKind,
+    semantics: u32,
+    generation: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    version: Option<&'a str>,
+    parent: Option<Digest>,
+    canary: &'a str,
+    commitment: Option<Digest>,
+    recipe: &'a Value,
+}
+
+impl Manifest {
+    /// The version that minted it.
+    pub fn minted_by(&self) -> MintedBy {
+        MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
+    }
+
+    /// The files of a sealed release that are withheld until the reveal, as far as they are known, without lists.
+    pub(crate) fn held(&self) -> BTreeSet<&str> {
+        let held = self.files().map(|item| item.path.as_str());
+        held.filter(|path| path.starts_with(HELD) && HeldPart::of_list(path).is_none()).collect()
+    }
+
+    /// The items, and what is known of withheld files.
+    pub fn files(&self) -> impl Iterator<Item = &Item> {
+        self.items.iter().chain(self.disclosed())
+    }
+
+    /// The withheld files that are known: lists, and what they name. Empty before format 3.
+    pub(crate) fn disclosed(&self) -> &[Item] {
+        self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
+    }
+
+    /// The withheld files that are known, without their lists.
+    pub(crate) fn withheld_files(&self) -> impl Iterator<Item = &Item> {
+        self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_none())
+    }
+
+    /// The files as archives have them: the items, then the lists of withheld files, then these files.
+    pub(crate) fn in_archive_order(&self) -> impl Iterator<Item = &Item> {
+        let lists = self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_some());
+        self.items.iter().chain(lists).chain(self.withheld_files())
+    }
+
+    /// The item or the known withheld file at a path.
+    pub fn item(&self, path: &str) -> Option<&Item> {
+        [&self.items[..], self.disclosed()].into_iter().find_map(|items| {
+            let at = items.binary_search_by(|item| item.path.as_str().cmp(path)).ok()?;
+            Some(&items[at])
+        })
+    }
+
+    /// Tests whether the files of a part of what is withheld are hidden: not even their paths are known.
+    pub(crate) fn hides(&self, part: HeldPart) -> bool {
+        self.withheld.as_ref().is_some_and(|withheld| !withheld.knows(part))
+    }
+
+    /// Tests whether something is withheld whose paths are not known either.
+    pub fn is_hiding(&self) -> bool {
+        HeldPart::ALL.into_iter().any(|part| self.hides(part))
+    }
+
+    /// Checks the items together with the withheld files that are known.
+    pub(crate) fn check_files(&self) -> Result<(), SnapshotError> {
+        check::check_files(self)
+    }
+
+    /// The leaves of the tree, sorted by the bytes of their paths: the items and the header, for [`merkle::root`] and
+    /// [`merkle::prove`].
+    ///
+    /// # Errors
+    /// The recipe has no canonical JSON.
+    pub fn leaves(&self) -> Result<Vec<Leaf>, SnapshotError> {
+        let header = canonical_digest(&Header {
+            format: self.format,
+            name: &self.name,
+            kind: self.kind,
+            semantics: self.semantics,
+            generation: self.generation,
+            version: self.version.as_deref(),
+            parent: self.parent,
+            canary: &self.canary,
+            commitment: self.commitment,
+            recipe: &self.recipe,
+        })?;
+        let items = self.items.iter().map(|item| Leaf { path: item.path.clone(), digest: item.digest });
+        let mut leaves: Vec<Leaf> = items.collect();
+        let lists = HeldPart::ALL.into_iter().zip(self.withheld.iter().cycle());
+        leaves.extend(
+            lists.map(|(part, withheld)| Leaf { path: part.list().into(), digest: withheld.digest(part) }),
+        );
+        leaves.push(Leaf { path: HEADER_LEAF.into(), digest: header });
+        leaves.sort_by(|a, b| a.path.cmp(&b.path));
+        Ok(leaves)
+    }
+
+    /// Sorts the items, and computes the root and the checksum. Call it last: a later change of any field invalidates
+    /// one of the two.
+    ///
+    /// # Errors
+    /// Two items have the same path, one has the path [`HEADER_LEAF`], or the recipe has no canonical JSON.
+    pub fn seal_root(&mut self) -> Result<(), SnapshotError> {
+        self.items.sort_by(|a, b| a.path.cmp(&b.path));
+        self.root = self.computed_root()?;
+        self.checksum = self.computed_checksum();
+        Ok(())
+    }
+
+    /// The checksum computed from root, lock file and sizes, which may differ from the stated one.
+    pub(crate) fn computed_checksum(&self) -> Digest {
+        let mut text = format!("{}\n{}\n", self.root, self.lockfile);
+        for item in &self.items {
+            text += &format!("{}\n", item.size);
+        }
+        Digest::of(text.as_bytes())
+    }
+
+    /// The root computed from the header and the items, which may differ from the stated one.
+    ///
+    /// # Errors
+    /// See [`Manifest::seal_root`].
+    pub fn computed_root(&self) -> Result<Digest, SnapshotError> {
+        Ok(merkle::root(&self.leaves()?)?)
+    }
+
+    /// Reads a manifest and checks everything that can be checked without the files, except its root:
+    /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems of the files.
+    ///
+    /// # Errors
+    /// The manifest is too large, of another format, or not JSON of this shape; its items are unsorted, duplicate,
+    /// reserved, too large, too many, equal but for case, or have unsafe paths; its name or canary is malformed; a
+    /// commitment is missing or unexpected; or its recipe nests too deeply or holds too many values.
+    pub fn parse(bytes: &[u8]) -> Result<Manifest, SnapshotError> {
+        if bytes.len() as u64 > MANIFEST_LIMIT {
+            return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
+        }
+        let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
+        // The version first: additions of a newer format must not be judged by this one.
+        let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
+        if version.format > u64::from(SEALED_FORMAT) && !commits_to_known_format(bytes) {
+            return Err(SnapshotError::Format { found: version.format, known: SEALED_FORMAT });
+        }
+        let manifest: Manifest = serde_json::from_slice(bytes).map_err(syntax)?;
+        check::check(&manifest)?;
+        Ok(manifest)
+    }
+
+    /// The bytes of `MANIFEST.json`: canonical JSON, which [`Manifest::parse`] reads back as the same manifest.
+    ///
+    /// # Errors
+    /// Anything that `parse` would refuse, or a root that differs from the computed one.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
+        check::check(self)?;
+        bounded::bounded(&self.recipe).map_err(|error| check::unsound(error.to_string()))?;
+        if self.root != self.computed_root()? {
+            return Err(check::unsound("its root is not that of its items: seal the root last".into()));
+        }
+        if self.checksum != self.computed_checksum() {
+            return Err(check::unsound(
+                "its checksum is not that of its lock file and sizes: seal the root last".into(),
+            ));
+        }
+        let bytes = self.text()?.into_bytes();
+        if bytes.len() as u64 > MANIFEST_LIMIT {
+            return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
+        }
+        Ok(bytes)
+    }
+
+    /// Tests whether these bytes are the text of this manifest in this format, without building another text.
+    ///
+    /// # Errors
+    /// The recipe has no canonical JSON.
+    pub(crate) fn is_text(&self, bytes: &[u8]) -> Result<bool, SnapshotError> {
+        Ok(is_canonical_json(self, bytes)?)
+    }
+
+    /// The text of this manifest in this format, sound or not.
+    pub(crate) fn text(&self) -> Result<String, SnapshotError> {
+        Ok(to_canonical_json(self)?)
+    }
+}
+
+/// Tests whether a manifest is of the format of its shape whatever version it states. The root covers the version, so no
+/// release of another format has the root that this one gives.
+fn commits_to_known_format(bytes: &[u8]) -> bool {
+    let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
+    manifest.format = check::shape(&manifest);
+    manifest.computed_root().is_ok_and(|root| root == manifest.root)
+}
+
+/// The fields that every format has.
+#[derive(Deserialize)]
+struct Version {
+    format: u64,
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    /// A sealed manifest of the given files.
+    pub(crate) fn example(files: &[(&str, &[u8])]) -> Manifest {
+        let mut manifest = Manifest {
+            format: FORMAT,
+            name: "2026-12".into(),
+            kind: ReleaseKind::Sealed,
+            semantics: 3,
+            generation: 4,
+            version: Some("0.4.0".into()),
+            parent: Some(Digest::of(b"the release before")),
+            canary: crate::canary(&Digest::of(b"commitment")),
+            commitment: Some(Digest::of(b"commitment")),
+            lockfile: Digest::of(b"lock"),
+            recipe: json!({ "name": "2026-12", "games": [{ "count": 2, "rate": 0.1 }], "sizes": [9, 13] }),
+            items: files.iter().map(|(path, content)| Item::of(*path, content)).collect(),
+            withheld: None,
+            root: Digest::of(b"not yet"),
+            checksum: Digest::of(b"not yet"),
+        };
+        manifest.seal_root().expect("distinct paths");
+        manifest
+    }
+
+    fn two_files() -> Manifest {
+        example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
+    }
+
+    /// Computed by an independent implementation: these texts and roots define the formats.
+    #[test]
+    fn golden() {
+        #[track_caller]
+        fn check(manifest: &Manifest, expect: &str, root: &str) {
+            let bytes = manifest.to_bytes().expect("sound");
+            assert_eq!(String::from_utf8(bytes).expect("JSON is UTF-8"), expect);
+            assert_eq!(manifest.root.to_string(), root);
+            assert_eq!(&Manifest::parse(expect.as_bytes()).expect("golden"), manifest);
+        }
+        let manifest = two_files();
+        check(
+            &manifest,
+            include_str!("format-2.json"),
+            "18004ddc5792ffe7321ac8267a161b1e4b232638edf40883b17be88c300a7705",
+        );
+        let mut old = Manifest { format: 1, version: None, ..manifest };
+        old.seal_root().expect("distinct paths");
+        check(
+            &old,
+            include_str!("format-1.json"),
+            "6871261f83a66c26cd308695d0019b0d88fce29a5d0d5c1ba27ff490c54e5175",
+        );
+    }
+
+    #[test]
+    fn parse_reads_what_to_bytes_writes() {
+        for manifest in [two_files(), example(&[])] {
+            let bytes = manifest.to_bytes().expect("sound");
+            assert_eq!(Manifest::parse(&bytes).expect("what was written"), manifest);
+        }
+    }
+
+    #[test]
+    fn every_header_field_and_item_is_under_the_root() {
+        let sealed = two_files();
+        let root_after = |change: &dyn Fn(&mut Manifest)| {
+            let mut manifest = sealed.clone();
+            change(&mut manifest);
+            manifest.computed_root().expect("distinct paths")
+        };
+        let changes: [&dyn Fn(&mut Manifest); 15] = [
+            &|m| m.format = 1,
+            &|m| m.version = Some("0.4.1".into()),
+            &|m| m.version = None,
+            &|m| m.name.push('x'),
+            &|m| m.kind = ReleaseKind::Open,
+            &|m| m.semantics += 1,
+            &|m| m.generation += 1,
+            &|m| m.parent = None,
+            &|m| m.canary.push('0'),
+            &|m| m.commitment = None,
+            &|m| m.recipe["games"][0]["rate"] = json!(0.2),
+            &|m| m.items[0].digest = Digest::of(b""),
+            &|m| m.items[0].path.push('x'),
+            &|m| drop(m.items.pop()),
+            &|m| m.items.push(Item::of("z", b"")),
+        ];
+        for (n, change) in changes.iter().enumerate() {
+            assert_ne!(root_after(change), sealed.root, "change {n}");
+        }
+        // Provenance and the root itself are not covered, and a size follows from the digest.
+        assert_eq!(root_after(&|m| m.lockfile = Digest::of(b"")), sealed.root);
+        assert_eq!(root_after(&|m| m.root = Digest::of(b"")), sealed.root);
+        assert_eq!(root_after(&|m| m.items[0].size += 1), sealed.root);
+    }
+
+    #[test]
+    fn items_can_be_proved_alone() {
+        let manifest = two_files();
+        let leaves = manifest.leaves().expect("plain recipe");
+        assert_eq!(
+            leaves.iter().map(|l| &*l.path).collect::<Vec<_>>(),
+            ["MANIFEST", "README.md", "games/x/lvl0.txt"]
+        );
+        for leaf in &leaves {
+            let proof = merkle::prove(&leaves, &leaf.path).expect("present");
+            assert!(proof.verify(leaf, &manifest.root));
+        }
+    }
+
+    #[test]
+    fn duplicate_and_reserved_paths_cannot_be_sealed() {
+        for path in ["README.md", HEADER_LEAF] {
+            let mut manifest = two_files();
+            manifest.items.push(Item::of(path, b""));
+            let error = manifest.seal_root().expect_err("listed twice");
+            assert!(error.to_string().contains(&format!("`{path}` is listed twice")), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_stale_root_is_not_written() {
+        let mut manifest = two_files();
+        manifest.semantics += 1;
+        let error = manifest.to_bytes().expect_err("stale root");
+        assert!(error.to_string().contains("seal the root last"), "{error}");
+    }
+
+    #[track_caller]
+    fn refuse(json: &str, expect: &str) {
+        let error = Manifest::parse(json.as_bytes()).expect_err(expect);
+        let source = std::error::Error::source(&error).map(ToString::to_string).unwrap_or_default();
+        let message = format!("{error} ({source})");
+        assert!(message.contains(expect), "{message}");
+    }
+
+    #[test]
+    fn the_format_is_judged_first() {
+        refuse(
+            r#"{ "format": 7, "novelty": [] }"#,
+            "snapshot format 7 is newer than this arcade understands (3): use a newer arcade",
+        );
+        refuse(r#"{ "format": 18446744073709551615 }"#, "snapshot format 18446744073709551615 is newer");
+        refuse("[7]", "snapshot format 7 is newer");
+        let text = two_files().text().expect("plain recipe");
+        refuse(
+            &text.replace("\"format\": 2", "\"format\": 3"),
+            "it says format 3, but has the shape of format 2",
+        );
+        refuse(r#"{ "format": -1 }"#, "invalid value");
+        refuse("{}", "missing field `format`");
+        refuse("", "EOF");
+        refuse(
+            &text.replace("\"format\": 2", "\"format\": 0"),
+            "it says format 0, but has the shape of format 2",
+        );
+    }
+
+    #[test]
+    fn the_shape_is_closed() {
+        let text = two_files().text().expect("plain recipe");
+        refuse(&text.replacen('{', "{\"more\": 1,", 1), "unknown field `more`");
+        refuse(&text.replace("\"size\": 1", "\"size\": 1, \"mode\": 7"), "unknown field `mode`");
+        refuse(&text.replacen('{', "{\"format\": 2,", 1), "duplicate field `format`");
+        refuse(&text.replace("\"sealed\"", "\"Sealed\""), "unknown variant `Sealed`");
+        refuse(&text[..text.len() - 3], "EOF");
+        refuse(&format!("{text}{{"), "trailing characters");
+        let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
+        refuse(&text.replace("0.1", &deep), "the recipe is nested deeper than 16 levels");
+        let oversize = " ".repeat(MANIFEST_LIMIT as usize + 1);
+        refuse(&oversize, "larger than 67108864 bytes");
+    }
+}

@@ -1,0 +1,142 @@
+//! The problems that reading an untrusted release folder can find. They are data, so that all are reported at once.
+
+use crate::format::path::PathProblem;
+use base::Digest;
+
+/// A problem of a release folder. Ordered by the bytes of the path, then by flaw.
+///
+/// `Display` gives the path and the flaw, escaped for printing: `games/x/lvl0.txt: altered (digest 12ab34cd…, the
+/// manifest says 56ef7890…)`.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+#[error("{}: {flaw}", path.escape_debug())]
+pub struct Problem {
+    /// The path, relative to the release folder and `/`-separated; `.` for the folder itself. A name that is not
+    /// Unicode is shown approximately.
+    pub path: String,
+    /// The flaw.
+    pub flaw: Flaw,
+}
+
+/// The flaws that a path of a release folder can have.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+#[non_exhaustive]
+pub enum Flaw {
+    /// The manifest lists the path, but no regular file is there.
+    #[error("missing")]
+    Missing,
+    /// A file that the manifest does not list.
+    #[error("extra (not in the manifest; accompanying files belong in papers/)")]
+    Extra,
+    /// An empty folder, which no manifest can list.
+    #[error("extra (an empty folder)")]
+    EmptyFolder,
+    /// The size is not the stated one, so the content was not read.
+    #[error("wrong size ({found} bytes, the manifest says {stated})")]
+    Size {
+        /// Bytes in the folder.
+        found: u64,
+        /// Bytes that the manifest states.
+        stated: u64,
+    },
+    /// The content is not the stated one.
+    #[error("altered (digest {}, the manifest says {})", short(found), short(stated))]
+    Altered {
+        /// Digest of the file in the folder.
+        found: Digest,
+        /// Digest that the manifest states.
+        stated: Digest,
+    },
+    /// A symbolic link; it was not followed.
+    #[error("a symbolic link instead of a file or folder")]
+    Link,
+    /// A pipe, socket or device; it was not opened.
+    #[error("neither a file nor a folder")]
+    Special,
+    /// A name that no release may contain; a folder with such a name was not entered.
+    #[error("unsafe name ({0})")]
+    Name(PathProblem),
+    /// A file larger than the limit for one file.
+    #[error("too large ({size} bytes of at most {limit})")]
+    TooLarge {
+        /// Bytes in the folder.
+        size: u64,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// More files, or more folders, than the limit. The rest was not examined, and nothing else about the folder's
+    /// content is reported.
+    #[error("more than {limit} files or folders")]
+    TooMany {
+        /// The limit for either of them.
+        limit: u64,
+    },
+    /// The total size of the files exceeds the limit.
+    #[error("too large altogether ({size} bytes of at most {limit})")]
+    TotalTooLarge {
+        /// The bytes of all regular files.
+        size: u64,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
+    /// missing or duplicate field): its meaning is intact, but its bytes are not as minted.
+    #[error("not in canonical form (its text is not as minted)")]
+    NotCanonical,
+    /// The list of a part of what was withheld, which is the one committed to, is not such a list.
+    #[error("not a list of withheld files ({0})")]
+    NotAList(String),
+    /// An entry of an archive, or the archive itself, is not as packed.
+    #[error("not as packed ({0})")]
+    NotAsPacked(String),
+    /// The stated checksum is not that of the stated root, lock file and sizes.
+    #[error("wrong checksum (the root, the lock file's digest or a size is not as minted)")]
+    WrongChecksum,
+    /// The stated root is not the root over the manifest's own header and items.
+    #[error("wrong root (its items give {}, it says {})", short(found), short(stated))]
+    WrongRoot {
+        /// The root computed from them.
+        found: Digest,
+        /// The root that the manifest states.
+        stated: Digest,
+    },
+}
+
+/// A prefix of a digest to recognise it by; [`Problem`] holds all of it.
+fn short(digest: &Digest) -> String {
+    let text = digest.to_string();
+    format!("{}…", &text[..8])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(path: &str, flaw: Flaw, expect: &str) {
+        assert_eq!(Problem { path: path.into(), flaw }.to_string(), expect);
+    }
+
+    #[test]
+    fn display_names_the_path_and_the_flaw() {
+        let (found, stated) = (Digest::of(b""), Digest::of(b"abc"));
+        check(
+            "games/x/lvl0.txt",
+            Flaw::Altered { found, stated },
+            "games/x/lvl0.txt: altered (digest af1349b9…, the manifest says 6437b3ac…)",
+        );
+        check("a", Flaw::Size { found: 3, stated: 2 }, "a: wrong size (3 bytes, the manifest says 2)");
+        check(".", Flaw::TooMany { limit: 9 }, ".: more than 9 files or folders");
+        let bell = Flaw::Name(PathProblem::Character('\u{7}'));
+        let text = Problem { path: "a\u{7}b".into(), flaw: bell }.to_string();
+        assert!(text.starts_with("a\\u{7}b: unsafe name (it has the character '\\u{7}'"), "{text}");
+    }
+
+    #[test]
+    fn order_is_by_path_bytes_first() {
+        let problem = |path: &str, flaw| Problem { path: path.into(), flaw };
+        let mut problems =
+            [problem("b", Flaw::Missing), problem("a/b", Flaw::Extra), problem("a-b", Flaw::Link)];
+        problems.sort();
+        assert_eq!(problems.map(|p| p.path), ["a-b", "a/b", "b"]);
+    }
+}

@@ -1,0 +1,199 @@
+//! The versions of the suite, and the generation that each of them mints.
+//!
+//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row of [`VERSIONS`], a new
+//! version of the workspace and a new section of the changelog: tests compare the four. A fix that changes no minted
+//! byte raises `p` of the workspace and adds no row.
+
+use std::fmt;
+
+/// A version of the suite, with the generation it mints and the semantics it replays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Version {
+    /// The first version that mints these bytes, such as `0.11.0`; its tag is `v0.11.0`.
+    pub number: &'static str,
+    /// Its `GENERATION`, which determines the bytes that a recipe gives.
+    pub generation: u32,
+    /// Its `SEMANTICS`, which determines the hashes that witnesses record.
+    pub semantics: u32,
+    /// The last commit that mints these bytes; `None` for the current version.
+    pub commit: Option<&'static str>,
+}
+
+/// Every version that minted different bytes, the oldest first; the last is the current one.
+pub const VERSIONS: &[Version] = &[
+    superseded("0.1.0", 1, 1, "73214b9b5e56768a2dc20881f6d9dab5ceeba5fe"),
+    superseded("0.2.0", 2, 2, "2bd65cebcea99b65f4bc1dea74290f2a24b95701"),
+    superseded("0.3.0", 3, 2, "50d854e56ffda7e20dfd4a4130c40a28fd086617"),
+    superseded("0.4.0", 4, 2, "2b3979962d041650425cf75d8ae8afb085888e88"),
+    superseded("0.5.0", 5, 2, "b1cec7245f11669477c6bd64fb359a2958b43089"),
+    superseded("0.6.0", 6, 2, "ea25e6ab8ad79552a779a1d59d2b308641539665"),
+    superseded("0.7.0", 7, 2, "92628817746229fbf28d01926b1a1b5b81a28185"),
+    superseded("0.8.0", 8, 2, "2ae8058ac6d6d75716d382e1f761fd4e222fc6e3"),
+    superseded("0.9.0", 9, 2, "3f01cd480cfdeefbf0174fd9c8a8b3ebd9a683a9"),
+    superseded("0.9.1", 9, 3, "afac3a3126ff6a9c3a62e93f9b1be71c1c93a81f"),
+    superseded("0.10.0", 10, 3, "5182d4800aab8e21f4e6e70917feca3a2a298163"),
+    superseded("0.11.0", 11, 3, "2794ad50f9d1f87fa618097a77bb9d6b81cbfe08"),
+    superseded("0.12.0", 12, 3, "9f86038f584b06eb2adce814913672ab049928c5"),
+    superseded("0.13.0", 13, 3, "eb6380330268e994b1fdfb26e2f4c5f76c16dc27"),
+    CURRENT,
+];
+
+/// The current version.
+pub const CURRENT: Version = Version {
+    number: "0.14.0",
+    generation: generators::GENERATION,
+    semantics: engine::SEMANTICS,
+    commit: None,
+};
+
+const fn superseded(number: &'static str, generation: u32, semantics: u32, commit: &'static str) -> Version {
+    Version { number, generation, semantics, commit: Some(commit) }
+}
+
+impl Version {
+    /// The known version that mints this generation under these semantics, if any.
+    pub fn that_mints(generation: u32, semantics: u32) -> Option<&'static Version> {
+        VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
+    }
+
+    /// The commands that install it, to run in a clone of the repository.
+    pub fn install_command(&self) -> String {
+        install_command(&match self.commit {
+            Some(commit) => commit[..12].to_owned(),
+            None => format!("v{}", self.number),
+        })
+    }
+}
+
+/// Writes number, generation and semantics: `0.11.0 (GENERATION 11, SEMANTICS 3)`.
+impl fmt::Display for Version {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (GENERATION {}, SEMANTICS {})", self.number, self.generation, self.semantics)
+    }
+}
+
+/// The commands that install `revision`, to run in a clone of the repository.
+fn install_command(revision: &str) -> String {
+    format!("git fetch --tags && git checkout {revision} && cargo install --locked --path cli")
+}
+
+/// The version that minted a release, for messages: the one that its manifest names, or else the one known here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MintedBy {
+    /// The manifest's `version`, if its format has one.
+    pub version: Option<String>,
+    /// The manifest's `generation`.
+    pub generation: u32,
+    /// The manifest's `semantics`.
+    pub semantics: u32,
+}
+
+impl MintedBy {
+    /// The commands that install it; `None` if neither the manifest nor this binary knows it.
+    pub fn install_command(&self) -> Option<String> {
+        match (Version::that_mints(self.generation, self.semantics), &self.version) {
+            (Some(known), _) => Some(known.install_command()),
+            (None, Some(number)) => Some(install_command(&format!("v{number}"))),
+            (None, None) => None,
+        }
+    }
+}
+
+impl fmt::Display for MintedBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let known = Version::that_mints(self.generation, self.semantics).map(|version| version.number);
+        match known.or(self.version.as_deref()) {
+            Some(number) => write!(f, "arcade {number}")?,
+            None => write!(f, "an unknown arcade")?,
+        }
+        write!(f, " (GENERATION {}, SEMANTICS {})", self.generation, self.semantics)
+    }
+}
+
+/// Tests whether a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and so safe in a suggested
+/// command.
+pub(crate) fn is_version_number(text: &str) -> bool {
+    let is_number = |part: &str| {
+        (1..=9).contains(&part.len())
+            && part.bytes().all(|byte| byte.is_ascii_digit())
+            && (part == "0" || !part.starts_with('0'))
+    };
+    text.split('.').count() == 3 && text.split('.').all(is_number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Raising GENERATION or SEMANTICS needs a row, a version of the workspace and a section of the changelog.
+    #[test]
+    fn each_bump_has_a_version_and_a_section_of_the_changelog() {
+        let changelog = include_str!("../../../../CHANGELOG.md");
+        let sections: Vec<&str> =
+            changelog.lines().filter(|line| line.starts_with("## ") && line.contains("GENERATION")).collect();
+        let expect: Vec<String> = VERSIONS
+            .iter()
+            .rev()
+            .map(|version| {
+                let commit =
+                    version.commit.map_or(String::new(), |commit| format!(", commit `{}`", &commit[..12]));
+                let Version { number, generation, semantics, .. } = version;
+                format!(
+                    "## {number}: GENERATION {generation}, SEMANTICS {semantics} (tag `v{number}`{commit})"
+                )
+            })
+            .collect();
+        assert_eq!(sections, expect, "the sections of CHANGELOG.md are not the rows of VERSIONS");
+        let (crate_version, minor) = (env!("CARGO_PKG_VERSION"), format!("0.{}.", generators::GENERATION));
+        assert!(
+            crate_version.starts_with(&minor),
+            "version {crate_version} of the workspace is not {minor}x"
+        );
+    }
+
+    #[test]
+    fn rows_ascend_and_only_the_last_is_current() {
+        let key = |version: &Version| (version.generation, version.semantics);
+        assert!(VERSIONS.windows(2).all(|pair| key(&pair[0]) < key(&pair[1])));
+        let (last, others) = VERSIONS.split_last().expect("there are versions");
+        assert_eq!(*last, CURRENT);
+        for version in others {
+            let commit = version.commit.expect("superseded");
+            assert!(commit.len() == 40 && commit.bytes().all(|byte| byte.is_ascii_hexdigit()), "{version}");
+        }
+        for version in VERSIONS {
+            assert!(is_version_number(version.number), "{version}");
+            assert!(version.number.starts_with(&format!("0.{}.", version.generation)), "{version}");
+        }
+    }
+
+    #[test]
+    fn the_version_to_install_is_named() {
+        let command = |version: Option<&str>, generation, semantics| {
+            MintedBy { version: version.map(str::to_owned), generation, semantics }.install_command()
+        };
+        let install = "&& cargo install --locked --path cli";
+        assert_eq!(
+            command(None, 10, 3),
+            Some(format!("git fetch --tags && git checkout 5182d4800aab {install}"))
+        );
+        // A later version is known only from its manifest.
+        assert_eq!(
+            command(Some("0.99.0"), 99, 7),
+            Some(format!("git fetch --tags && git checkout v0.99.0 {install}"))
+        );
+        assert_eq!(command(None, 99, 7), None);
+    }
+
+    #[test]
+    fn a_version_number_is_three_numbers() {
+        for sound in ["0.12.0", "1.0.10"] {
+            assert!(is_version_number(sound), "{sound}");
+        }
+        for unsound in
+            ["", "0.12", "0.12.0.1", "0.12.x", "0.012.0", "0.12.0; rm -rf ~", "0..1", "1.0.1234567890"]
+        {
+            assert!(!is_version_number(unsound), "{unsound}");
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! The ancestors of a release: the games and levels that a new release must not repeat.
+
+use crate::contents::Contents;
+use crate::format::manifest::Manifest;
+use crate::recipe::Recipe;
+use crate::recipe::known::Known;
+use crate::{Digest, SnapshotError};
+use base::Seed;
+use engine::{Analysis, Game, syntax};
+use forge::card::{Card, Origin};
+use generators::games::Masked;
+use generators::levels::LevelSimilarity;
+use std::collections::BTreeMap;
+use std::path::Path;
+use validators::novelty::GameForm;
+
+/// The reasons why a release cannot follow another.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AncestryError {
+    /// The recipe names another parent.
+    #[error("the recipe's parent is {asked}, but the root of `{name}` is {found}")]
+    OtherParent {
+        /// The root that the recipe names.
+        asked: Digest,
+        /// The root of the folder.
+        found: Digest,
+        /// The name of the folder.
+        name: String,
+    },
+    /// The parent is damaged.
+    #[error("the parent does not verify: {0}")]
+    Damaged(String),
+    /// The parent's record of its own ancestors is in another version's format.
+    #[error("the parent's list of earlier releases cannot be read ({0}): use the arcade that minted it")]
+    Unreadable(serde_json::Error),
+    /// A release of the same name is among the ancestors.
+    #[error("an earlier release is named `{0}`: choose another name")]
+    SameName(String),
+    /// The folder cannot be read.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// The canonical item (rules and level) of a level of a game. Items are equal if they differ only in names, in the
+/// order of rules or by a symmetry of the board.
+pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
+    Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
+}
+
+/// The games and levels of a release that no later release may repeat.
+#[derive(Debug, Default)]
+pub(crate) struct Holdings {
+    /// The rules of its generated games, without names, in the order of its items.
+    games: Vec<String>,
+    /// The forms of these games, with the folder of each.
+    pub(crate) forms: BTreeMap<Digest, String>,
+    /// Canonical items of its corpus games, with the path of each level.
+    pub(crate) items: BTreeMap<Digest, String>,
+}
+
+impl Holdings {
+    /// Reads the holdings of a sound release. Cost: one pass over its games, and some milliseconds each.
+    ///
+    /// # Errors
+    /// A card, a game or a level is malformed or cannot be read.
+    pub(crate) fn read(contents: &Contents, manifest: &Manifest) -> Result<Holdings, AncestryError> {
+        let damaged =
+            |path: &str| AncestryError::Damaged(format!("{path}: not the content that a release has there"));
+        let read = |path: &str| -> Result<String, AncestryError> {
+            String::from_utf8(contents.read(path)?).map_err(|_| damaged(path))
+        };
+        let mut found = Holdings::default();
+        let cards = manifest.items.iter().map(|item| &item.path).filter(|path| path.ends_with("/card.json"));
+        for path in cards {
+            let card: Card = serde_json::from_str(&read(path)?).map_err(|_| damaged(path))?;
+            let source = format!("games/{}/game.vgdl", card.id);
+            let game = Game::from_source(&read(&source)?).map_err(|_| damaged(&source))?;
+            let form = GameForm::of(&game);
+            if matches!(card.origin, Origin::Generated { .. }) {
+                let bare = Masked::of(game.description(), Seed::from_text(&card.id));
+                found.games.push(syntax::print(bare.description()));
+                found.forms.insert(form.digest(), card.id);
+                continue;
+            }
+            let likeness = LevelSimilarity::of(&Analysis::of(&game));
+            for level in &card.levels {
+                let path = format!("games/{}/{}", card.id, level.file);
+                let level = game.level(&read(&path)?).map_err(|_| damaged(&path))?;
+                found.items.insert(item(&form, &likeness, &level), path);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Returns the `known` field for a release that follows the one with this manifest, where `self` is what that one
+    /// holds.
+    ///
+    /// # Errors
+    /// The `known` field of that manifest is in another version's format.
+    pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
+        // Only this part of the recipe is read, so that recipes with keys of other versions can be followed.
+        let mut known: Known = match manifest.recipe.get("known") {
+            None => Known::default(),
+            Some(known) => serde_json::from_value(known.clone()).map_err(AncestryError::Unreadable)?,
+        };
+        known.releases.push(manifest.name.clone());
+        known.games.extend(self.games.iter().cloned());
+        known.items.extend(self.items.keys());
+        Ok(known)
+    }
+}
+
+/// Makes a recipe follow the release in `parent`, a folder or an archive: the recipe then names its root and lists
+/// what it and all its ancestors hold.
+///
+/// Cost: one pass over the files, and some milliseconds a game.
+///
+/// # Errors
+/// The parent is not the one that the recipe names, or it is not sound.
+pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
+    let (integrity, contents) = Contents::open(parent)?;
+    let manifest = &integrity.manifest;
+    if let Some(problem) = integrity.problems.first() {
+        return Err(AncestryError::Damaged(problem.to_string()));
+    }
+    if let Some(asked) = recipe.parent.filter(|asked| *asked != manifest.root) {
+        return Err(AncestryError::OtherParent { asked, found: manifest.root, name: manifest.name.clone() });
+    }
+    let known = Holdings::read(&contents, manifest)?.known_after(manifest)?;
+    if known.releases.contains(&recipe.name) {
+        return Err(AncestryError::SameName(recipe.name.clone()));
+    }
+    recipe.parent = Some(manifest.root);
+    recipe.known = known;
+    Ok(())
+}

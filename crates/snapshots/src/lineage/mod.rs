@@ -1,0 +1,170 @@
+//! The releases before one, as far as they are at hand: what can be said without all of them.
+//!
+//! [`chain::follow`](crate::lineage::chain::follow) demands every release of a chain and judges all that it is given. Here a release that is not at
+//! hand ends the chain, and what lies beside it is left alone.
+
+pub(crate) mod ancestry;
+pub mod chain;
+
+use crate::contents::integrity::Integrity;
+use crate::contents::{integrity_of, is_file};
+use crate::error::SnapshotError;
+use crate::format::folder;
+use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::lineage::chain::{Link, history_problems, releases_in};
+use base::Digest;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// A release that a later one names as its parent.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Ancestor {
+    /// Its root, as the later one states it.
+    pub root: Digest,
+    /// The release; `None` if it was not found.
+    pub link: Option<Link>,
+    /// The reasons why what was found is not the release with this root; empty if it is, or if none was found.
+    pub problems: Vec<String>,
+}
+
+/// The releases before one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lineage {
+    /// The ancestors, from the parent back; only the last one can be absent or damaged.
+    pub ancestors: Vec<Ancestor>,
+    /// `true` if they reach back to a release that names no parent.
+    pub complete: bool,
+    /// The places that could not be read, with the reasons.
+    pub unread: Vec<String>,
+    /// The problems with the history as a whole: equal names, lists of earlier content that do not follow, content that is repeated.
+    pub problems: Vec<String>,
+}
+
+/// Follows the roots from `start` back among the releases in `folders`, each a release (folder or archive) or a folder of releases.
+/// Checks the integrity of each that is named, and nothing else that lies there. `heard` gets each ancestor when it is checked, and ends
+/// the search by returning `false`. `start` must have been verified.
+///
+/// Cost: the manifests in the folders, two passes over the files of each ancestor, and a pass over each archive if a root is in no folder.
+///
+/// # Errors
+/// A release of the chain cannot be read any more.
+pub fn trace(
+    start: &Link,
+    folders: &[PathBuf],
+    heard: &mut dyn FnMut(&Ancestor) -> bool,
+) -> Result<Lineage, SnapshotError> {
+    let mut candidates = Candidates::of(folders);
+    let mut chain = vec![start.clone()];
+    let (mut ancestors, mut complete) = (Vec::new(), true);
+    let mut next = start.parent;
+    while let Some(root) = next {
+        let ancestor = match chain.iter().any(|link| link.root == root) {
+            true => {
+                let problems = vec!["it follows itself: the chain is a ring".to_owned()];
+                Ancestor { root, link: None, problems }
+            }
+            false => candidates.find(root),
+        };
+        let goes_on = heard(&ancestor);
+        let link = ancestor.link.clone().filter(|_| ancestor.problems.is_empty());
+        ancestors.push(ancestor);
+        let Some(link) = link.filter(|_| goes_on) else {
+            complete = false;
+            break;
+        };
+        next = link.parent;
+        chain.push(link);
+    }
+    let mut names = BTreeSet::new();
+    let again = chain.iter().filter(|link| !names.insert(&link.name));
+    let mut problems: Vec<String> =
+        again.map(|link| format!("two releases of the chain are called `{}`", link.name)).collect();
+    problems.extend(history_problems(&chain)?);
+    Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
+}
+
+/// The releases that are at hand.
+struct Candidates {
+    /// Folders, with the roots that they state.
+    folders: Vec<(Digest, PathBuf)>,
+    archives: Vec<PathBuf>,
+    /// Archives that were read.
+    opened: Vec<(PathBuf, Integrity)>,
+    unread: Vec<String>,
+}
+
+impl Candidates {
+    fn of(folders: &[PathBuf]) -> Candidates {
+        let mut candidates =
+            Candidates { folders: Vec::new(), archives: Vec::new(), opened: Vec::new(), unread: Vec::new() };
+        let mut places = BTreeSet::new();
+        for folder in folders {
+            match releases_in(folder) {
+                Ok(found) => places.extend(found),
+                // Nothing is there to be found.
+                Err(SnapshotError::NoRelease(_)) => {}
+                Err(error) => candidates.put_aside(&error),
+            }
+        }
+        for place in places {
+            if is_file(&place) {
+                candidates.archives.push(place);
+                continue;
+            }
+            let named = |error: SnapshotError| error.in_manifest(&place.join(MANIFEST_FILE));
+            let bytes = folder::read(&place, MANIFEST_FILE, MANIFEST_LIMIT);
+            match bytes.and_then(|bytes| Manifest::parse(&bytes).map_err(named)) {
+                Ok(manifest) => candidates.folders.push((manifest.root, place)),
+                Err(error) => candidates.put_aside(&error),
+            }
+        }
+        candidates
+    }
+
+    fn put_aside(&mut self, error: &SnapshotError) {
+        let reason = std::error::Error::source(error).map_or(String::new(), |source| format!(": {source}"));
+        self.unread.push(format!("{error}{reason}"));
+    }
+
+    /// Returns the release with a root: a sound one if there is one, else the first that states this root, with its problems.
+    fn find(&mut self, root: Digest) -> Ancestor {
+        let mut damaged = None;
+        let places: Vec<PathBuf> = self
+            .folders
+            .iter()
+            .filter(|(stated, _)| *stated == root)
+            .map(|(_, place)| place.clone())
+            .collect();
+        for place in places {
+            match integrity_of(&place) {
+                Ok(integrity) => {
+                    let ancestor = judged(root, &integrity, &place);
+                    if ancestor.problems.is_empty() {
+                        return ancestor;
+                    }
+                    damaged.get_or_insert(ancestor);
+                }
+                Err(error) => self.put_aside(&error),
+            }
+        }
+        for place in std::mem::take(&mut self.archives) {
+            match integrity_of(&place) {
+                Ok(integrity) => self.opened.push((place, integrity)),
+                Err(error) => self.put_aside(&error),
+            }
+        }
+        for (place, integrity) in self.opened.iter().filter(|(_, found)| found.manifest.root == root) {
+            let ancestor = judged(root, integrity, place);
+            if ancestor.problems.is_empty() {
+                return ancestor;
+            }
+            damaged.get_or_insert(ancestor);
+        }
+        damaged.unwrap_or(Ancestor { root, link: None, problems: Vec::new() })
+    }
+}
+
+fn judged(root: Digest, integrity: &Integrity, place: &Path) -> Ancestor {
+    let problems = integrity.problems.iter().map(ToString::to_string).collect();
+    Ancestor { root, link: Some(Link::of(&integrity.manifest, place)), problems }
+}

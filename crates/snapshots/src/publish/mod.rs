@@ -1,0 +1,4 @@
+//! Releases as a whole: the papers beside them, and minting them again.
+
+pub(crate) mod papers;
+pub(crate) mod regenerate;

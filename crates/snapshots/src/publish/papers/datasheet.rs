@@ -1,0 +1,158 @@
+//! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al.,
+//! 2021).
+
+use crate::format::manifest::ReleaseKind;
+use crate::mint::{self, Minted, Rung};
+use crate::recipe::Recipe;
+use crate::recipe::sealed::Reveal;
+use forge::card::Origin;
+use itertools::Itertools;
+use report::Quantiles;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// The kind of a release that is not revealed yet.
+const SEALED: &str = "sealed: seed and winning episodes are held back until it is revealed";
+/// A limit of a release that is not revealed yet.
+const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
+     only by minting it again.\n";
+
+/// The kind of a release of which only the wins that coins published are revealed.
+const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held back until it is revealed";
+
+/// The datasheet after the reveal. Changes by the publisher are kept.
+pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
+    if what == Reveal::Solutions {
+        return datasheet.replace(SEALED, SOLVED);
+    }
+    datasheet
+        .replace(SOLVED, SEALED)
+        .replace(SEALED, "sealed, and revealed: its seed and the winning episodes are public now")
+        .replace(UNCHECKED, "- That games come from the seed that was committed to is shown wholly only by minting it again.\n")
+}
+
+/// The whole datasheet, as Markdown.
+pub(super) fn datasheet(minted: &Minted) -> String {
+    let Minted { manifest, card, cards } = minted;
+    let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
+    let parent = manifest
+        .parent
+        .map_or("none: compared with no earlier release".to_owned(), |root| format!("`{root}`"));
+    let kind = match manifest.kind {
+        ReleaseKind::Open => "open: its seed is public",
+        ReleaseKind::Sealed => SEALED,
+    };
+    let mut text = format!(
+        "# Datasheet of `{}`\n\n{}\n\n| | |\n|---|---|\n| root | `{}` |\n| kind | {kind} |\n| release before | {parent} |\n\
+         | minted by | {} |\n| canary | `{}` |\n\n",
+        manifest.name,
+        description.trim(),
+        manifest.root,
+        manifest.minted_by(),
+        manifest.canary,
+    );
+    text += "## What is in it\n\n\
+        Games in VGDL with their levels. For each level there is an episode that wins it, found by a program and replayed by \
+        `arcade verify`.\n\n";
+    let _ = writeln!(
+        text,
+        "| | |\n|---|---|\n| games | {} |\n| with new rules | {} |\n| with hand-written rules in a new guise | {} |\n| levels | {} |",
+        card.games,
+        card.new_games,
+        card.games - card.new_games,
+        card.levels,
+    );
+    let kinds = mint::counted(cards.iter().map(|card| card.kind.clone()));
+    for (what, counts) in [
+        ("levels by difficulty", &card.difficulty),
+        ("games by kind", &kinds),
+        ("games by goal", &card.goals),
+        ("games by avatar", &card.avatars),
+        ("games by generator", &card.generators),
+    ] {
+        if !counts.is_empty() {
+            let _ = writeln!(text, "| {what} | {} |", counted(counts));
+        }
+    }
+    for (what, figures) in
+        [("rules of a game", &card.rules), ("ticks of a winning episode", &card.witness_ticks)]
+    {
+        if let Some(Quantiles { min, median, max, .. }) = figures {
+            let _ = writeln!(text, "| {what} | {min:.0} to {max:.0}, {median:.0} in the median |");
+        }
+    }
+    text.push('\n');
+    ladder(&mut text, &card.ladder);
+    made(&mut text, minted);
+    text += "## What it is for\n\n\
+        Measuring how well players, language models above all, understand and win games that they have not seen. It is no \
+        training set: a score on a release that a model was trained on says nothing.\n\n\
+        ## Known limits\n\n\
+        - All games are of one family: grid games in VGDL for one player, with a few dozen kinds of rules.\n\
+        - Games and levels were chosen by programs.";
+    if !card.ladder.is_empty() {
+        text += " How hard a level is was measured with planners, not with people, in few plays \
+            each: labels have errors, and are easier to reach for games that planners are good at.";
+    }
+    // The recipe was checked, unless it is one of another version.
+    let recipe: Option<Recipe> = serde_json::from_value(manifest.recipe.clone()).ok();
+    for caveat in recipe.iter().flat_map(Recipe::caveats) {
+        let _ = write!(text, "\n- {caveat}");
+    }
+    text += "\n- Whatever is published may be in the training data of later models. Search for the canary; compare with a release that is \
+        newer than the model.\n";
+    text += match manifest.kind {
+        ReleaseKind::Open => "- The seed and the winning episodes are public from the start.\n",
+        ReleaseKind::Sealed => UNCHECKED,
+    };
+    text += "\n## People\n\n\
+        No person's data is in it, and nobody was asked to play, write or label anything for it.\n\n\
+        ## Licence, citation, errata\n\n\
+        [LICENSE](LICENSE), [CITATION.cff](CITATION.cff), [CHANGELOG.md](CHANGELOG.md). None of the papers is covered by the root.\n";
+    text
+}
+
+/// Formats counts: `jumps 3, walks 12`.
+fn counted(counts: &BTreeMap<String, u64>) -> String {
+    counts.iter().map(|(name, count)| format!("{} {count}", name.replace('_', " "))).join(", ")
+}
+
+fn ladder(text: &mut String, rungs: &[Rung]) {
+    if rungs.is_empty() {
+        *text += "Difficulty was not measured: the recipe does not ask for `skill`.\n\n";
+        return;
+    }
+    *text += "| player | wins | 95 %, games drawn again |\n|---|---|---|\n";
+    for rung in rungs {
+        let _ = writeln!(text, "{}", rung.row());
+    }
+    text.push('\n');
+}
+
+fn made(text: &mut String, minted: &Minted) {
+    let tally = &minted.card.tally;
+    let from = minted.cards.iter().filter_map(|card| match &card.origin {
+        Origin::Corpus { name } => Some(name.as_str()),
+        Origin::Generated { .. } => None,
+    });
+    let corpus: Vec<&str> = from.collect();
+    *text += "## How it was made\n\n";
+    let _ = writeln!(
+        text,
+        "By the generators of Infinite Arcade from the recipe in `MANIFEST.json`, which gives the same bytes on any machine: \
+         `arcade regenerate`. {} games and {} levels were tried, with {:.1} million calls of the game engine.",
+        tally.games_tried,
+        tally.levels_tried,
+        tally.calls as f64 / 1e6,
+    );
+    if !tally.rejections.is_empty() {
+        let _ = writeln!(text, "Rejected: {}.", tally.reasons());
+    }
+    if !tally.judges.is_empty() {
+        let _ = writeln!(text, "\n{}", tally.judges_table(minted.card.games).to_markdown());
+    }
+    if !corpus.is_empty() {
+        let _ = writeln!(text, "Hand-written games that were taken up: {}.", corpus.join(", "));
+    }
+    text.push('\n');
+}

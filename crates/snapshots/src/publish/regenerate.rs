@@ -1,0 +1,273 @@
+//! Minting a release again from the recipe in its manifest, and comparing byte by byte.
+
+use crate::check::refuse_unfinished;
+use crate::check::version::impossible;
+use crate::contents::integrity::check_integrity;
+use crate::format::folder::{self, Limits};
+use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
+use crate::format::version::{CURRENT, MintedBy};
+use crate::mint::corpus::Corpus;
+use crate::mint::{JobStore, MintError, Minted, Plan, Sink, lay_out};
+use crate::publish::papers;
+use crate::recipe::sealed::{SECRET_FILE, Secret, read_revealed};
+use crate::recipe::{Recipe, RecipeError};
+use crate::{Digest, SnapshotError};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use validators::Criteria;
+
+/// The reasons why a release cannot be minted again here.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegenerateError {
+    /// Another version of the generators made it.
+    #[error("this release was minted by {}; this is arcade {CURRENT}: {}", .0, next_move(.0))]
+    OtherVersion(MintedBy),
+    /// No version can have written its manifest.
+    #[error(
+        "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
+    )]
+    Damaged(String),
+    /// Its seed is not public.
+    #[error(
+        "this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed"
+    )]
+    Sealed,
+    /// It is one file, such as an archive.
+    #[error(
+        "this is a file: name the folder of a release; an archive is unpacked first (`tar --zstd -xf FILE`)"
+    )]
+    NotAFolder,
+    /// The recipe in the manifest is malformed.
+    #[error("the manifest's recipe is not a recipe: {0}")]
+    NotARecipe(serde_json::Error),
+    /// The recipe in the manifest has a value out of range.
+    #[error("the manifest's recipe: {0}")]
+    Recipe(#[from] RecipeError),
+    /// The folder cannot be read.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// The command that installs the version to regenerate with.
+fn next_move(minted_by: &MintedBy) -> String {
+    match minted_by.install_command() {
+        Some(command) => {
+            format!("install that version in a clone of the repository (`{command}`) and regenerate with it")
+        }
+        None => "neither the manifest nor this arcade knows a version that mints it".to_owned(),
+    }
+}
+
+/// A release that was minted again, and the differences.
+#[derive(Clone, Debug)]
+pub struct Regenerated {
+    /// The new release.
+    pub minted: Minted,
+    /// The result of comparing it.
+    pub compared: Compared,
+}
+
+/// A comparison of a release with a new one of the same recipe.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// The differences, each naming the file; empty if every byte is the same.
+    pub differences: Vec<String>,
+    /// `false` if the folder holds only a manifest, which is all that was compared.
+    pub has_files: bool,
+    /// `true` if it was minted with another set of dependencies (Cargo.lock), which is not a difference by itself.
+    pub other_lockfile: bool,
+}
+
+/// A release to be minted again. Its jobs run like those of any other release ([`make_jobs`](crate::mint::make_jobs)).
+#[derive(Debug)]
+pub struct Regeneration {
+    root: PathBuf,
+    manifest: Manifest,
+    bytes: Vec<u8>,
+    recipe: Recipe,
+    secret: Option<Secret>,
+}
+
+impl Regeneration {
+    /// Reads the recipe of the release in the folder `root`, and its secret if it was revealed. Opens every file that
+    /// is to be compared, so that an unreadable one is reported before the jobs run.
+    ///
+    /// # Errors
+    /// The folder is no release, it is damaged, or this binary cannot mint it.
+    pub fn of(root: &Path) -> Result<Regeneration, RegenerateError> {
+        if root.is_file() {
+            return Err(match root.file_name().is_some_and(|name| name == MANIFEST_FILE) {
+                true => SnapshotError::NotASnapshot(root.to_path_buf()).into(),
+                false => RegenerateError::NotAFolder,
+            });
+        }
+        refuse_unfinished(root)?;
+        let bytes = folder::find(root, MANIFEST_FILE, MANIFEST_LIMIT)?;
+        let bytes = bytes.ok_or_else(|| SnapshotError::NotASnapshot(root.to_path_buf()))?;
+        let manifest =
+            Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
+        let minted_by = manifest.minted_by();
+        let computed = manifest.computed_root()?;
+        let damage = impossible(&minted_by).or_else(|| {
+            (computed != manifest.root).then(|| "its root is not that of its content".to_owned())
+        });
+        if let Some(what) = damage {
+            return Err(RegenerateError::Damaged(what));
+        }
+        if (minted_by.generation, minted_by.semantics) != (CURRENT.generation, CURRENT.semantics) {
+            return Err(RegenerateError::OtherVersion(minted_by));
+        }
+        let secret = match manifest.kind {
+            ReleaseKind::Open => None,
+            ReleaseKind::Sealed if root.join(SECRET_FILE).exists() => Some(read_revealed(root, SECRET_FILE)?),
+            ReleaseKind::Sealed => return Err(RegenerateError::Sealed),
+        };
+        let recipe: Recipe =
+            serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
+        recipe.check()?;
+        // Fails before minutes of minting if the folder or one of its files cannot be read.
+        Comparison::of(root)?.open_all()?;
+        Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
+    }
+
+    /// The most forward-model calls that its recipe allows for one level: by its searches for a win and the plays of its players.
+    pub fn calls_per_level(&self) -> u64 {
+        let of = |criteria: &Criteria| {
+            let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
+            // Of a ladder, every player plays a round, as patiently as it may, before the calls of all are spent.
+            let names = criteria.ladder.iter().chain(&criteria.held_out);
+            let names = names.filter(|_| criteria.includes("skill"));
+            let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
+            let round = budgets.map(|budget| play(budget).saturating_mul(criteria.patience as u64));
+            let searched = play(criteria.decision).saturating_mul(criteria.mcts_plays.into());
+            [criteria.budget, criteria.ladder_calls, criteria.early_calls, criteria.ablation_calls, searched]
+                .into_iter()
+                .chain(round)
+                .fold(0, u64::saturating_add)
+        };
+        self.recipe.corpus.criteria.as_ref().map_or(0, of).max(of(&self.recipe.criteria))
+    }
+
+    /// The plan of its recipe.
+    ///
+    /// # Errors
+    /// The recipe cannot be minted with this corpus.
+    pub fn plan<'a>(&'a self, corpus: &'a Corpus) -> Result<Plan<'a>, MintError> {
+        Plan::new(&self.recipe, self.secret.as_ref(), corpus)
+    }
+
+    /// Lays the release out from a job store that holds all results, and compares every file. The digest of Cargo.lock
+    /// in the manifest is provenance and may differ. Every file except the manifest is also passed to `also`.
+    ///
+    /// # Errors
+    /// A job's result is missing or unsound, or the file system refuses.
+    pub fn compare(
+        &self,
+        plan: &Plan<'_>,
+        store: &dyn JobStore,
+        lockfile: Digest,
+        also: &mut Sink<'_>,
+    ) -> Result<Regenerated, MintError> {
+        let mut comparison = Comparison::of(&self.root)?;
+        let minted = lay_out(plan, self.secret.as_ref(), store, lockfile, &mut |path, content| {
+            comparison.file(path, content)?;
+            also(path, content)
+        })?;
+        let compared = comparison.finish(&self.manifest, &self.bytes, &minted.manifest)?;
+        Ok(Regenerated { minted, compared })
+    }
+
+    /// Compares the release with the one in the folder `out`, if that is complete and was minted from the same recipe
+    /// by this version, and returns it with its manifest. Mints nothing.
+    ///
+    /// # Errors
+    /// There is a manifest in `out` that cannot be read, or the file system refuses.
+    pub fn compare_complete(&self, out: &Path) -> Result<Option<(Manifest, Compared)>, SnapshotError> {
+        let found = match check_integrity(out) {
+            Ok(found) => found,
+            Err(SnapshotError::NotASnapshot(_) | SnapshotError::NotAFolder(_)) => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let manifest = found.manifest;
+        let version = |manifest: &Manifest| (manifest.generation, manifest.semantics);
+        if !found.problems.is_empty()
+            || manifest.recipe != self.manifest.recipe
+            || version(&manifest) != version(&self.manifest)
+        {
+            return Ok(None);
+        }
+        let mut comparison = Comparison::of(&self.root)?;
+        for item in manifest.files() {
+            comparison.file(&item.path, &folder::read(out, &item.path, item.size)?)?;
+        }
+        let compared = comparison.finish(&self.manifest, &self.bytes, &manifest)?;
+        Ok(Some((manifest, compared)))
+    }
+}
+
+/// A comparison of the files in a folder with the minted ones.
+struct Comparison<'a> {
+    root: &'a Path,
+    /// Files that were not compared with a minted one yet.
+    there: BTreeSet<String>,
+    /// Paths that already have a problem of their own.
+    named: BTreeSet<String>,
+    differences: Vec<String>,
+    /// `false` if the folder holds only a manifest.
+    has_files: bool,
+}
+
+impl Comparison<'_> {
+    fn of(root: &Path) -> Result<Comparison<'_>, SnapshotError> {
+        let (listing, _) = papers::list(root)?;
+        let mut there: BTreeSet<String> = listing.entries.into_iter().map(|entry| entry.path).collect();
+        there.remove(MANIFEST_FILE);
+        Ok(Comparison {
+            root,
+            has_files: !(there.is_empty() && listing.problems.is_empty()),
+            there,
+            differences: listing.problems.iter().map(ToString::to_string).collect(),
+            named: listing.problems.into_iter().map(|problem| problem.path).collect(),
+        })
+    }
+
+    /// Opens every file, to find those that cannot be read.
+    fn open_all(&self) -> Result<(), SnapshotError> {
+        self.there.iter().try_for_each(|path| folder::open(self.root, path).map(drop))
+    }
+
+    fn file(&mut self, path: &str, content: &[u8]) -> Result<(), SnapshotError> {
+        if !self.has_files {
+            return Ok(());
+        }
+        if !self.there.remove(path) {
+            if !self.named.contains(path) {
+                self.differences.push(format!("{path}: missing"));
+            }
+        } else if folder::read(self.root, path, Limits::SNAPSHOT.file_bytes)? != content {
+            self.differences.push(format!("{path}: differs"));
+        }
+        Ok(())
+    }
+
+    fn finish(
+        mut self,
+        manifest: &Manifest,
+        bytes: &[u8],
+        minted: &Manifest,
+    ) -> Result<Compared, SnapshotError> {
+        self.differences.extend(self.there.iter().map(|path| format!("{path}: not part of the release")));
+        let mut expected = Manifest { lockfile: manifest.lockfile, ..minted.clone() };
+        expected.seal_root()?;
+        if expected.to_bytes()? != bytes {
+            self.differences.push(format!("{MANIFEST_FILE}: differs"));
+        }
+        self.differences.sort();
+        Ok(Compared {
+            differences: self.differences,
+            has_files: self.has_files,
+            other_lockfile: manifest.lockfile != minted.lockfile,
+        })
+    }
+}

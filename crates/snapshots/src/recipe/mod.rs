@@ -1,0 +1,708 @@
+//! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
+
+pub(crate) mod beacon;
+pub(crate) mod cited;
+pub(crate) mod known;
+mod placement;
+pub(crate) mod sealed;
+pub(crate) mod tiers;
+
+use crate::recipe::beacon::BeaconPart;
+use crate::recipe::cited::Cited;
+use crate::recipe::known::Known;
+use crate::recipe::placement::placement;
+use crate::recipe::sealed::Secret;
+use crate::recipe::tiers::{PuzzlePart, PuzzleSection, Tiers};
+use crate::sections::marks::MarksPart;
+use crate::sections::memory::MemoryPart;
+use base::{Digest, Seed};
+use forge::games::Board;
+use generators::games::Kind;
+use generators::kernels::kinds;
+use itertools::Itertools;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use validators::game_measures::{AvatarKind, GoalKind};
+use validators::{Criteria, CriteriaError, Difficulty, GATES};
+
+/// The maximum size of a recipe, in bytes.
+pub const MAX_RECIPE: usize = 1 << 16;
+
+/// The parameters that determine the bytes of a release.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Recipe {
+    /// The name of the release: lower-case letters, digits, `-`.
+    pub name: String,
+    /// A description of the release, for its README.
+    pub description: String,
+    /// The people to cite, in their order. The authors of Infinite Arcade if neither they nor a publisher are named.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub authors: Vec<String>,
+    /// The laboratory or the project that publishes the release; it begins the title of the release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub publisher: Option<String>,
+    /// The text that the seed is derived from. It is public, so the release is open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<String>,
+    /// The commitment to a secret, in place of `seed`: the release is sealed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commitment: Option<Digest>,
+    /// The public randomness in the seed of a sealed release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beacon: Option<BeaconPart>,
+    /// The root digest of the previous release.
+    #[serde(default)]
+    pub parent: Option<Digest>,
+    /// New levels for corpus games.
+    #[serde(default)]
+    pub corpus: CorpusPart,
+    /// New games with levels.
+    #[serde(default)]
+    pub generated: GeneratedPart,
+    /// New puzzles of pushed things.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub puzzles: Option<PuzzlePart>,
+    /// New puzzles of locks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub locks: Option<PuzzlePart>,
+    /// New puzzles of yards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yards: Option<PuzzlePart>,
+    /// New puzzles of pushed things among strays.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strays: Option<PuzzlePart>,
+    /// The sizes of the boards.
+    #[serde(default)]
+    pub board: Board,
+    /// The share of all levels that has each difficulty; if empty, any difficulty is accepted.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub difficulty: BTreeMap<Difficulty, f64>,
+    /// The share of all levels that is of each tier; if empty, tiers are not measured.
+    #[serde(default, skip_serializing_if = "Tiers::is_empty")]
+    pub tiers: Tiers,
+    /// The marks: players that never change, whose results on each level are kept in the release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marks: Option<MarksPart>,
+    /// The coins for tests of memory: second renamings of games, second wins of levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory: Option<MemoryPart>,
+    /// The quotas for kinds of games.
+    #[serde(default)]
+    pub taxonomy: Taxonomy,
+    /// The criteria for levels.
+    #[serde(default)]
+    pub criteria: Criteria,
+    /// The content of previous releases, which must not be repeated: filled in from the parent.
+    #[serde(default, skip_serializing_if = "Known::is_empty")]
+    pub known: Known,
+}
+
+base::with_defaults! {
+    /// New levels for corpus games, under a new theme.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct CorpusPart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game, from the easiest to the hardest.
+        pub levels: u32 = 3,
+        /// The maximum number of level sets that are tried for one game.
+        pub game_tries: u32 = 8,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 12,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.5,
+        /// The criteria for their levels, if they differ: there are fewer hand-made games than games that can be
+        /// generated.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub criteria: Option<Criteria> = None,
+    }
+}
+
+base::with_defaults! {
+    /// New games.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct GeneratedPart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game, from the easiest to the hardest.
+        pub levels: u32 = 3,
+        /// The maximum number of games that are tried for one candidate.
+        pub game_tries: u32 = 48,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 12,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.25,
+        /// The shares of the generators in the candidates.
+        pub mix: Mix = Mix::default(),
+        /// The kinds of games; all if empty.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub kinds: Vec<Kind> = Vec::new(),
+        /// The minimum number of interactions of a game.
+        pub least_interactions: usize = 7,
+        /// The minimum number of different interactions that the wins of a game's levels execute together.
+        pub least_mechanics: usize = 3,
+    }
+}
+
+/// The weights of the generators of games.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mix {
+    /// The weight of games that are drawn at random.
+    #[serde(default)]
+    pub constructive: f64,
+    /// The weight of games that are found by search.
+    #[serde(default)]
+    pub search: f64,
+    /// The weight of games that evolve in archives.
+    #[serde(default)]
+    pub evolutionary: f64,
+}
+
+impl Default for Mix {
+    fn default() -> Mix {
+        Mix { constructive: 1.0, search: 0.0, evolutionary: 0.0 }
+    }
+}
+
+/// Quotas for the kinds of games in a release.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Taxonomy {
+    /// The least and the greatest share of games with each goal.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub goals: BTreeMap<GoalKind, (f64, f64)>,
+    /// The least and the greatest share of games with each avatar.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub avatars: BTreeMap<AvatarKind, (f64, f64)>,
+    /// The greatest share of games with the same goal and avatar.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crowd: Option<f64>,
+}
+
+/// The problems that a recipe can have.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecipeError {
+    /// The recipe is not TOML, or not of this shape. The message names line, column and key.
+    #[error("{0}")]
+    Syntax(Box<toml::de::Error>),
+    /// A key that belongs to another table, or to none.
+    #[error("{}\n{help}", .source.to_string().trim_end())]
+    Misplaced {
+        /// The error, with its position.
+        source: Box<toml::de::Error>,
+        /// The place where the key belongs.
+        help: String,
+    },
+    /// A value is out of its range.
+    #[error("`{key}` {message}")]
+    Value {
+        /// The key, dotted.
+        key: &'static str,
+        /// The requirement.
+        message: String,
+    },
+    /// A criterion is out of its range.
+    #[error("`{table}.{}` {}", .problem.key, .problem.message)]
+    Criteria {
+        /// The table of the criterion.
+        table: &'static str,
+        /// The problem with the criterion.
+        problem: CriteriaError,
+    },
+    /// The release is sealed, and its secret was not given.
+    #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
+    Sealed,
+    /// The secret is not the one committed to.
+    #[error(
+        "the secret is not the one that the recipe's `commitment` was made from: give the file that `--commit` wrote with it"
+    )]
+    OtherSecret,
+    /// The secret is right, but the recipe has changed.
+    #[error(
+        "the recipe is not the one that was committed to: more than its `commitment` was changed after `--commit`; \
+         {0}, or commit again with `arcade release RECIPE --commit`"
+    )]
+    OtherRecipe(&'static str),
+    /// The recipe names a beacon, whose value was not given.
+    #[error(
+        "the recipe names round {round} of {source_name}: give its value with --beacon FILE, once it is published"
+    )]
+    NoBeacon {
+        /// The source of the beacon.
+        source_name: String,
+        /// The round.
+        round: u64,
+    },
+    /// A secret was given for an open release.
+    #[error(
+        "the release is open: its recipe has a `seed`, so it takes no --secret; to seal it, put the secret's `commitment` in \
+             the place of `seed`"
+    )]
+    Open,
+    /// The recipe is longer than [`MAX_RECIPE`].
+    #[error("the recipe is larger than {MAX_RECIPE} bytes")]
+    TooLarge,
+}
+
+/// The error of a value that is out of its range.
+pub(crate) fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
+    Err(RecipeError::Value { key, message: message.into() })
+}
+
+impl Recipe {
+    /// Reads and checks a recipe.
+    ///
+    /// # Errors
+    /// The first problem, with its position or key.
+    pub fn from_toml(text: &str) -> Result<Recipe, RecipeError> {
+        let recipe = Recipe::parse(text)?;
+        recipe.check()?;
+        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(recipe.commitment.is_some()))?;
+        Ok(recipe)
+    }
+
+    fn parse(text: &str) -> Result<Recipe, RecipeError> {
+        if text.len() > MAX_RECIPE {
+            return Err(RecipeError::TooLarge);
+        }
+        toml::from_str(text).map_err(|error| {
+            let source = Box::new(error);
+            match placement(&source, text) {
+                Some(help) => RecipeError::Misplaced { source, help },
+                None => RecipeError::Syntax(source),
+            }
+        })
+    }
+
+    /// Reads and checks a recipe that is to be committed to: its `seed` and `commitment` are dropped.
+    ///
+    /// # Errors
+    /// The first problem, with its position or key.
+    pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
+        let recipe = Recipe { seed: None, commitment: None, ..Recipe::parse(text)? };
+        Recipe { commitment: Some(Digest::of(b"to be drawn")), ..recipe.clone() }.check()?;
+        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(true))?;
+        Ok(recipe)
+    }
+
+    /// The digest that a commitment covers: that of the recipe without `seed`, `commitment`, `known`, which follows
+    /// from `parent`, and the value of the beacon, which nobody knows yet.
+    pub fn committed(&self) -> Digest {
+        let recipe = serde_json::to_value(self).expect("a recipe is plain data");
+        sealed::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
+    }
+
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// The first value that is out of its range.
+    pub fn check(&self) -> Result<(), RecipeError> {
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+        if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
+            return wrong("name", "takes 1 to 40 lower-case letters, digits and `-`");
+        }
+        let names =
+            |text: &str| !text.trim().is_empty() && text.len() <= 200 && !text.chars().any(char::is_control);
+        if self.authors.len() > 100 || !self.authors.iter().all(|author| names(author)) {
+            return wrong("authors", "takes at most 100 names of 1 to 200 bytes on one line each");
+        }
+        if self.publisher.as_ref().is_some_and(|publisher| !names(publisher)) {
+            return wrong("publisher", "takes a name of 1 to 200 bytes on one line");
+        }
+        match (&self.seed, self.commitment) {
+            (Some(seed), None) if seed.trim().is_empty() || seed.len() > 200 => {
+                return wrong("seed", "takes a text of 1 to 200 bytes");
+            }
+            (Some(_), Some(_)) => {
+                return wrong("commitment", "and `seed` exclude each other: a seed is public or sealed");
+            }
+            (None, None) => {
+                let help = "is missing: give a text, or a `commitment` from `arcade release RECIPE --commit`";
+                return wrong("seed", help);
+            }
+            _ => {}
+        }
+        if self.games() == 0 {
+            return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
+        }
+        self.tiers.check()?;
+        for (part, section) in [
+            (&self.puzzles, PuzzleSection::PUZZLES),
+            (&self.locks, PuzzleSection::LOCKS),
+            (&self.yards, PuzzleSection::YARDS),
+            (&self.strays, PuzzleSection::STRAYS),
+        ] {
+            part.as_ref().map_or(Ok(()), |part| part.check(&section, &self.tiers))?;
+        }
+        self.marks.as_ref().map_or(Ok(()), MarksPart::check)?;
+        self.memory.as_ref().map_or(Ok(()), |part| part.check(self.commitment))?;
+        let (old, new) = (&self.corpus, &self.generated);
+        for (key, value, least, most) in [
+            ("corpus.games", old.games, 0, 10_000),
+            ("corpus.levels", old.levels, 1, 20),
+            ("corpus.game_tries", old.game_tries, 1, 10_000),
+            ("corpus.level_tries", old.level_tries, 1, 10_000),
+            ("generated.games", new.games, 0, 10_000),
+            ("generated.levels", new.levels, 1, 20),
+            ("generated.game_tries", new.game_tries, 1, 10_000),
+            ("generated.level_tries", new.level_tries, 1, 10_000),
+            (
+                "generated.least_interactions",
+                u32::try_from(new.least_interactions).unwrap_or(u32::MAX),
+                0,
+                100,
+            ),
+            ("generated.least_mechanics", u32::try_from(new.least_mechanics).unwrap_or(u32::MAX), 0, 100),
+        ] {
+            if !(least..=most).contains(&value) {
+                return wrong(key, format!("is {value}; it takes {least} to {most}"));
+            }
+        }
+        for (key, value) in [("corpus.candidates", old.candidates), ("generated.candidates", new.candidates)]
+        {
+            if !(1.0..=20.0).contains(&value) {
+                return wrong(key, format!("is {value}; it takes 1 to 20 for each game"));
+            }
+        }
+        let weights = [new.mix.constructive, new.mix.search, new.mix.evolutionary];
+        if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
+            return wrong("generated.mix", "takes weights, not all of them 0");
+        }
+        if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
+            let known = kinds().map(Kind::name).join(", ");
+            let message =
+                format!("names `{}`, of which no games are generated; there are {known}", kind.name());
+            return wrong("generated.kinds", message);
+        }
+        if new.games > 0 && new.levels < 3 && self.criteria.includes("progression") {
+            return wrong("generated.levels", format!("is {}; `progression` needs at least 3", new.levels));
+        }
+        self.check_selection()?;
+        for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
+            if least < 5 || most < least || most > 100 {
+                return wrong(
+                    key,
+                    format!("is [{least}, {most}]; it takes two numbers from 5 to 100, the smaller first"),
+                );
+            }
+        }
+        let tables = [("criteria", Some(&self.criteria)), ("corpus.criteria", self.corpus.criteria.as_ref())];
+        for (table, criteria) in tables {
+            let Some(criteria) = criteria else { continue };
+            let named = |problem| RecipeError::Criteria { table, problem };
+            criteria.check().map_err(named)?;
+            // The criteria that the cards show.
+            let shown = ["not-idle", "not-random", "winnable"];
+            if let Some(missing) = shown.into_iter().find(|name| !criteria.includes(name)) {
+                let message = format!("lacks `{missing}`, which every card shows");
+                return Err(named(CriteriaError { key: "ask", message }));
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks the values that govern the selection of games.
+    fn check_selection(&self) -> Result<(), RecipeError> {
+        if !self.difficulty.is_empty() {
+            let total: f64 = self.difficulty.values().sum();
+            if self.difficulty.values().any(|share| !(0.0..=1.0).contains(share))
+                || (total - 1.0).abs() > 1e-6
+            {
+                return wrong("difficulty", format!("adds up to {total}; it takes shares that add up to 1"));
+            }
+            let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes("skill"));
+            if !(self.criteria.includes("skill") && of_corpus) {
+                let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
+                return wrong("difficulty", help);
+            }
+        }
+        for (key, quotas) in [
+            ("taxonomy.goals", self.taxonomy.goals.values().collect::<Vec<_>>()),
+            ("taxonomy.avatars", self.taxonomy.avatars.values().collect()),
+        ] {
+            if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
+                return wrong(key, "takes pairs of shares from 0 to 1, the smaller first");
+            }
+            let games = i64::from(self.games());
+            let numbers = || quotas.iter().map(|&&share| self.quota(share));
+            if let Some((&&(low, high), _)) =
+                quotas.iter().zip(numbers()).find(|(_, (least, most))| least > most)
+            {
+                return wrong(
+                    key,
+                    format!("asks for a share from {low} to {high}, which no number of {games} games is"),
+                );
+            }
+            let least: i64 = numbers().map(|(least, _)| least).sum();
+            if least > games {
+                return wrong(key, format!("asks for at least {least} games, but there are {games}"));
+            }
+        }
+        match self.taxonomy.crowd {
+            Some(crowd) if !(crowd > 0.0 && crowd <= 1.0) => {
+                wrong("taxonomy.crowd", format!("is {crowd}; it takes a share above 0, up to 1"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The seed that everything in the release is derived from; `secret` is that of a sealed release.
+    ///
+    /// # Errors
+    /// The release is sealed and the secret is missing, another one, or of a recipe changed since the commitment; or
+    /// it is open and a secret was given.
+    pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
+        let Some(secret) = secret else {
+            return self.seed.as_deref().map(Seed::from_text).ok_or(RecipeError::Sealed);
+        };
+        let Some(commitment) = self.commitment else { return Err(RecipeError::Open) };
+        if secret.commitment() != commitment {
+            Err(RecipeError::OtherSecret)
+        } else if secret.recipe != Some(self.committed()) {
+            Err(RecipeError::OtherRecipe(self.mismatch_advice(secret)))
+        } else {
+            let seed = secret.root_seed();
+            let Some(beacon) = &self.beacon else { return Ok(seed) };
+            let missing =
+                || RecipeError::NoBeacon { source_name: beacon.source.clone(), round: beacon.round };
+            beacon.mix(seed).ok_or_else(missing)
+        }
+    }
+
+    /// Advice for a recipe that `secret` was not drawn for, most likely because of its parent.
+    fn mismatch_advice(&self, secret: &Secret) -> &'static str {
+        let alone = Recipe { parent: None, ..self.clone() };
+        match self.parent {
+            None => "did you forget --parent? Give the one of the commitment, undo other changes",
+            Some(_) if secret.recipe == Some(alone.committed()) => {
+                "only the parent is new: the commitment has none; omit --parent"
+            }
+            Some(_) => "is --parent another release? Give the one of the commitment, undo other changes",
+        }
+    }
+
+    /// The promises that a release of this recipe does not make, in sentences. Empty if it follows another, and asks for gates and for
+    /// `skill`.
+    pub fn caveats(&self) -> Vec<&'static str> {
+        let mut caveats = Vec::new();
+        if self.parent.is_none() && self.new_games() > 0 {
+            caveats.push(
+                "It follows no earlier release (`--parent`), so its games are not compared with those of other releases, which may \
+                 have the same rules, and even the same levels, under other names.",
+            );
+        }
+        if self.generated.games > 0 && !GATES.iter().any(|gate| self.criteria.includes(gate)) {
+            caveats.push(
+                "Its recipe asks for no gates, so its new games are not tested for being worth playing (`arcade docs gates`).",
+            );
+        }
+        if self.tiers.is_empty() && !self.criteria.includes("skill") {
+            caveats.push(
+                "Its recipe does not ask for `skill`, so difficulty is not measured (`arcade docs recipes`).",
+            );
+        }
+        caveats
+    }
+
+    /// The names to cite the release by.
+    pub(crate) fn cited(&self) -> Cited<'_> {
+        Cited::of(&self.name, &self.authors, self.publisher.as_deref())
+    }
+
+    /// The minimum and maximum number of games with each goal.
+    pub fn goal_quotas(&self) -> Vec<(GoalKind, (i64, i64))> {
+        self.taxonomy.goals.iter().map(|(&goal, &share)| (goal, self.quota(share))).collect()
+    }
+
+    /// The minimum and maximum number of games with each avatar.
+    pub fn avatar_quotas(&self) -> Vec<(AvatarKind, (i64, i64))> {
+        self.taxonomy.avatars.iter().map(|(&avatar, &share)| (avatar, self.quota(share))).collect()
+    }
+
+    /// The numbers of games that a range of shares amounts to.
+    pub(crate) fn quota(&self, (least, most): (f64, f64)) -> (i64, i64) {
+        let games = f64::from(self.games());
+        // A little slack, so that 0.2 of 10 games is 2.
+        ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
+    }
+
+    /// The number of levels of all games.
+    pub fn levels(&self) -> u32 {
+        let parts = self.puzzle_parts().map(|part| (part.games, part.levels));
+        let parts = parts
+            .chain([(self.corpus.games, self.corpus.levels), (self.generated.games, self.generated.levels)]);
+        parts.fold(0, |all, (games, levels)| all.saturating_add(games.saturating_mul(levels)))
+    }
+
+    /// The number of games.
+    pub fn games(&self) -> u32 {
+        self.corpus.games.saturating_add(self.new_games())
+    }
+
+    /// The number of games from generators.
+    pub fn new_games(&self) -> u32 {
+        self.puzzle_parts().fold(self.generated.games, |all, part| all.saturating_add(part.games))
+    }
+
+    /// The puzzles, of pushed things, of locks, of yards and of strays.
+    fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
+        self.puzzles.iter().chain(&self.locks).chain(&self.yards).chain(&self.strays)
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    pub(crate) const GOOD: &str =
+        "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[generated]\ngames = 2\n";
+
+    pub(crate) fn check(text: &str, expect: &str) {
+        let error = Recipe::from_toml(text).unwrap_err().to_string();
+        assert!(error.contains(expect), "{error}");
+    }
+
+    /// The page's example is a valid recipe, and shows the defaults.
+    #[test]
+    fn the_example_in_the_docs() {
+        let page = include_str!("../../../../docs/recipes.md");
+        let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+        let recipe = Recipe::from_toml(example).unwrap();
+        assert_eq!(recipe.taxonomy, Taxonomy::default());
+        assert_eq!(recipe.criteria, Criteria::default());
+        assert_eq!(recipe.board, Board::default());
+        assert_eq!(recipe.generated, GeneratedPart { games: 12, ..GeneratedPart::default() });
+        assert_eq!(recipe.corpus, CorpusPart { games: 6, ..CorpusPart::default() });
+    }
+
+    #[test]
+    fn a_secret_fits_one_recipe() {
+        let sealed = |text: &str| GOOD.replace("seed = 'x'\n", "").replace("games = 2", text);
+        let recipe = Recipe::to_commit(&sealed("games = 2")).unwrap();
+        let secret = Secret::draw("small", recipe.committed(), [7; 64]);
+        let minting = Recipe { commitment: Some(secret.commitment()), ..recipe.clone() };
+        minting.check().unwrap();
+        assert_eq!(minting.root_seed(Some(&secret)).unwrap(), secret.root_seed());
+        // The field that the commitment replaces, and data from the parent, are not committed to.
+        assert_eq!(Recipe::to_commit(GOOD).unwrap().committed(), recipe.committed());
+        let known = Known { games: vec!["x".to_owned()], ..Known::default() };
+        assert_eq!(Recipe { known, ..minting.clone() }.committed(), recipe.committed());
+
+        let parent = Some(Digest::of(b"parent"));
+        for changed in [
+            Recipe { parent, ..minting.clone() },
+            Recipe { description: "another".to_owned(), ..minting.clone() },
+            Recipe { commitment: minting.commitment, ..Recipe::to_commit(&sealed("games = 3")).unwrap() },
+        ] {
+            let error = changed.root_seed(Some(&secret)).unwrap_err();
+            assert!(matches!(error, RecipeError::OtherRecipe(_)), "{error}");
+            let hint = if changed.parent.is_some() { "omit --parent" } else { "did you forget --parent?" };
+            assert!(error.to_string().contains(hint), "{error}");
+        }
+        let other = Secret::draw("small", recipe.committed(), [8; 64]);
+        let error = minting.root_seed(Some(&other)).unwrap_err();
+        assert!(matches!(error, RecipeError::OtherSecret), "{error}");
+        assert!(matches!(minting.root_seed(None), Err(RecipeError::Sealed)));
+        let open = Recipe::from_toml(GOOD).unwrap();
+        assert!(matches!(open.root_seed(Some(&secret)), Err(RecipeError::Open)));
+    }
+
+    #[test]
+    fn a_recipe_says_what_it_does_not_promise() {
+        let bare = Recipe::from_toml(GOOD).unwrap();
+        assert_eq!(bare.caveats().len(), 3, "{:?}", bare.caveats());
+        let ask = "['not-idle', 'not-random', 'winnable', 'skill', 'tight']";
+        let mut full = Recipe::from_toml(&format!("{GOOD}[criteria]\nask = {ask}")).unwrap();
+        full.parent = Some(Digest::of(b"parent"));
+        assert_eq!(full.caveats(), Vec::<&str>::new());
+    }
+
+    #[test]
+    fn releases_are_cited_by_their_own_authors() {
+        let cited = |more: &str| {
+            let recipe = Recipe::from_toml(&format!("{more}{GOOD}")).unwrap();
+            let authors: Vec<String> = recipe.cited().authors().into_iter().map(str::to_owned).collect();
+            (recipe.cited().title(), authors.join("; "), recipe.cited().sentence().unwrap_or_default())
+        };
+        let told = |title: &str, authors: &str, sentence: &str| {
+            (title.to_owned(), authors.to_owned(), sentence.to_owned())
+        };
+        assert_eq!(cited(""), told("Infinite Arcade small", "The Infinite Arcade authors", ""));
+        assert_eq!(cited("publisher = 'Lab'\n"), told("Lab small", "Lab", "Published by Lab."));
+        assert_eq!(
+            cited("authors = ['Ada', 'Bo']\n"),
+            told("small, made with Infinite Arcade", "Ada; Bo", "By Ada, Bo.")
+        );
+        assert_eq!(
+            cited("authors = ['Ada']\npublisher = 'Lab'\n"),
+            told("Lab small", "Ada", "By Ada. Published by Lab.")
+        );
+    }
+
+    #[test]
+    fn commitments_are_complete() {
+        assert!(Recipe::to_commit(&GOOD.replace("seed = 'x'\n", "")).is_ok());
+        let error = Recipe::to_commit(&GOOD.replace("= 2", "= 0")).unwrap_err().to_string();
+        assert!(error.contains("nothing to mint"), "{error}");
+    }
+
+    #[test]
+    fn recipes_and_their_problems() {
+        assert_eq!(Recipe::from_toml(GOOD).unwrap().generated.levels, 3);
+        check(&GOOD.replace("games", "gamse"), "unknown field `gamse`");
+        check(&GOOD.replace("'x'", "7"), "invalid type");
+        check(&GOOD.replace("small", "Small One"), "`name`");
+        check(&GOOD.replace("seed = 'x'\n", ""), "`seed` is missing");
+        check(
+            &GOOD.replace("[generated]", &format!("commitment = '{}'\n[generated]", Digest::of(b""))),
+            "public or sealed",
+        );
+        check(&format!("{GOOD}mix = {{ constructive = 0 }}"), "`generated.mix`");
+        check(&format!("{GOOD}mix = {{ evolution = 1 }}"), "unknown field `evolution`");
+        check(&format!("{GOOD}candidates = 0.5"), "`generated.candidates`");
+        check(&format!("{GOOD}[difficulty]\nhard = 1.0"), "name it in `criteria.ask`");
+        check(&format!("{GOOD}[difficulty]\nhard = 0.5"), "adds up to 0.5");
+        check(&format!("{GOOD}[difficulty]\nharsh = 1.0"), "unknown variant `harsh`");
+        check(&format!("{GOOD}[taxonomy]\ncrowd = 0.0"), "`taxonomy.crowd`");
+        check(&format!("{GOOD}[taxonomy.goals]\nreach = [0.5, 0.2]"), "`taxonomy.goals`");
+        check(
+            &format!("{GOOD}[taxonomy.goals]\nreach = [0.6, 1.0]\nunlock = [0.6, 1.0]"),
+            "at least 4 games, but there are 2",
+        );
+        check(&format!("{GOOD}[taxonomy.avatars]\nwalks = [0.6, 0.9]"), "which no number of 2 games is");
+        check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
+        check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
+        check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");
+        check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
+        check(&format!("{GOOD}kinds = ['herding']"), "`generated.kinds` names `herding`, of which no games");
+        check(&format!("{GOOD}kinds = ['luer']"), "luer");
+        let ask = "ask = ['not-idle', 'not-random', 'winnable', 'progression']";
+        check(&format!("{GOOD}levels = 2\n[criteria]\n{ask}"), "`progression` needs at least 3");
+        check(&format!("{GOOD}[criteria]\ndepths = []"), "`criteria.depths`");
+        check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
+        check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");
+        check(&format!("{GOOD}[board]\ncolumns = [9, 4]"), "`board.columns`");
+        // A line that is appended to a file belongs to its last table.
+        check(
+            &format!("{}commitment = '{}'\n", GOOD.replace("seed = 'x'\n", ""), Digest::of(b"")),
+            "`commitment` stands in the table [generated] here, and belongs to the recipe as a whole: move it above the first [table]",
+        );
+        check(&format!("{GOOD}authors = ['Ada']"), "move it above the first [table]");
+        check(&format!("{GOOD}[corpus.criteria]\nauthors = ['Ada']"), "in the table [corpus.criteria] here");
+        check(
+            &format!("{GOOD}[generated.board]\nrows = [9, 9]"),
+            "write [board] instead of [generated.board]",
+        );
+        check(&format!("games = 6\n{GOOD}"), "`games` belongs in [generated] or [corpus]");
+        check(&format!("authors = ['']\n{GOOD}"), "`authors` takes");
+        check(&format!("publisher = ' '\n{GOOD}"), "`publisher` takes");
+        check("name = ", "expected");
+        check(&GOOD.replace("games = 2", "games = 4294967295"), "games");
+        check(&"#".repeat(MAX_RECIPE + 1), "larger than");
+    }
+}

@@ -1,0 +1,462 @@
+//! Sealed releases: the seed is committed to beforehand and revealed later.
+
+use crate::contents::integrity::check_integrity;
+use crate::contents::withheld::{HeldPart, LIST_LIMIT, disclose, salt_flaw};
+use crate::format::folder::{self, Limits};
+use crate::format::manifest::{MANIFEST_FILE, Manifest, ReleaseKind};
+use crate::format::witness::{Witness, descendant};
+use crate::publish::papers::{self, IGNORED_NAMES, PAPERS_LIMITS};
+use crate::recipe::beacon::{BEACON, BeaconPart};
+use crate::sections::marks::Marks;
+use crate::sections::memory::{SIBLINGS, has_second_wins, is_solution};
+use crate::{Draft, SnapshotError};
+use base::{Digest, Seed};
+use report::canonical::{CanonicalError, canonical_digest};
+use report::files;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The file of a sealed release that holds its secret, among the withheld ones.
+pub const SECRET_FILE: &str = "held/secret.json";
+/// The folder of the files of a sealed release that are withheld until the reveal.
+pub const HELD: &str = "held/";
+
+/// The secret of a sealed release: the source of its seed, which the recipe commits to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Secret {
+    /// The name of the release that it is meant for.
+    pub name: String,
+    /// The text that the seed is derived from: 64 hexadecimal digits.
+    pub seed: String,
+    /// The nonce, which keeps the seed from being guessed: 64 hexadecimal digits.
+    pub nonce: Digest,
+    /// The digest of the recipe that it was drawn for ([`Recipe::committed`](crate::Recipe::committed)); `None` in
+    /// secrets of generations before [`COMMITS_TO_RECIPE_SINCE`], whose commitments cover seed and nonce alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recipe: Option<Digest>,
+}
+
+/// The first generation whose commitments cover the recipe, and whose seeds depend on the nonce too.
+pub const COMMITS_TO_RECIPE_SINCE: u32 = 12;
+
+/// Key derivation contexts. Changing one of them changes every secret or every commitment.
+const SEED_CONTEXT: &str = "infinite-arcade 2 seed of a secret";
+const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
+const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
+const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
+
+/// The minimum number of different bytes, and of different byte-to-byte steps, in 32 random bytes. All but one in a
+/// billion drawn secrets have more; a sequence with a period of at most 16 bytes has fewer.
+const DISTINCT: usize = 17;
+
+impl Secret {
+    /// Makes a secret for a recipe from 64 random bytes: one half for the seed, one for the nonce.
+    pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
+        let (seed, nonce) = chance.split_at(32);
+        // Hashed, so that even poor randomness gives the full length.
+        let hashed = |context, half| Digest::from_bytes(blake3::derive_key(context, half));
+        Secret {
+            name: name.to_owned(),
+            seed: hashed(SEED_CONTEXT, seed).to_string(),
+            nonce: hashed(NONCE_CONTEXT, nonce),
+            recipe: Some(recipe),
+        }
+    }
+
+    /// The digest over seed, nonce and recipe, in a domain of its own; for a secret without recipe BLAKE3(seed ‖
+    /// nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
+    pub fn commitment(&self) -> Digest {
+        let Some(recipe) = self.recipe else {
+            return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
+        };
+        let mut hasher = blake3::Hasher::new_derive_key(COMMITMENT_CONTEXT);
+        hasher.update(&(self.seed.len() as u64).to_le_bytes());
+        hasher.update(self.seed.as_bytes());
+        hasher.update(self.nonce.as_bytes());
+        hasher.update(recipe.as_bytes());
+        Digest::from_bytes(*hasher.finalize().as_bytes())
+    }
+
+    /// The salt of the list of a part of what is withheld. It tells nothing of the secret, nor of the other part's salt.
+    pub(crate) fn salt(&self, part: HeldPart) -> Digest {
+        let mut hasher = blake3::Hasher::new_derive_key(SALT_CONTEXT);
+        for part in [self.seed.as_bytes(), self.nonce.as_bytes(), part.list().as_bytes()] {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part);
+        }
+        Digest::from_bytes(*hasher.finalize().as_bytes())
+    }
+
+    /// The seed that everything in the release is derived from: a child of the seed's text that depends on the nonce,
+    /// so that guessing one of the two is useless.
+    pub fn root_seed(&self) -> Seed {
+        Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
+    }
+
+    /// The seed of a release with this recipe: with its beacon mixed in, if it names one; `None` if the beacon has no value.
+    pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
+        match recipe.get(BEACON) {
+            None => Some(self.root_seed()),
+            Some(_) => BeaconPart::of(recipe)?.mix(self.root_seed()),
+        }
+    }
+
+    /// Checks that seed and nonce look random, not made up.
+    ///
+    /// # Errors
+    /// The first fault, in words.
+    pub fn check(&self) -> Result<(), String> {
+        let Ok(seed) = self.seed.parse::<Digest>() else {
+            return Err("its `seed` is not 64 lower-case hexadecimal digits".to_owned());
+        };
+        if self.recipe.is_none() {
+            return Err("it has no `recipe`, the digest of the recipe that it was drawn for".to_owned());
+        }
+        if seed == self.nonce {
+            return Err("its `seed` and `nonce` are the same".to_owned());
+        }
+        for (key, bytes) in [("seed", seed.as_bytes()), ("nonce", self.nonce.as_bytes())] {
+            let steps = bytes.windows(2).map(|pair| pair[1].wrapping_sub(pair[0]));
+            let (values, steps): (BTreeSet<u8>, BTreeSet<u8>) =
+                (bytes.iter().copied().collect(), steps.collect());
+            if values.len() < DISTINCT || steps.len() < DISTINCT || bytes.is_ascii() {
+                return Err(format!("its `{key}` has a pattern, and so was not drawn"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The fault of the secret of a release with this manifest, in words; `None` if it is the one committed to.
+    ///
+    /// # Errors
+    /// The manifest's recipe has no canonical JSON.
+    pub(crate) fn flaw(&self, manifest: &Manifest) -> Result<Option<String>, SnapshotError> {
+        if Some(self.commitment()) != manifest.commitment {
+            return Ok(Some("its seed and nonce are not those of the commitment".to_owned()));
+        }
+        let Some(recipe) = self.recipe else {
+            let flaw =
+                format!("it names no recipe, as secrets since generation {COMMITS_TO_RECIPE_SINCE} do");
+            return Ok((manifest.generation >= COMMITS_TO_RECIPE_SINCE).then_some(flaw));
+        };
+        if recipe != committed(&manifest.recipe)? {
+            return Ok(Some("the manifest's recipe is not the one that was committed to".to_owned()));
+        }
+        Ok(self.check().err())
+    }
+
+    /// Tests whether the witness's seed is derived from this secret, and the beacon of the recipe, along the path that
+    /// the witness states. A secret of an earlier generation always passes.
+    pub(crate) fn leads_to(&self, witness: &Witness, recipe: &Value) -> bool {
+        let seed = self.seed_for(recipe).map(|seed| descendant(seed, &witness.path));
+        self.recipe.is_none() || seed == Some(witness.episode.seed)
+    }
+}
+
+/// The digest of the part of a recipe that a commitment covers: everything except the field that it replaces (`seed`),
+/// itself, what follows from the parent (`known`), and the value of the beacon.
+///
+/// # Errors
+/// The recipe has no canonical JSON.
+pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
+    let mut recipe = recipe.clone();
+    if let Some(keys) = recipe.as_object_mut() {
+        keys.retain(|key, _| !["seed", "commitment", "known"].contains(&key.as_str()));
+        keys.get_mut(BEACON).and_then(Value::as_object_mut).map(|beacon| beacon.remove("value"));
+    }
+    canonical_digest(&recipe)
+}
+
+/// The maximum size of a secret's file, in bytes.
+const SECRET_LIMIT: u64 = 4096;
+
+/// Reads a secret that `--commit` wrote.
+///
+/// # Errors
+/// The file cannot be read, holds no secret, or holds one that was made up instead of drawn.
+pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
+    let bytes = match files::open(file) {
+        Err(source) if source.kind() == io::ErrorKind::InvalidInput => {
+            let source = serde::de::Error::custom("it is not a file");
+            return Err(SnapshotError::NotASecret { path: file.to_path_buf(), source });
+        }
+        opened => opened.and_then(|open| {
+            let mut bytes = Vec::new();
+            open.take(SECRET_LIMIT + 1).read_to_end(&mut bytes).map(|_| bytes)
+        }),
+    };
+    let bytes = bytes.map_err(SnapshotError::io("read", file))?;
+    let secret = parse(&bytes, file)?;
+    match secret.check() {
+        Ok(()) => Ok(secret),
+        Err(what) => Err(SnapshotError::WeakSecret { path: file.to_path_buf(), what }),
+    }
+}
+
+/// Reads the secret among the files of a revealed release, below the folder `root`.
+///
+/// # Errors
+/// It cannot be read, or is no secret.
+pub(crate) fn read_revealed(root: &Path, file: &str) -> Result<Secret, SnapshotError> {
+    parse(&folder::read(root, file, SECRET_LIMIT)?, &folder::join(root, file))
+}
+
+fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
+    let path = file.to_path_buf();
+    if bytes.len() as u64 > SECRET_LIMIT {
+        let source = serde::de::Error::custom(format_args!("it has more than {SECRET_LIMIT} bytes"));
+        return Err(SnapshotError::NotASecret { path, source });
+    }
+    serde_json::from_slice(bytes).map_err(|source| SnapshotError::NotASecret { path, source })
+}
+
+/// The reasons why a release cannot be revealed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RevealError {
+    /// It is open, or has no commitment.
+    #[error("`{0}` is not sealed: there is nothing to reveal")]
+    Open(String),
+    /// No coin has chosen between wins.
+    #[error(
+        "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are revealed with all else, \
+         without --solutions"
+    )]
+    NoSecondWins(String),
+    /// The two parts are not those that the manifest commits to.
+    #[error("the two parts are not what the manifest commits to: {}", .0.join("; "))]
+    Problems(Vec<String>),
+    /// A part cannot be read, or the whole cannot be written.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// The part of what is withheld that is revealed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reveal {
+    /// All of it.
+    All,
+    /// The wins that coins published; the other ones, siblings, marks and the secret stay withheld.
+    Solutions,
+}
+
+/// Merges the two parts of a sealed release, `public` and `held`, into a draft: the files of both, and the papers. The
+/// files must be exactly those under the root of the public manifest, the secret the one committed to, and the
+/// witnesses played under it. Returns that manifest.
+///
+/// Cost: one pass over the files, in pieces; memory proportional to the manifest.
+///
+/// # Errors
+/// A file is missing, changed or unlisted, the seed or the nonce is not the one committed to, or the file system
+/// refuses.
+pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result<Manifest, RevealError> {
+    let integrity = check_integrity(public)?;
+    let mut manifest = integrity.manifest;
+    if manifest.commitment.is_none() {
+        return Err(RevealError::Open(manifest.name));
+    }
+    if what == Reveal::Solutions && !has_second_wins(&manifest) {
+        return Err(RevealError::NoSecondWins(manifest.name));
+    }
+    let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
+    let mut salts = Vec::new();
+    let has_lists = manifest.withheld.is_some();
+    for part in HeldPart::ALL.into_iter().filter(|_| has_lists) {
+        let file = part.list().strip_prefix(HELD).expect("it is held");
+        let Some(bytes) = folder::find(held, file, LIST_LIMIT)? else { continue };
+        if manifest.hides(part) {
+            let flaw = disclose(&mut manifest, part, &bytes).err();
+            problems.extend(flaw.map(|flaw| format!("{}: {flaw}", part.list())));
+        }
+        salts.push((part, bytes));
+    }
+    let listing = folder::list_but(held, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
+    problems.extend(listing.problems.iter().map(|problem| format!("{HELD}{problem}")));
+    let there: Vec<String> = listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
+    let there: BTreeSet<&str> = there.iter().map(String::as_str).collect();
+    let held_files = manifest.held();
+    let mut awaited = held_files.clone();
+    if manifest.withheld.is_some() {
+        awaited.extend(HeldPart::ALL.map(HeldPart::list));
+    }
+    problems.extend(there.difference(&awaited).map(|path| format!("{path}: not of this release")));
+    problems.extend(awaited.difference(&there).map(|path| format!("{path}: missing")));
+    if !problems.is_empty() {
+        return Err(RevealError::Problems(problems));
+    }
+    for item in manifest.files() {
+        let (part, path) = match item.path.strip_prefix(HELD) {
+            Some(path) => (held, path),
+            None => (public, item.path.as_str()),
+        };
+        let bytes = folder::read(part, path, Limits::SNAPSHOT.file_bytes)?;
+        if Digest::of(&bytes) != item.digest || bytes.len() as u64 != item.size {
+            problems.push(format!("{}: not the file that was committed to", item.path));
+        } else if what == Reveal::All || !item.path.starts_with(HELD) || is_early(&item.path) {
+            draft.write(&item.path, &bytes)?;
+        }
+    }
+    if problems.is_empty() {
+        let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
+        let secret = read_revealed(held, file)?;
+        problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
+        problems.extend(salts.iter().filter_map(|(part, bytes)| salt_flaw(*part, bytes, &secret)));
+        problems.extend(unrelated_witnesses(&secret, &manifest.recipe, held, &held_files)?);
+    }
+    if !problems.is_empty() {
+        return Err(RevealError::Problems(problems));
+    }
+    for paper in &integrity.beside.papers {
+        let content = folder::read(public, &paper.path, PAPERS_LIMITS.file_bytes)?;
+        draft.write(&paper.path, &papers::revealed(&paper.path, content, what))?;
+    }
+    draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
+    Ok(manifest)
+}
+
+/// Tests whether a withheld file is revealed with the wins that coins published.
+fn is_early(path: &str) -> bool {
+    is_solution(path) || path == HeldPart::Solutions.list()
+}
+
+/// The withheld witnesses whose seeds are not derived from the secret.
+fn unrelated_witnesses(
+    secret: &Secret,
+    recipe: &Value,
+    held: &Path,
+    files: &BTreeSet<&str>,
+) -> Result<Vec<String>, SnapshotError> {
+    let mut problems = Vec::new();
+    let marks = Marks::path(ReleaseKind::Sealed);
+    let is_witness = |path: &&&str| !([SECRET_FILE, &marks].contains(*path) || path.starts_with(SIBLINGS));
+    for path in files.iter().filter(is_witness) {
+        let file = path.strip_prefix(HELD).expect("it is held");
+        let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
+        match serde_json::from_slice::<Witness>(&bytes) {
+            Ok(witness) if secret.leads_to(&witness, recipe) => {}
+            Ok(_) => problems.push(format!("{path}: {UNRELATED_WITNESS}")),
+            Err(error) => problems.push(format!("{path}: not a witness: {error}")),
+        }
+    }
+    Ok(problems)
+}
+
+/// The fault of a witness that was not played under the release's secret.
+pub(crate) const UNRELATED_WITNESS: &str = "its seed is not derived from the release's secret";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn drawn() -> Secret {
+        Secret::draw("2027-01", Digest::of(b"recipe"), [7; 64])
+    }
+
+    #[test]
+    fn only_random_secrets_are_accepted() {
+        drawn().check().unwrap();
+        let check = |change: &dyn Fn(&mut Secret), expect: &str| {
+            let mut secret = drawn();
+            change(&mut secret);
+            let error = secret.check().unwrap_err();
+            assert!(error.contains(expect), "{error}");
+        };
+        let hex = |bytes: [u8; 32]| Digest::from_bytes(bytes);
+        let counted = hex(std::array::from_fn(|at| 131 + at as u8));
+        let twice = hex(std::array::from_fn(|at| ((at % 16) as u8).wrapping_mul(97) ^ 201));
+        let text = hex(*b"the quick brown fox jumps over a");
+        check(&|secret| secret.seed = "hunter2".to_owned(), "not 64 lower-case");
+        check(&|secret| secret.seed = secret.seed.to_uppercase(), "not 64 lower-case");
+        check(&|secret| secret.seed = "0".repeat(64), "`seed` has a pattern");
+        check(&|secret| secret.seed = "0123456789abcdef".repeat(4), "`seed` has a pattern");
+        for made_up in [counted, twice, text] {
+            check(&|secret| secret.seed = made_up.to_string(), "`seed` has a pattern");
+            check(&|secret| secret.nonce = made_up, "`nonce` has a pattern");
+        }
+        check(&|secret| secret.nonce = secret.seed.parse().unwrap(), "are the same");
+        check(&|secret| secret.recipe = None, "no `recipe`");
+    }
+
+    /// Every drawn secret is accepted.
+    #[test]
+    fn secrets_that_are_drawn_pass() {
+        for number in 0..20_000_u32 {
+            let mut chance = [0; 64];
+            chance[..4].copy_from_slice(&number.to_le_bytes());
+            chance[32..36].copy_from_slice(&number.to_le_bytes());
+            Secret::draw("x", Digest::of(b""), chance).check().unwrap();
+        }
+    }
+
+    #[test]
+    fn the_commitment_covers_seed_nonce_and_recipe() {
+        let secret = drawn();
+        let other = Digest::of(b"other");
+        for changed in [
+            Secret { seed: other.to_string(), ..secret.clone() },
+            Secret { nonce: other, ..secret.clone() },
+            Secret { recipe: Some(other), ..secret.clone() },
+            Secret { recipe: None, ..secret.clone() },
+        ] {
+            assert_ne!(changed.commitment(), secret.commitment(), "{changed:?}");
+        }
+        // The name is a label.
+        assert_eq!(Secret { name: "x".to_owned(), ..secret.clone() }.commitment(), secret.commitment());
+    }
+
+    /// Guessing the seed is useless without the nonce.
+    #[test]
+    fn games_come_from_the_nonce_too() {
+        let secret = drawn();
+        let other = Secret { nonce: Digest::of(b"other"), ..secret.clone() };
+        assert_ne!(secret.root_seed(), other.root_seed());
+        assert_ne!(secret.root_seed(), Seed::from_text(&secret.seed));
+    }
+
+    #[test]
+    fn the_commitment_covers_the_recipe_without_derived_values() {
+        let recipe = json!({ "name": "a", "parent": null, "corpus": { "games": 1 } });
+        let digest = |change: &dyn Fn(&mut Value)| {
+            let mut changed = recipe.clone();
+            change(&mut changed);
+            committed(&changed).unwrap()
+        };
+        let same = digest(&|_| {});
+        for key in ["seed", "commitment", "known"] {
+            assert_eq!(digest(&|recipe| recipe[key] = json!("x")), same, "{key}");
+        }
+        assert_ne!(digest(&|recipe| recipe["parent"] = json!("x")), same);
+        assert_ne!(digest(&|recipe| recipe["corpus"]["games"] = json!(2)), same);
+        assert_ne!(digest(&|recipe| recipe["corpus"]["known"] = json!(2)), same);
+    }
+
+    /// The seed of a witness follows from its path, under one secret only.
+    #[test]
+    fn witnesses_belong_to_one_secret() {
+        let secret = drawn();
+        let seed = secret.root_seed().child("search", 0).child("game", 3);
+        let text = json!({
+            "canary": "", "path": [["search", 0], ["game", 3]],
+            "episode": {
+                "game": Digest::of(b""), "level": Digest::of(b""), "seed": seed, "actions": [], "hashes": [],
+                "outcome": "won", "score": 0.0,
+            },
+        });
+        let witness: Witness = serde_json::from_value(text).unwrap();
+        assert!(secret.leads_to(&witness, &json!({})));
+        assert!(!Secret::draw("2027-01", Digest::of(b"recipe"), [8; 64]).leads_to(&witness, &json!({})));
+        assert!(!secret.leads_to(&Witness { path: Vec::new(), ..witness.clone() }, &json!({})));
+        // A beacon without a value leads nowhere, one with a value elsewhere.
+        for part in [
+            json!({ "source": "s", "round": 1 }),
+            json!({ "source": "s", "round": 1, "value": Digest::of(b"") }),
+        ] {
+            assert!(!secret.leads_to(&witness, &json!({ "beacon": part })));
+        }
+    }
+}

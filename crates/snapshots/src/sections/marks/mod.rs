@@ -1,0 +1,357 @@
+//! Marks: how players that never change fare on the levels of a release, kept in it to compare others with.
+//!
+//! The players are named by the recipe and played when the release is minted, with each commitment on each level.
+//! Their results are a file of the release, of a sealed one among what is withheld, so that nobody can know from them
+//! how hard a level is before the reveal.
+
+mod check;
+mod compare;
+mod steps;
+mod words;
+
+pub use compare::{MarkDifference, mark_differences};
+
+pub(crate) use check::{problems, shape_problem};
+pub use steps::{Fall, Falls};
+
+use crate::card::rungs::Clustered;
+use crate::format::manifest::{Manifest, ReleaseKind};
+use crate::recipe::sealed::HELD;
+use crate::recipe::{RecipeError, wrong};
+use agents::{Budget, PlannerSpec};
+use itertools::Itertools;
+use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
+use validators::{Commitment, Tier};
+
+/// The file of the marks; of a sealed release it lies in [`HELD`].
+pub const MARKS_FILE: &str = "MARKS.json";
+
+/// The version of the file.
+pub const MARKS_FORMAT: u32 = 1;
+
+/// Upper bounds of what a recipe can ask for: players, episodes of each on a level with a commitment, actions of an
+/// episode, forward-model calls of a decision and of a plan.
+const MOST_PLAYERS: usize = 16;
+const MOST_PLAYS: u64 = 20;
+const MOST_STEPS: u64 = 2000;
+const MOST_CALLS: u64 = 2000;
+const MOST_PLAN_CALLS: u64 = 100_000;
+
+/// The share of the maximum number of actions that an episode takes on average, and the cost of a forward-model call
+/// and of a prompt with its answer, in seconds.
+const PLAYED: f64 = 0.5;
+const CALL: f64 = 1e-6;
+const PROMPT: f64 = 3e-3;
+
+/// The planner that searches for whole plans, and the share of its calls that an action costs: with chance a plan of ten ticks has a
+/// tenth of the calls, without few plans are searched in an episode.
+const PLANNING: &str = "systematic";
+const PLANNED: f64 = 0.01;
+
+/// The player without rules, which reads no prompts.
+const TOUCHING: &str = "touch-everything";
+
+base::with_defaults! {
+    /// The marks that a recipe asks for.
+    #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct MarksPart {
+        /// The players, as `arcade evaluate --player` names them; planners with their calls of a decision.
+        pub players: Vec<String> = names(&["random", "touch-everything", "nearest-goal", "reflex", "width:200", "guided-mcts:200", "olets:200"]),
+        /// The numbers of actions that they commit to at each look.
+        pub commits: Vec<Commitment> = vec![Commitment::One, Commitment::Five, Commitment::Twenty, Commitment::All],
+        /// The number of episodes of each player with each commitment on each level.
+        pub plays: u64 = 2,
+        /// The maximum number of actions of an episode.
+        pub max_steps: u64 = 400,
+    }
+}
+
+fn names(of: &[&str]) -> Vec<String> {
+    of.iter().map(|&name| name.to_owned()).collect()
+}
+
+impl MarksPart {
+    /// Checks the values. Names of players that are no planners are left to [`MarkPlayers::check`].
+    ///
+    /// # Errors
+    /// The first value that is out of its range.
+    pub(crate) fn check(&self) -> Result<(), RecipeError> {
+        for (key, value, most) in
+            [("marks.plays", self.plays, MOST_PLAYS), ("marks.max_steps", self.max_steps, MOST_STEPS)]
+        {
+            if !(1..=most).contains(&value) {
+                return wrong(key, format!("is {value}; it takes 1 to {most}"));
+            }
+        }
+        if self.players.is_empty() || self.players.len() > MOST_PLAYERS || !self.players.iter().all_unique() {
+            return wrong("marks.players", format!("takes 1 to {MOST_PLAYERS} different players"));
+        }
+        if self.commits.is_empty()
+            || !self.commits.iter().all_unique()
+            || self.commits.contains(&Commitment::None)
+        {
+            let known =
+                Commitment::ALL.iter().skip(1).map(|commit| format!("\"{}\"", commit.name())).join(", ");
+            return wrong("marks.commits", format!("takes different ones of {known}"));
+        }
+        for player in &self.players {
+            let Ok(spec) = player.parse::<PlannerSpec>() else { continue };
+            let calls = spec.budget().map_or(0, |Budget(calls)| calls);
+            let most = if spec.name() == PLANNING { MOST_PLAN_CALLS } else { MOST_CALLS };
+            if calls > most || calls == 0 && self.looks_ahead(player) {
+                let help = format!("takes planners with 1 to {most} calls of a decision");
+                return wrong("marks.players", format!("names `{player}`; it {help}, such as `olets:200`"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The rough cost of the marks of a level, in seconds of one core of the machine that docs/recipes.md describes. In a
+    /// game without chance planners play once for all commitments.
+    pub(crate) fn seconds(&self, is_certain: bool) -> f64 {
+        let looks = |commit: &Commitment| commit.actions().map_or(0.0, |actions| 1.0 / actions as f64);
+        let of = |player: &String| match player.parse::<PlannerSpec>() {
+            Ok(_) if !self.looks_ahead(player) => 0.0,
+            Ok(spec) => {
+                let commits = if is_certain { 1 } else { self.commits.len() };
+                let share = if spec.name() == PLANNING { PLANNED } else { 1.0 };
+                CALL * share * spec.budget().map_or(0, |Budget(calls)| calls) as f64 * commits as f64
+            }
+            Err(_) if player == TOUCHING => 0.0,
+            Err(_) => PROMPT * self.commits.iter().map(looks).sum::<f64>(),
+        };
+        let actions = PLAYED * (self.plays * self.max_steps) as f64;
+        actions * self.players.iter().map(of).sum::<f64>()
+    }
+
+    /// Returns `true` for a planner whose decisions take as many calls as it is given.
+    pub(crate) fn looks_ahead(&self, player: &str) -> bool {
+        let cheap = ["do-nothing", "random", "random-with-nil", "one-step", "one-step-score", "nearest-goal"];
+        player.parse::<PlannerSpec>().is_ok_and(|spec| !cheap.contains(&spec.name()))
+    }
+}
+
+/// Plays the players of marks. The crate of evaluations has them, which this one does not know.
+pub trait MarkPlayers: Sync + Debug {
+    /// Checks that there is a player of this name.
+    ///
+    /// # Errors
+    /// There is none; the message says so.
+    fn check(&self, player: &str) -> Result<(), String>;
+
+    /// Plays the levels of a game, and returns the number of episodes won for each level, player and commitment. It
+    /// depends on the texts and the request alone.
+    ///
+    /// # Errors
+    /// A player cannot play the game; the message says why.
+    fn play(&self, game: &str, levels: &[String], asked: &MarksPart) -> Result<Vec<Wins>, String>;
+}
+
+/// The numbers of episodes won on a level: for each player a list with a number for each commitment.
+pub type Wins = Vec<Vec<u64>>;
+
+/// The content of [`MARKS_FILE`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Marks {
+    /// The release's canary.
+    pub canary: String,
+    /// [`MARKS_FORMAT`].
+    pub format: u32,
+    /// The request of the recipe.
+    pub asked: MarksPart,
+    /// The win rates of each player with each commitment: on the levels of each tier, the lowest first, then on all.
+    pub rates: Vec<MarkRate>,
+    /// The falls of the win rate from each tier to the next, and from each commitment to the next.
+    pub falls: Falls,
+    /// The games, in the order of their folders' names.
+    pub games: Vec<GameMarks>,
+}
+
+/// The marks of a game.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GameMarks {
+    /// The name of its folder.
+    pub id: String,
+    /// Its levels.
+    pub levels: Vec<LevelMarks>,
+}
+
+/// The marks of a level.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LevelMarks {
+    /// Its tier.
+    pub tier: Tier,
+    /// The episodes won, by player and commitment.
+    pub wins: Wins,
+}
+
+/// The win rate of a player with a commitment on the levels of a tier.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MarkRate {
+    /// The tier; `None` for all levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tier: Option<Tier>,
+    /// The player.
+    pub player: String,
+    /// The commitment.
+    pub commit: Commitment,
+    /// The number of levels.
+    pub levels: u64,
+    /// The mean over levels of the share of episodes won, with its interval over games.
+    pub rate: Clustered,
+}
+
+impl Marks {
+    /// Puts the marks of games together.
+    pub(crate) fn of(canary: &str, asked: &MarksPart, mut games: Vec<GameMarks>) -> Marks {
+        games.sort_by(|one, other| one.id.cmp(&other.id));
+        let (rates, falls) = (rates(asked, &games), Falls::of(asked, &games));
+        Marks { canary: canary.to_owned(), format: MARKS_FORMAT, asked: asked.clone(), rates, falls, games }
+    }
+
+    /// Reads the marks of a release.
+    ///
+    /// # Errors
+    /// The text is not that of marks of this format; the message says why.
+    pub fn read(text: &[u8]) -> Result<Marks, String> {
+        let marks: Marks = serde_json::from_slice(text).map_err(|error| error.to_string())?;
+        match marks.format {
+            MARKS_FORMAT => Ok(marks),
+            other => Err(format!("format {other} is not {MARKS_FORMAT}: use another arcade")),
+        }
+    }
+
+    /// The path of the file in a release of this kind.
+    pub fn path(kind: ReleaseKind) -> String {
+        match kind {
+            ReleaseKind::Open => MARKS_FILE.to_owned(),
+            ReleaseKind::Sealed => format!("{HELD}{MARKS_FILE}"),
+        }
+    }
+
+    /// The path of the marks that a release says it has; `None` if its recipe asks for none.
+    pub fn path_in(manifest: &Manifest) -> Option<String> {
+        manifest.recipe.get("marks").filter(|part| !part.is_null()).map(|_| Marks::path(manifest.kind))
+    }
+}
+
+/// The win rates, in the order of [`Marks::rates`].
+fn rates(asked: &MarksPart, games: &[GameMarks]) -> Vec<MarkRate> {
+    let has = |tier: &Tier| games.iter().flat_map(|game| &game.levels).any(|level| level.tier == *tier);
+    let tiers = Tier::ALL.into_iter().filter(has).map(Some).chain([None]);
+    let mut rates = Vec::new();
+    for tier in tiers {
+        let of_tier = |level: &&LevelMarks| tier.is_none_or(|tier| level.tier == tier);
+        for (player, name) in asked.players.iter().enumerate() {
+            for (commit, &commitment) in asked.commits.iter().enumerate() {
+                let played = |game: &GameMarks| -> Vec<(u64, u64)> {
+                    let levels = game.levels.iter().filter(of_tier);
+                    levels.map(|level| (level.wins[player][commit], asked.plays)).collect()
+                };
+                let mut of_games: Vec<Vec<(u64, u64)>> = games.iter().map(played).collect();
+                of_games.retain(|levels| !levels.is_empty());
+                if of_games.is_empty() {
+                    continue;
+                }
+                rates.push(MarkRate {
+                    tier,
+                    player: name.clone(),
+                    commit: commitment,
+                    levels: of_games.iter().map(Vec::len).sum::<usize>() as u64,
+                    rate: Clustered::of(&of_games),
+                });
+            }
+        }
+    }
+    rates
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::recipe::Recipe;
+    use crate::recipe::tests::{GOOD, check};
+
+    /// A request with two players and two commitments.
+    pub(crate) fn asked() -> MarksPart {
+        MarksPart {
+            players: names(&["random", "olets:9"]),
+            commits: vec![Commitment::One, Commitment::All],
+            plays: 2,
+            max_steps: 50,
+        }
+    }
+
+    /// Marks of games with a level of tier 1 and one of tier 4 each.
+    pub(crate) fn marks(ids: &[&str], wins: impl Fn(usize, Tier) -> Wins) -> Marks {
+        let level = |game, tier| LevelMarks { tier, wins: wins(game, tier) };
+        let game = |(at, id): (usize, &&str)| GameMarks {
+            id: (*id).to_owned(),
+            levels: vec![level(at, Tier::One), level(at, Tier::Four)],
+        };
+        Marks::of("canary", &asked(), ids.iter().enumerate().map(game).collect())
+    }
+
+    #[test]
+    fn rates_are_of_tiers_players_and_commitments() {
+        let ids = ["b", "a", "c", "d", "e", "f"];
+        let easy = |_, tier| match tier {
+            Tier::One => vec![vec![1, 0], vec![2, 2]],
+            _ => vec![vec![0, 0], vec![1, 0]],
+        };
+        let marks = marks(&ids, easy);
+        assert_eq!(marks.games[0].id, "a");
+        let told: Vec<(Option<Tier>, &str, Commitment, f64)> = marks
+            .rates
+            .iter()
+            .map(|rate| (rate.tier, rate.player.as_str(), rate.commit, rate.rate.mean))
+            .collect();
+        let (one, all) = (Commitment::One, Commitment::All);
+        assert_eq!(
+            told[..5],
+            [
+                (Some(Tier::One), "random", one, 0.5),
+                (Some(Tier::One), "random", all, 0.0),
+                (Some(Tier::One), "olets:9", one, 1.0),
+                (Some(Tier::One), "olets:9", all, 1.0),
+                (Some(Tier::Four), "random", one, 0.0),
+            ]
+        );
+        assert_eq!(
+            told[8..],
+            [
+                (None, "random", one, 0.25),
+                (None, "random", all, 0.0),
+                (None, "olets:9", one, 0.75),
+                (None, "olets:9", all, 0.5),
+            ]
+        );
+        let rate = &marks.rates[8];
+        assert_eq!((rate.levels, rate.rate.games, rate.rate.wins, rate.rate.plays), (12, 6, 6, 24));
+        let text = serde_json::to_vec(&marks).unwrap();
+        assert_eq!(Marks::read(&text), Ok(marks));
+    }
+
+    #[test]
+    fn requests_stay_within_bounds() {
+        let marks = |text: &str| format!("{GOOD}[marks]\n{text}");
+        assert_eq!(Recipe::from_toml(&marks("")).unwrap().marks, Some(MarksPart::default()));
+        check(&marks("plays = 0"), "`marks.plays` is 0; it takes 1 to 20");
+        check(&marks("max_steps = 2001"), "`marks.max_steps` is 2001");
+        check(&marks("players = []"), "takes 1 to 16 different players");
+        check(&marks("players = ['random', 'random']"), "different players");
+        check(&marks("players = ['olets']"), "names `olets`");
+        check(&marks("players = ['mcts:5000']"), "names `mcts:5000`");
+        check(&marks("commits = ['none']"), "`marks.commits` takes different ones of \"1\", \"2\"");
+        check(&marks("commits = ['7']"), "unknown variant `7`");
+        check(&marks("games = 3"), "unknown field `games`");
+        // Recipes that ask for none keep their bytes.
+        assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("marks").is_none());
+    }
+}

@@ -1,0 +1,172 @@
+//! Making pairs and tossing their coins when a game is minted.
+
+use super::{MemoryPart, PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
+use crate::format::witness::{descendant, way_of_search};
+use crate::mint::FrozenGame;
+use crate::twin;
+use agents::search::{Answer, Pushes, SearchLimits, a_star, best_first};
+use agents::{PortfolioConfig, Solution, solve};
+use base::Seed;
+use engine::{Action, Analysis, Episode, Game, Level, Outcome};
+use forge::card::Origin;
+use forge::games::{Step, slug};
+use rayon::prelude::*;
+use validators::Criteria;
+
+/// The number of searches for a second win, by planners and systematic.
+const TRIES: u64 = 4;
+/// The most actions of a detour at the start of a deterministic level, after which a win is searched for.
+const DETOUR: usize = 6;
+/// The number of pairs of renamings that are made until the two have different themes.
+const THEME_TRIES: u64 = 16;
+
+/// Makes the pairs of a game that the recipe asks for, and publishes of each what its coin says. A game without other themes has
+/// no sibling, a level without another win has no second. `criteria` are those of its judges. Cost: up to [`TRIES`] searches for
+/// a win of each level.
+pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
+    if part.siblings {
+        toss_siblings(frozen, root);
+    }
+    if part.witnesses {
+        toss_wins(frozen, root, criteria);
+    }
+}
+
+/// Replaces a game by one of two renamings, and keeps the other as its sibling. Both are made alike, and the game itself is
+/// neither, so nothing that is published tells which of the two was withheld.
+fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
+    let Ok(game) = Game::from_source(&frozen.text) else { return };
+    let seed = root.child(&format!("siblings of {}", game.digest()), 0);
+    let renaming = |number| {
+        twin::renamed(&frozen.text, &frozen.levels, &frozen.witnesses, seed.child("renaming", number)).ok()
+    };
+    // Of one theme they would share words.
+    let pair = (0..THEME_TRIES).find_map(|number| {
+        let (one, other) = (renaming(2 * number)?, renaming(2 * number + 1)?);
+        (one.1 != other.1).then_some([one.0, other.0])
+    });
+    let Some([one, other]) = pair else { return };
+    let games = [&one, &other].map(|twin| Game::from_source(&twin.text));
+    let [Ok(first), Ok(second)] = games else { return };
+    let ((published, game), withheld) = match publishes_sibling(root, first.digest(), second.digest()) {
+        true => ((one, first), other),
+        false => ((other, second), one),
+    };
+    let witnesses: Option<Vec<Episode>> = published.witnesses.into_iter().collect();
+    let Some(witnesses) = witnesses else { return };
+    let card = &mut frozen.card;
+    card.id = format!("{}-{}", slug(&published.title), game.digest().short());
+    (card.digest, card.rules) = (game.digest(), engine::describe(&game));
+    (card.title, card.description, card.goal) = (published.title, published.description, published.goal);
+    if let Origin::Generated { patterns, .. } = &mut card.origin {
+        patterns.retain(|pattern| !["scene/", "fiction/"].iter().any(|kind| pattern.starts_with(kind)));
+    }
+    for (level, witness) in card.levels.iter_mut().zip(&witnesses) {
+        // A question is put in the names of the scene.
+        (level.digest, level.asks) = (witness.level, None);
+    }
+    (frozen.text, frozen.levels, frozen.witnesses) = (published.text, published.levels, witnesses);
+    frozen.sibling = Some(Sibling { title: withheld.title, text: withheld.text, levels: withheld.levels });
+}
+
+fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {
+    let Ok(game) = Game::from_source(&frozen.text) else { return };
+    let analysis = Analysis::of(&game);
+    let config = PortfolioConfig { shortest: 0.0, systematic: 0.0, ..criteria.search() };
+    let levels: Vec<(&String, &Episode)> = frozen.levels.iter().zip(&frozen.witnesses).collect();
+    let second = |(text, known): (&String, &Episode)| {
+        let level = game.level(text).ok()?;
+        (0..TRIES).find_map(|number| {
+            let steps = vec![(format!("second win of {}", level.digest()), 0), ("try".to_owned(), number)];
+            let seed = descendant(root, &steps);
+            let searches: [Search; 2] = [planned, after_a_detour];
+            let (episode, way) = searches
+                .into_iter()
+                .filter_map(|search| search(&analysis, &level, &config, seed))
+                .find(|(episode, _)| differ(&episode.actions, &known.actions))?;
+            Some(SecondWin { episode, path: steps.into_iter().chain(way).collect() })
+        })
+    };
+    frozen.seconds = levels.into_par_iter().map(second).collect();
+    let pairs = frozen.seconds.iter_mut().zip(&mut frozen.witnesses).zip(&mut frozen.paths);
+    for (((second, witness), path), card) in pairs.zip(&mut frozen.card.levels) {
+        let Some(second) = second else { continue };
+        if !publishes_win(root, witness, &second.episode) {
+            std::mem::swap(witness, &mut second.episode);
+            std::mem::swap(path, &mut second.path);
+            (card.witness_ticks, card.witness_score) = (witness.actions.len(), witness.score);
+        }
+    }
+}
+
+/// Tests whether two wins begin differently, so that a player cannot begin like both.
+pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
+    let common = PREFIX.min(one.len()).min(other.len());
+    one[..common] != other[..common]
+}
+
+/// A search for a win of a level, given a seed: the episode, and the steps from the seed to its own.
+type Search = fn(&Analysis, &Level, &PortfolioConfig, Seed) -> Option<(Episode, Vec<Step>)>;
+
+/// The win of a planner.
+fn planned(
+    analysis: &Analysis,
+    level: &Level,
+    config: &PortfolioConfig,
+    seed: Seed,
+) -> Option<(Episode, Vec<Step>)> {
+    let Solution::Won { episode, .. } = solve(analysis, level, config, seed).solution else { return None };
+    let way = way_of_search(seed, episode.seed)?;
+    Some((*episode, way))
+}
+
+/// A win by systematic search after a detour at the start, in a deterministic level.
+fn after_a_detour(
+    analysis: &Analysis,
+    level: &Level,
+    config: &PortfolioConfig,
+    seed: Seed,
+) -> Option<(Episode, Vec<Step>)> {
+    let way = vec![("systematic".to_owned(), 0)];
+    let game = analysis.game();
+    let (mut episode, mut state) = Episode::begin(game, level, descendant(seed, &way));
+    if state.is_over() || !analysis.is_deterministic_from(&state) {
+        return None;
+    }
+    let mut sampler = seed.child("detour", 0).sampler();
+    for _ in 0..sampler.between(1, DETOUR) {
+        let action = *sampler.choose(game.actions(&state));
+        if episode.play(game, &mut state, action) != Outcome::Ongoing {
+            return None;
+        }
+    }
+    let limits = |share: u64| SearchLimits { calls: config.budget / share, bytes: config.bytes };
+    let pushes = Pushes::of(analysis, level);
+    let answer = match a_star(analysis, &pushes, &state, limits(10)).answer {
+        won @ Answer::Won { .. } => won,
+        _ => best_first(analysis, &pushes, &state, limits(2)).answer,
+    };
+    let Answer::Won { actions, .. } = answer else { return None };
+    for action in actions {
+        episode.play(game, &mut state, action);
+    }
+    (episode.outcome == Outcome::Won).then_some((episode, way))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wins_differ_by_their_beginning() {
+        use Action::{Down, Left, Up};
+        let check = |one: &[Action], other: &[Action], expect: bool| {
+            assert_eq!((differ(one, other), differ(other, one)), (expect, expect));
+        };
+        check(&[Up], &[Down], true);
+        check(&[Up, Left], &[Up, Down], true);
+        check(&[Up, Left], &[Up], false);
+        check(&[vec![Up; 10], vec![Left]].concat(), &[Up; 12], false);
+        check(&[vec![Up; 9], vec![Left]].concat(), &[Up; 12], true);
+    }
+}

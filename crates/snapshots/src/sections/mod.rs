@@ -1,0 +1,4 @@
+//! Sections of a recipe that add something to its games.
+
+pub mod marks;
+pub mod memory;
